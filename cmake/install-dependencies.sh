@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs, on Debian 12 or newer and its kin, what articula is built and tested with.
+#
+#   cmake/install-dependencies.sh          for the demo, the tests and the benchmarks
+#   cmake/install-dependencies.sh --all    also what .ci/run and the developers' tools need
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build ccache pkg-config git
+  libeigen3-dev      # the one dependency of articula::articula
+  liburdfdom-dev     # robots from URDF files
+  nlohmann-json3-dev # recordings as JSON
+  catch2             # tests
+  binutils           # nm, for the check of the object code
+  libbenchmark-dev   # benchmarks
+  rt-tests           # cyclictest, beside our own jitter
+  libcli11-dev       # command line of the examples
+  gnuplot-nox        # plots of the examples
+)
+case ${1:-} in
+  '') ;;
+  --all)
+    packages+=(clang-19 libclang-rt-19-dev clang-format clang-tidy valgrind)
+    packages+=(liborocos-kdl-dev libmujoco-dev) # peers, in tests and benchmarks
+    # tests/vcan: a virtual machine whose kernel has CAN, where this one has none
+    packages+=(qemu-system-x86 busybox-static dash cpio xz-utils iproute2 can-utils)
+    ;;
+  *) echo "usage: $0 [--all]" >&2; exit 2 ;;
+esac
+
+if ! { command -v dpkg-query && command -v apt-get; } >/dev/null; then
+  echo "$0: no Debian-like system; install by other means: ${packages[*]}" >&2
+  exit 1
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $state == *installed* && $state != *not-installed* ]] || missing+=("$package")
+done
+
+# The kernel of that virtual machine is not installed, only unpacked.
+fetch_kernel() {
+  [[ ${1:-} != --all || $(dpkg --print-architecture) != amd64 ]] ||
+    "$(dirname "$0")/../tests/vcan/fetch_kernel.sh"
+}
+if ((${#missing[@]} == 0)); then
+  fetch_kernel "$@"
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "$0: run as root, or install sudo, to get: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+fi
+echo "installing: ${missing[*]}"
+${as_root[@]+"${as_root[@]}"} apt-get update
+${as_root[@]+"${as_root[@]}"} env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y --no-install-recommends "${missing[@]}"
+fetch_kernel "$@"

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+# Installs the headers and the package that find_package(articula) reads.
+include(CMakePackageConfigHelpers)
+
+set(articula_package_dir ${CMAKE_INSTALL_DATADIR}/cmake/articula)
+
+install(TARGETS articula EXPORT articula FILE_SET HEADERS)
+install(
+  EXPORT articula
+  FILE articulaTargets.cmake
+  NAMESPACE articula::
+  DESTINATION ${articula_package_dir})
+
+configure_package_config_file(
+  cmake/articulaConfig.cmake.in ${PROJECT_BINARY_DIR}/articulaConfig.cmake
+  INSTALL_DESTINATION ${articula_package_dir}
+  NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a new minor version may break its users. Headers fit every architecture.
+write_basic_package_version_file(
+  ${PROJECT_BINARY_DIR}/articulaConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion
+  ARCH_INDEPENDENT)
+install(
+  FILES ${PROJECT_BINARY_DIR}/articulaConfig.cmake ${PROJECT_BINARY_DIR}/articulaConfigVersion.cmake
+  DESTINATION ${articula_package_dir})
+
+# The component urdf, with the source of the program that turns a URDF into a header.
+install(FILES cmake/articula-urdf.cmake cmake/articula_add_robot.cmake
+        DESTINATION ${articula_package_dir})
+install(DIRECTORY cmake/urdf_to_robot DESTINATION ${articula_package_dir})
+
+# The component socketcan.
+install(FILES cmake/articula-socketcan.cmake DESTINATION ${articula_package_dir})
+
+# The component recording.
+install(FILES cmake/articula-recording.cmake DESTINATION ${articula_package_dir})
+
+install(FILES LICENSE TYPE DOC)

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Turns a URDF into a header with the robot's description; articula_add_robot runs it.
+#include "header_text.hpp"
+
+#include <articula/model/urdf/numbers.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr const char* usage =
+    "usage: urdf_to_robot --urdf FILE --output FILE --type NAME [--namespace NAME] [--root LINK]\n"
+    "                     [--tip LINK] [--lock JOINT[=POSITION]]... [--gravity X Y Z]\n"
+    "                     [--allow-unphysical]";
+
+struct Arguments {
+  std::string urdf{};
+  std::string output{};
+  articula::HeaderNames names{};
+  articula::UrdfOptions options{};
+};
+
+double number(const std::string& text) {
+  const auto number = articula::detail::number_of(text);
+  if (!number) throw std::invalid_argument("'" + text + "' is not a finite number");
+  return *number;
+}
+
+/// A joint, or joint=position.
+articula::LockedJoint locked_joint(const std::string& text) {
+  const std::size_t equals = text.rfind('=');
+  if (equals == std::string::npos) return text;
+  return {text.substr(0, equals), number(text.substr(equals + 1))};
+}
+
+Arguments parse(const std::vector<std::string>& words) {
+  Arguments arguments;
+  std::size_t at = 0;
+  const auto value = [&]() -> const std::string& {
+    if (++at >= words.size()) throw std::invalid_argument(words[at - 1] + " needs a value");
+    return words[at];
+  };
+  for (; at < words.size(); ++at) {
+    const std::string& word = words[at];
+    if (word == "--urdf") {
+      arguments.urdf = value();
+    } else if (word == "--output") {
+      arguments.output = value();
+    } else if (word == "--type") {
+      arguments.names.type = value();
+    } else if (word == "--namespace") {
+      arguments.names.name_space = value();
+    } else if (word == "--root") {
+      arguments.options.root = value();
+    } else if (word == "--tip") {
+      arguments.options.tip = value();
+    } else if (word == "--lock") {
+      arguments.options.locked.push_back(locked_joint(value()));
+    } else if (word == "--gravity") {
+      const double x = number(value()), y = number(value());
+      arguments.options.gravity = {x, y, number(value())};
+    } else if (word == "--allow-unphysical") {
+      arguments.options.allow_unphysical = true;
+    } else {
+      throw std::invalid_argument("unknown option '" + word + "'\n" + usage);
+    }
+  }
+  if (arguments.urdf.empty() || arguments.output.empty()) throw std::invalid_argument(usage);
+  return arguments;
+}
+
+void write(const std::string& name, const std::string& text) {
+  std::ofstream file(name, std::ios::binary);
+  file << text << std::flush;
+  if (!file) throw std::runtime_error(name + ": the file cannot be written");
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  try {
+    const Arguments arguments = parse({words + 1, words + count});
+    const articula::UrdfDescription description =
+        articula::read_urdf(std::filesystem::path(arguments.urdf), arguments.options);
+    write(arguments.output, header_text(description, arguments.names));
+    for (const std::string& notice : description.notices) {
+      std::fprintf(stderr, "warning: %s: %s\n", arguments.urdf.c_str(), notice.c_str());
+    }
+    return 0;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "urdf_to_robot: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 1;
+  }
+}
