@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a controller sends to the drives: one type per command interface.
+#pragma once
+
+#include "articula/core/joint_vector.hpp"
+
+#include <concepts>
+
+namespace articula {
+
+/// Efforts for N drives.
+/// @tparam N  number of joints
+template <int N>
+struct EffortCommand {
+  static constexpr int joint_count = N;
+
+  JointVector<N> effort = JointVector<N>::Zero();  ///< [N m or N], N x 1
+};
+
+/// Positions for N drives that close their own position loop.
+/// @tparam N  number of joints
+template <int N>
+struct PositionCommand {
+  static constexpr int joint_count = N;
+
+  JointVector<N> position = JointVector<N>::Zero();  ///< [rad or m], N x 1
+};
+
+/// Velocities for N drives that close their own velocity loop.
+/// @tparam N  number of joints
+template <int N>
+struct VelocityCommand {
+  static constexpr int joint_count = N;
+
+  JointVector<N> velocity = JointVector<N>::Zero();  ///< [rad/s or m/s], N x 1
+};
+
+/// A spring, a damper and an effort for each of N drives that close this loop of their own, known as
+/// MIT mode: effort = stiffness (position - q) + damping (velocity - v) + effort.
+/// @tparam N  number of joints
+template <int N>
+struct MultiModeCommand {
+  static constexpr int joint_count = N;
+
+  JointVector<N> position = JointVector<N>::Zero();   ///< [rad or m], N x 1
+  JointVector<N> velocity = JointVector<N>::Zero();   ///< [rad/s or m/s], N x 1
+  JointVector<N> stiffness = JointVector<N>::Zero();  ///< [N m/rad or N/m], N x 1
+  JointVector<N> damping = JointVector<N>::Zero();    ///< [N m s/rad or N s/m], N x 1
+  JointVector<N> effort = JointVector<N>::Zero();     ///< feed-forward effort [N m or N], N x 1
+};
+
+/// Any of the commands above for N joints.
+template <class C, int N>
+concept JointCommand = std::same_as<C, EffortCommand<N>> || std::same_as<C, PositionCommand<N>> ||
+    std::same_as<C, VelocityCommand<N>> || std::same_as<C, MultiModeCommand<N>>;
+
+/// The numbers of a command, whatever they command, N x 1. Real-time: yes.
+template <int N>
+[[nodiscard]] constexpr const JointVector<N>& values_of(const EffortCommand<N>& command) noexcept {
+  return command.effort;
+}
+/// @copydoc values_of(const EffortCommand<N>&)
+template <int N>
+[[nodiscard]] constexpr const JointVector<N>& values_of(
+    const PositionCommand<N>& command) noexcept {
+  return command.position;
+}
+/// @copydoc values_of(const EffortCommand<N>&)
+template <int N>
+[[nodiscard]] constexpr const JointVector<N>& values_of(
+    const VelocityCommand<N>& command) noexcept {
+  return command.velocity;
+}
+
+}  // namespace articula

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Names of links and joints, held in place.
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace articula {
+
+/// The name of a link or joint. It owns its text without heap memory, so that a robot known at
+/// compile time and one loaded at run time hold names in the same way, and it can be a template
+/// argument, so that compilers print it in their messages. The members are public for that reason
+/// alone.
+class Name {
+ public:
+  static constexpr std::size_t capacity = 63;  ///< characters at most
+
+  constexpr Name() = default;
+
+  /// @param text  at most `capacity` characters, none of them NUL
+  /// @throws std::length_error if the text is longer (at compile time: does not compile)
+  constexpr Name(std::string_view text) {  // NOLINT: a text is a name
+    if (text.size() > capacity) {
+      throw std::length_error("a name has at most 63 characters: " + std::string(text));
+    }
+    for (char c : text) characters[size++] = c;
+  }
+  constexpr Name(const char* text) : Name(std::string_view(text)) {}  // NOLINT: a text is a name
+
+  /// The text. Real-time: yes.
+  [[nodiscard]] constexpr std::string_view view() const noexcept { return {characters, size}; }
+  constexpr operator std::string_view() const noexcept { return view(); }  // NOLINT: see above
+
+  [[nodiscard]] constexpr bool empty() const noexcept { return size == 0; }
+
+  friend constexpr bool operator==(const Name& a, const Name& b) noexcept {
+    return a.size == b.size && a.view() == b.view();  // the compiler counts its steps
+  }
+  friend constexpr bool operator<(const Name& a, const Name& b) noexcept {
+    return a.view() < b.view();
+  }
+
+  char characters[capacity + 1] = {};  // NOLINT: a plain array, which compilers print as text
+  std::size_t size = 0;
+};
+
+}  // namespace articula
