@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A joint of a robot's description.
+#pragma once
+
+#include "articula/core/name.hpp"
+#include "articula/model/vector3.hpp"
+
+#include <limits>
+
+namespace articula {
+
+/// How a joint moves.
+enum class JointType : unsigned char {
+  revolute,    ///< turns about its axis within limits
+  continuous,  ///< turns about its axis without limits
+  prismatic,   ///< slides along its axis within limits
+  fixed,       ///< does not move
+};
+
+/// What a joint and its drive can do. What is not given is unlimited.
+struct JointLimits {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  double lower = -infinity;    ///< lowest position [rad or m]
+  double upper = infinity;     ///< highest position [rad or m]
+  double velocity = infinity;  ///< highest speed in either direction [rad/s or m/s]
+  double effort = infinity;    ///< highest effort in either direction [N m or N]
+};
+
+/// A joint that follows another one: q = multiplier q_of_the_other + offset.
+struct Mimic {
+  Name joint{};           ///< name of the joint that is followed; empty: none, the joint is free
+  double multiplier = 1;  ///< [1], or [m/rad] and the like between joints of different kinds
+  double offset = 0;      ///< [rad or m]
+};
+
+/// A joint as URDF describes it: it carries the child link in the parent link.
+struct Joint {
+  Name name{};  ///< unique among the joints
+  JointType type = JointType::fixed;
+  Name parent{};                  ///< name of the link it stands on
+  Name child{};                   ///< name of the link it moves
+  Vector3<double> origin{};       ///< where the joint stands in the parent's frame [m], 3 x 1
+  Vector3<double> orientation{};  ///< its roll, pitch, yaw in the parent's frame [rad], 3 x 1
+  Vector3<double> axis{1, 0, 0};  ///< direction in the joint's frame, of any length > 0, 3 x 1
+  JointLimits limits{};
+  double damping = 0;   ///< viscous friction [N m s/rad or N s/m]
+  double friction = 0;  ///< Coulomb friction [N m or N]
+  Mimic mimic{};
+};
+
+}  // namespace articula

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The numbers that the equations of motion need, and nothing else.
+#pragma once
+
+#include "articula/model/inertia.hpp"
+#include "articula/model/placement.hpp"
+
+#include <array>
+
+namespace articula {
+
+/// The rigid body that one joint moves, with everything welded to it, in the canonical frame: the
+/// origin lies on the joint's axis and the axis is +z, so that a revolute joint turns the body
+/// about its z axis and a prismatic one slides it along z.
+struct Body {
+  int parent = -1;         ///< index of the body that carries the joint; -1 for the fixed base
+  bool prismatic = false;  ///< slides along z instead of turning about it
+  Placement<double> placement{};  ///< this body's frame in the parent's, at q = 0
+  Inertia<double> inertia{};      ///< about the origin of this body's frame
+};
+
+/// Which joint moves a body, and how: q_body = multiplier q_joint + offset. A body on a mimic joint
+/// is moved by the joint that is followed, any other by its own with multiplier 1 and offset 0.
+struct Coupling {
+  int joint = -1;
+  double multiplier = 1;
+  double offset = 0;
+};
+
+/// A tree of moving bodies on a fixed base, each on one joint with one degree of freedom. A body's
+/// parent stands before it. Without mimic joints there is one body for each joint, in their order.
+/// @tparam N       number of joints that can be commanded
+/// @tparam Bodies  number of moving bodies: N and one for each mimic joint
+template <int N, int Bodies = N>
+struct Mechanism {
+  std::array<Body, static_cast<std::size_t>(Bodies)> bodies{};
+  std::array<Coupling, static_cast<std::size_t>(Bodies)> couplings{};  ///< not used if Bodies == N
+  Vector3<double> gravity{};  ///< acceleration of free fall in the base frame [m/s^2], 3 x 1
+};
+
+}  // namespace articula

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file How the compiler says what is wrong with a robot's description.
+#pragma once
+
+#include "articula/core/name.hpp"
+#include "articula/model/validation.hpp"
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace articula::detail {
+
+/// Types that carry a name into the compiler's messages: g++ prints a Name as text, clang prints it
+/// as numbers but single characters as they are.
+template <Name Text>
+struct Named {};
+template <char... Characters>
+struct Spelled {};
+
+template <Name Text>
+[[nodiscard]] consteval auto printable() {
+#if defined(__clang__)
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return Spelled<Text.characters[I]...>{};
+  }
+  (std::make_index_sequence<Text.view().size()>{});
+#else
+  return Named<Text>{};
+#endif
+}
+
+/// Its instantiation is the error message for a description with a fault.
+/// @tparam Element  the link or joint at fault
+/// @tparam Broken   the rule that it breaks
+template <class Element, Rule Broken>
+struct RobotIsNotPhysical {
+  static_assert(Broken == Rule::none,
+                "articula: this robot cannot exist. The first template argument of "
+                "RobotIsNotPhysical is the link or joint at fault, the second is "
+                "the rule that it breaks.");
+};
+
+/// Instantiates the message. (Deduced arguments are printed as values, given ones as expressions.)
+template <class Element, Rule Broken>
+consteval auto reject(Element, std::integral_constant<Rule, Broken>) {
+  return RobotIsNotPhysical<Element, Broken>{};
+}
+
+}  // namespace articula::detail

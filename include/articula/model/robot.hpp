@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a robot is to the rest of the library: a type with a description, or a model.
+#pragma once
+
+#include "articula/core/joint_vector.hpp"
+#include "articula/model/build_model.hpp"
+#include "articula/model/description.hpp"
+#include "articula/model/physical_check.hpp"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace articula {
+
+/// A robot known at compile time: an empty type with a constexpr description.
+template <class R>
+concept DescribedRobot = std::is_empty_v<R> && std::is_default_constructible_v<R> &&
+    is_robot_description<std::remove_cvref_t<decltype(R::description)>>;
+
+namespace detail {
+
+template <class T>
+inline constexpr bool is_model = false;
+template <int N, int Bodies, class LinkFrames>
+inline constexpr bool is_model<Model<N, Bodies, LinkFrames>> = true;
+
+/// The model of a described robot, made and checked by the compiler.
+template <DescribedRobot R>
+[[nodiscard]] consteval auto compile_model() {
+  constexpr const auto& description = R::description;
+  constexpr auto fault = find_fault(description.name, description.gravity, description.links,
+                                    description.joints, description.allow_unphysical);
+  if constexpr (fault.rule != Rule::none) {
+    return reject(printable<fault.element>(), std::integral_constant<Rule, fault.rule>{});
+  } else {
+    constexpr ModelSize size = model_size(description.joints);
+    return build_model<size.joints, size.bodies>(
+        description.name, description.gravity, description.links, description.joints,
+        std::array<LinkFrame, description.links.size()>{}, description.right_angle_tolerance);
+  }
+}
+
+template <DescribedRobot R>
+inline constexpr auto compiled_model = compile_model<R>();
+
+}  // namespace detail
+
+/// A robot: known at compile time (DescribedRobot) or loaded at run time (a Model). All algorithms
+/// take either as their first argument.
+template <class R>
+concept Robot = DescribedRobot<R> || detail::is_model<R>;
+
+/// The model of a robot: for a described robot the one that the compiler made, for a model itself.
+/// Real-time: yes.
+template <Robot R>
+[[nodiscard]] constexpr const auto& model_of(const R& robot) noexcept {
+  if constexpr (DescribedRobot<R>) {
+    return detail::compiled_model<R>;
+  } else {
+    return robot;
+  }
+}
+
+/// The value of a robot known at compile time: the default where a robot is asked for. A robot
+/// loaded at run time has no default.
+template <DescribedRobot R>
+[[nodiscard]] constexpr R described() noexcept {
+  return {};
+}
+
+/// The number of joints that can be commanded: those that move and mimic no other.
+template <Robot R>
+inline constexpr int joint_count =
+    std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::joint_count;
+
+/// The names of these joints in their order: depth first, siblings by joint name.
+/// Real-time: yes.
+template <Robot R>
+[[nodiscard]] constexpr auto joint_names(const R& robot) noexcept {
+  std::array<std::string_view, joint_count<R>> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = model_of(robot).joints[i].name.view();
+  return names;
+}
+
+/// Names live in their model: one that is about to vanish has none to give.
+template <Robot R>
+requires(!DescribedRobot<R>) auto joint_names(const R&& robot) = delete;
+
+/// The index of one of these joints by name.
+/// @throws std::invalid_argument if the robot has no such joint
+/// Real-time: no (throws).
+template <Robot R>
+[[nodiscard]] constexpr int joint_index(const R& robot, std::string_view name) {
+  for (int i = 0; i < joint_count<R>; ++i) {
+    if (model_of(robot).joints[static_cast<std::size_t>(i)].name.view() == name) return i;
+  }
+  throw std::invalid_argument("robot '" + std::string(model_of(robot).name.view()) +
+                              "' has no free joint '" + std::string(name) + "'");
+}
+
+/// One property of every joint, such as `joint_values(robot, [](auto& j) { return j.damping;
+/// })`.
+/// @return the values in the order of the joints, N x 1
+/// Real-time: yes if `property` is.
+template <Robot R, class Property>
+[[nodiscard]] JointVector<joint_count<R>> joint_values(const R& robot, Property property) noexcept {
+  JointVector<joint_count<R>> values;
+  for (int i = 0; i < joint_count<R>; ++i) {
+    values[i] = property(model_of(robot).joints[static_cast<std::size_t>(i)]);
+  }
+  return values;
+}
+
+/// The highest effort of each joint's drive in either direction [N m or N], N x 1. Real-time: yes.
+template <Robot R>
+[[nodiscard]] JointVector<joint_count<R>> effort_limits(const R& robot) noexcept {
+  return joint_values(robot, [](const JointProperties& joint) { return joint.limits.effort; });
+}
+
+}  // namespace articula

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Robots from URDF at run time. Needs the CMake target articula::urdf (urdfdom).
+#pragma once
+
+#include "articula/model/build_model.hpp"
+#include "articula/model/urdf/description.hpp"
+
+#include <string>
+#include <vector>
+
+namespace articula {
+
+namespace detail {
+
+/// How many joints, and which, for the message that another number was asked for.
+[[nodiscard]] inline std::string size_text(const UrdfDescription& description, int n, int bodies) {
+  const ModelSize size = model_size(description.joints);
+  std::string joints, mimics;
+  for (const Joint& joint : description.joints) {
+    if (joint.type == JointType::fixed) continue;
+    std::string& list = joint.mimic.joint.empty() ? joints : mimics;
+    list += (list.empty() ? "" : ", ") + std::string(joint.name.view());
+  }
+  const auto sizes = [](int count, int moving) {
+    return std::to_string(count) + (count == moving ? "" : ", " + std::to_string(moving));
+  };
+  std::string text = "robot '" + std::string(description.name.view()) + "': it has " +
+                     std::to_string(size.joints) + " joints: " + joints;
+  if (!mimics.empty()) text += "; and joints that mimic one of them: " + mimics;
+  return text + "; <" + sizes(n, bodies) + "> was asked for, <" + sizes(size.joints, size.bodies) +
+         "> is right";
+}
+
+[[nodiscard]] inline bool all_finite(const Body& body) {
+  const auto& [parent, prismatic, placement, inertia] = body;
+  bool finite = all_finite(placement.translation) && is_finite(inertia.mass) &&
+                all_finite(inertia.first_moment) && all_finite(inertia.moment);
+  for (const Vector3<double>& row : placement.rotation.rows) finite = finite && all_finite(row);
+  return finite;
+}
+
+}  // namespace detail
+
+/// The model of a description read from URDF.
+/// @tparam N       number of joints that can be commanded
+/// @tparam Bodies  number of moving bodies: N and one for each mimic joint
+/// @throws UrdfError if the robot is of another size (it says which), or its figures overflow
+/// Real-time: no (allocates, throws).
+template <int N, int Bodies = N>
+[[nodiscard]] Model<N, Bodies> model_of_urdf(const UrdfDescription& description) {
+  const ModelSize size = model_size(description.joints);
+  if (size.joints != N || size.bodies != Bodies) {
+    throw UrdfError(description.file, detail::size_text(description, N, Bodies));
+  }
+  Model<N, Bodies> model = build_model<N, Bodies>(
+      description.name, description.gravity, description.links, description.joints,
+      std::vector<LinkFrame>(description.links.size()), description.right_angle_tolerance);
+  for (const Body& body : model.mechanism.bodies) {
+    if (!detail::all_finite(body)) throw UrdfError(description.file, "its figures overflow");
+  }
+  return model;
+}
+
+/// Loads a robot:
+///
+///     const auto panda = articula::load_urdf<7>("panda.urdf", {.tip = "panda_link8"});
+///     articula::gravity(panda, q);
+///
+/// Fixed and locked joints are welded, mimic joints follow theirs, joints stand depth first and
+/// siblings by name. Transmissions and what else a file tells is in read_urdf's result.
+/// @tparam N       number of joints that can be commanded
+/// @tparam Bodies  number of moving bodies: N and one for each mimic joint
+/// @param source   a file's name or path, or XML: a string that begins with '<'
+/// @param options  which part to read, and how strictly
+/// @throws UrdfError with file, element, reason and figures if the file is broken, not physical or
+///         of another size
+/// Real-time: no (reads a file, allocates, throws).
+template <int N, int Bodies = N>
+[[nodiscard]] Model<N, Bodies> load_urdf(const UrdfSource& source,
+                                         const UrdfOptions& options = {}) {
+  return model_of_urdf<N, Bodies>(read_urdf(source, options));
+}
+
+}  // namespace articula

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The parts of a URDF about drives, which urdfdom skips: <ros2_control> and <transmission>.
+#pragma once
+
+#include "articula/model/joint.hpp"
+#include "articula/model/urdf/numbers.hpp"
+#include "articula/model/urdf/xml.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace articula {
+
+/// A joint or an actuator of a transmission.
+struct UrdfTransmissionEnd {
+  std::string name{};
+  double mechanical_reduction = 1;  ///< turns of the actuator per turn of the joint
+};
+
+/// How actuators drive joints. articula's efforts and positions are those of the joints; this is
+/// for drivers.
+struct UrdfTransmission {
+  std::string name{};
+  std::string type{};  ///< such as "transmission_interface/SimpleTransmission"
+  std::vector<UrdfTransmissionEnd> joints{};
+  std::vector<UrdfTransmissionEnd> actuators{};
+};
+
+namespace detail {
+
+/// Reads the parts about drives of one file.
+class ControlReader {
+ public:
+  explicit ControlReader(const std::string& file) : file_(file) {}
+
+  void read(const XmlElement& robot) {
+    for_each_child(robot, "transmission", [this](const auto& e) { add_transmission(e); });
+    for_each_child(robot, "ros2_control", [this](const XmlElement& control) {
+      for_each_child(control, "joint", [this](const auto& e) { add_limits(e); });
+      for_each_child(control, "transmission", [this](const auto& e) { add_transmission(e); });
+    });
+  }
+
+  std::map<std::string, JointLimits> limits{};  ///< of the commands, by joint
+  std::vector<UrdfTransmission> transmissions{};
+
+ private:
+  [[nodiscard]] double number(const std::string& text, const std::string& where) const {
+    const auto number = number_of(text);
+    if (!number) throw UrdfError(file_, where + ": '" + text + "' is not a finite number");
+    return *number;
+  }
+
+  [[nodiscard]] static bool is_disabled(const XmlElement& element) {
+    const XmlElement* limits = element.FirstChildElement("limits");
+    return limits && attribute(*limits, "enable") == "false";
+  }
+
+  /// The limits of the commands that a joint takes: <param name="min"> and "max" of its
+  /// <command_interface>s. Of the two bounds of a velocity or effort the narrower counts.
+  void add_limits(const XmlElement& joint) {
+    const std::string name = attribute(joint, "name");
+    if (name.empty()) throw UrdfError(file_, "<ros2_control>: a joint has no name");
+    JointLimits& narrowed = limits[name];
+    if (is_disabled(joint)) return;
+    for_each_child(joint, "command_interface", [&](const XmlElement& command) {
+      if (is_disabled(command)) return;
+      const std::string kind = attribute(command, "name");
+      JointLimits bounds{};
+      for_each_child(command, "param", [&](const XmlElement& param) {
+        const std::string which = attribute(param, "name");
+        if (which != "min" && which != "max") return;
+        const double bound =
+            number(text_of(param), "<ros2_control>: joint '" + name + "': " + kind + " " + which);
+        (which == "min" ? bounds.lower : bounds.upper) = bound;
+      });
+      const double size = std::min(std::abs(bounds.lower), std::abs(bounds.upper));
+      if (kind == "velocity") narrowed.velocity = std::min(narrowed.velocity, size);
+      if (kind == "effort") narrowed.effort = std::min(narrowed.effort, size);
+      if (kind != "position") return;
+      narrowed.lower = std::max(narrowed.lower, bounds.lower);
+      narrowed.upper = std::min(narrowed.upper, bounds.upper);
+    });
+  }
+
+  /// The reduction that an element states as an attribute or in a child element.
+  [[nodiscard]] double reduction(const XmlElement& element, const std::string& where,
+                                 double otherwise) const {
+    for (const char* name : {"mechanicalReduction", "mechanical_reduction"}) {
+      if (const char* text = element.Attribute(name)) return number(text, where + ": " + name);
+      const XmlElement* child = element.FirstChildElement(name);
+      if (child) return number(text_of(*child), where + ": " + name);
+    }
+    return otherwise;
+  }
+
+  /// All dialects: the ends are <joint> and <actuator>, or such as <flexJoint>, <leftActuator>. A
+  /// reduction of the whole transmission is that of its actuators.
+  void add_transmission(const XmlElement& element) {
+    UrdfTransmission transmission{.name = attribute(element, "name"),
+                                  .type = attribute(element, "type")};
+    const std::string where = "transmission '" + transmission.name + "'";
+    const double whole = reduction(element, where, 1);
+    for_each_child(element, nullptr, [&](const XmlElement& child) {
+      const std::string_view kind = child.Value();
+      if (kind == "type" || kind == "plugin") transmission.type = text_of(child);
+      const std::string name = attribute(child, "name");
+      if (name.empty()) return;
+      if (kind.ends_with("ctuator")) {
+        transmission.actuators.push_back({name, reduction(child, where, whole)});
+      } else if (kind.ends_with("oint")) {
+        transmission.joints.push_back({name, reduction(child, where, 1)});
+      }
+    });
+    transmissions.push_back(std::move(transmission));
+  }
+
+  const std::string& file_;
+};
+
+}  // namespace detail
+}  // namespace articula

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A URDF as it is written: all of its links and joints, not yet a robot.
+#pragma once
+
+#include "articula/model/urdf/control.hpp"
+#include "articula/model/urdf/messages.hpp"
+#include "articula/model/urdf/source.hpp"
+#include "articula/model/urdf/xml.hpp"
+
+#include <urdf_parser/urdf_parser.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace articula {
+
+/// A URDF as it is written. The links form a tree; whether they can exist is not checked yet.
+struct UrdfDocument {
+  static constexpr std::size_t most_links = 4096;
+
+  std::string file{};                     ///< where it comes from, for messages
+  urdf::ModelInterfaceSharedPtr robot{};  ///< links and joints, from urdfdom
+  std::map<std::string, Vector3<double>>
+      joint_orientations{};  ///< roll, pitch, yaw [rad] by joint; urdfdom keeps quaternions only
+  std::map<std::string, Vector3<double>> inertia_orientations{};  ///< likewise by link
+  std::map<std::string, JointLimits> command_limits{};            ///< from <ros2_control>, by joint
+  std::vector<UrdfTransmission> transmissions{};
+};
+
+namespace detail {
+
+/// Makes sure that no link has two parents or is its own ancestor.
+inline void check_tree(const std::string& file, const XmlElement& robot) {
+  std::map<std::string, std::string> parents, carriers;
+  const auto link = [](const XmlElement& joint, const char* which) {
+    const XmlElement* element = joint.FirstChildElement(which);
+    return element ? attribute(*element, "link") : std::string();
+  };
+  for_each_child(robot, "joint", [&](const XmlElement& joint) {
+    const std::string child = link(joint, "child"), name = attribute(joint, "name");
+    if (child.empty()) throw UrdfError(file, "joint '" + name + "': it has no child link");
+    const auto [carrier, first] = carriers.try_emplace(child, name);
+    if (!first) {
+      throw UrdfError(file, "link '" + child + "': it is the child of two joints, '" +
+                                carrier->second + "' and '" + name + "'");
+    }
+    parents[child] = link(joint, "parent");
+  });
+  std::set<std::string> safe;  // known to lead to a root
+  for (const auto& [start, parent] : parents) {
+    std::set<std::string> way;
+    for (auto at = parents.find(start); at != parents.end() && !safe.contains(at->first);
+         at = parents.find(at->second)) {
+      if (!way.insert(at->first).second) {
+        throw UrdfError(file, "link '" + at->first + "': it is part of a loop");
+      }
+    }
+    safe.merge(way);
+  }
+}
+
+/// Roll, pitch, yaw of an element's <origin>; urdfdom has accepted it.
+[[nodiscard]] inline Vector3<double> orientation_of(const XmlElement* element) {
+  const XmlElement* origin = element ? element->FirstChildElement("origin") : nullptr;
+  if (!origin || !origin->Attribute("rpy")) return {};
+  urdf::Vector3 rpy;
+  rpy.init(origin->Attribute("rpy"));
+  return {rpy.x, rpy.y, rpy.z};
+}
+
+/// Has urdfdom parse the mechanics of a robot.
+[[nodiscard]] inline urdf::ModelInterfaceSharedPtr parse_mechanics(const std::string& file,
+                                                                   const std::string& text) {
+  const MessageCatcher catcher;
+  try {
+    const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
+    // urdfdom goes on after some errors, with a link's inertia left out for instance.
+    if (robot && catcher.errors().empty()) return robot;
+  } catch (const std::exception& error) {
+    throw UrdfError(file, error.what());
+  }
+  throw UrdfError(file, catcher.errors().empty() ? "urdfdom refuses it" : catcher.errors());
+}
+
+}  // namespace detail
+
+/// Reads a URDF as it is written.
+/// @param source  a file or XML
+/// @throws UrdfError if it cannot be read, is not URDF, or its links form no tree
+/// Real-time: no (reads a file, allocates, throws).
+[[nodiscard]] inline UrdfDocument parse_urdf(const UrdfSource& source) {
+  UrdfDocument result{.file = source.name()};
+  detail::XmlDocument document;
+  detail::XmlElement& robot = detail::parse_xml(result.file, source.text(), document);
+
+  detail::ControlReader control(result.file);
+  control.read(robot);
+  result.command_limits = std::move(control.limits);
+  result.transmissions = std::move(control.transmissions);
+
+  // TinyXML may read odd characters otherwise than it has written them, so from here on everybody
+  // reads what it writes.
+  detail::keep_mechanics(robot);
+  detail::XmlPrinter printer;
+  document.Accept(&printer);
+  const std::string text = printer.CStr();
+  detail::XmlDocument mechanics;
+  const detail::XmlElement& bare = detail::parse_xml(result.file, text, mechanics);
+  std::size_t links = 0;
+  detail::for_each_child(bare, "link", [&](const detail::XmlElement&) { ++links; });
+  if (links > UrdfDocument::most_links) {
+    throw UrdfError(result.file, "it has " + std::to_string(links) + " links; 4096 are accepted");
+  }
+  detail::check_tree(result.file, bare);
+  result.robot = detail::parse_mechanics(result.file, text);
+  detail::for_each_child(bare, "joint", [&](const detail::XmlElement& joint) {
+    result.joint_orientations[detail::attribute(joint, "name")] = detail::orientation_of(&joint);
+  });
+  detail::for_each_child(bare, "link", [&](const detail::XmlElement& link) {
+    result.inertia_orientations[detail::attribute(link, "name")] =
+        detail::orientation_of(link.FirstChildElement("inertial"));
+  });
+  return result;
+}
+
+}  // namespace articula

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The XML of a URDF, with the library that urdfdom itself uses: TinyXML, or TinyXML-2 from
+/// urdfdom 4 on.
+#pragma once
+
+#include "articula/model/urdf/error.hpp"
+#include "articula/model/urdf/tags.hpp"
+
+#include <urdf_parser/urdf_parser.h>
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+namespace articula::detail {
+
+#if defined(TINYXML2_INCLUDED)
+using XmlDocument = tinyxml2::XMLDocument;
+using XmlElement = tinyxml2::XMLElement;
+using XmlPrinter = tinyxml2::XMLPrinter;
+[[nodiscard]] inline std::string error_of(const XmlDocument& document) {
+  return "line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorStr();
+}
+inline void remove(XmlElement& parent, XmlElement& child) { parent.DeleteChild(&child); }
+#else
+using XmlDocument = TiXmlDocument;
+using XmlElement = TiXmlElement;
+using XmlPrinter = TiXmlPrinter;
+[[nodiscard]] inline std::string error_of(const XmlDocument& document) {
+  return "line " + std::to_string(document.ErrorRow()) + ": " + document.ErrorDesc();
+}
+inline void remove(XmlElement& parent, XmlElement& child) { parent.RemoveChild(&child); }
+#endif
+
+/// Calls `use` with each child element of that name, of any name if it is null.
+template <class Use>
+void for_each_child(const XmlElement& parent, const char* name, Use use) {
+  const auto first = name ? parent.FirstChildElement(name) : parent.FirstChildElement();
+  for (const XmlElement* child = first; child;
+       child = name ? child->NextSiblingElement(name) : child->NextSiblingElement()) {
+    use(*child);
+  }
+}
+
+/// An attribute's text, empty if there is none.
+[[nodiscard]] inline std::string attribute(const XmlElement& element, const char* name) {
+  const char* text = element.Attribute(name);
+  return text ? text : "";
+}
+
+/// An element's text, empty if there is none.
+[[nodiscard]] inline std::string text_of(const XmlElement& element) {
+  const char* text = element.GetText();
+  return text ? text : "";
+}
+
+/// Parses XML into a document and returns its <robot>.
+/// @throws UrdfError if it is not XML or no robot
+inline XmlElement& parse_xml(const std::string& file, const std::string& text,
+                             XmlDocument& document) {
+  const std::string fault = tag_fault(text);
+  if (!fault.empty()) throw UrdfError(file, fault);
+  document.Parse(text.c_str());
+  if (document.Error()) throw UrdfError(file, error_of(document));
+  XmlElement* robot = document.FirstChildElement("robot");
+  if (!robot) throw UrdfError(file, "there is no <robot>");
+  return *robot;
+}
+
+/// Removes all child elements but those named.
+inline void keep_only(XmlElement& parent, std::initializer_list<std::string_view> names) {
+  for (XmlElement* child = parent.FirstChildElement(); child;) {
+    XmlElement* next = child->NextSiblingElement();
+    bool keep = false;
+    for (std::string_view name : names) keep = keep || name == child->Value();
+    if (!keep) remove(parent, *child);
+    child = next;
+  }
+}
+
+/// Leaves of a robot what its mechanics need: what urdfdom would refuse elsewhere, such as a colour
+/// that is not defined, is no concern of ours.
+inline void keep_mechanics(XmlElement& robot) {
+  keep_only(robot, {"link", "joint"});
+  for (XmlElement* child = robot.FirstChildElement(); child; child = child->NextSiblingElement()) {
+    if (child->Value() == std::string_view("link")) {
+      keep_only(*child, {"inertial"});
+    } else {
+      keep_only(*child, {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"});
+    }
+  }
+}
+
+}  // namespace articula::detail
