@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Where the bodies of a mechanism stand in the base frame.
+#pragma once
+
+#include "articula/dynamics/configuration.hpp"
+
+namespace articula {
+
+/// Where every body stands in the base frame: X_0i = X_0p X_pi, from the base outwards.
+struct BodyPlacements {
+  static constexpr bool needs_own_frames = true;
+
+  template <class S, int N, int B>
+  [[nodiscard]] static constexpr JointArray<Placement<S>, B> evaluate(
+      const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
+    JointArray<Placement<S>, B> placements;
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+      const Placement<S> in_parent{configuration[i].matrix(), configuration[i].translation};
+      const int parent = mechanism.bodies[i].parent;
+      placements[i] =
+          parent < 0 ? in_parent : placements[static_cast<std::size_t>(parent)] * in_parent;
+    }
+    return placements;
+  }
+};
+
+}  // namespace articula

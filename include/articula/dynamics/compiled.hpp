@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Straight-line programs for the algorithms of described robots.
+#pragma once
+
+#include "articula/dynamics/configuration.hpp"
+#include "articula/dynamics/gravity_efforts.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/symbolic/assembler.hpp"
+#include "articula/symbolic/run_program.hpp"
+#include "articula/symbolic/scalars.hpp"
+#include "articula/symbolic/symbol.hpp"
+
+#include <utility>
+
+namespace articula::compiled {
+
+/// True for algorithms whose result depends on the frames of the bodies or on how the inertia is
+/// shared among them. They are run on the mechanism as it is described and say so by a member
+/// `needs_own_frames`; the others on its canonical form.
+template <class Algorithm>
+inline constexpr bool needs_own_frames = requires {
+  Algorithm::needs_own_frames;
+};
+
+/// The mechanism of a robot on which an algorithm is run. Real-time: yes.
+template <class Algorithm, Robot R>
+[[nodiscard]] constexpr const auto& mechanism_for(const R& robot) noexcept {
+  if constexpr (needs_own_frames<Algorithm>) {
+    return model_of(robot).mechanism;
+  } else {
+    return model_of(robot).canonical;
+  }
+}
+
+namespace detail {
+
+template <DescribedRobot R>
+using ModelOf = std::remove_cvref_t<decltype(model_of(R{}))>;
+
+/// The inputs of an algorithm after the configuration: how many arrays of N numbers it takes.
+template <class Algorithm, class S, int N, int B, std::size_t Arrays = 0>
+consteval std::size_t input_arrays() {
+  constexpr bool fits = []<std::size_t... I>(std::index_sequence<I...>) {
+    return requires(const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration,
+                    const std::array<JointArray<S, N>, Arrays>& inputs) {
+      Algorithm::template evaluate<S, N, B>(mechanism, configuration, inputs[I]...);
+    };
+  }
+  (std::make_index_sequence<Arrays>{});
+  if constexpr (fits) {
+    return Arrays;
+  } else {
+    static_assert(Arrays < 8, "articula: this is not an algorithm of a configuration and arrays");
+    return input_arrays<Algorithm, S, N, B, Arrays + 1>();
+  }
+}
+
+/// Runs an algorithm on symbols and assembles what it leaves in the graph. Inputs are the
+/// positions, then the algorithm's other arrays.
+/// @tparam Room  for how long a program
+template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSize Room>
+[[nodiscard]] constexpr symbolic::Program<Room> trace() {
+  using symbolic::Symbol;
+  constexpr int n = ModelOf<R>::joint_count, b = ModelOf<R>::body_count;
+  constexpr std::size_t arrays = input_arrays<Algorithm, Symbol, n, b>();
+  const auto& mechanism = mechanism_for<Algorithm>(R{});
+
+  symbolic::Graph graph;
+  std::array<JointArray<Symbol, n>, 1 + arrays> inputs;
+  int next = 0;
+  symbolic::for_each_scalar<Symbol>(
+      inputs, [&](Symbol& symbol) { symbol = Symbol(graph, graph.input(next++)); });
+  const auto configuration = configuration_of<Symbol, n, b>(mechanism, inputs[0], frames);
+  auto result = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return Algorithm::template evaluate<Symbol, n, b>(mechanism, configuration, inputs[1 + I]...);
+  }
+  (std::make_index_sequence<arrays>{});
+
+  symbolic::GrowingArray<symbolic::Term> outputs(128);
+  symbolic::for_each_scalar<Symbol>(result, [&](Symbol& symbol) { outputs.append(symbol.term()); });
+  return symbolic::Assembler<Room>::assemble(graph, outputs);
+}
+
+/// Room for the programs of most algorithms, twice over for those of this library.
+template <DescribedRobot R>
+[[nodiscard]] consteval symbolic::ProgramSize usual_room() {
+  constexpr auto bodies = static_cast<std::size_t>(ModelOf<R>::body_count);
+  return {
+      .instructions = 384 * bodies, .constants = 32 * bodies, .outputs = (12 + bodies) * bodies};
+}
+
+/// The algorithm is run a second time only if there was not room enough.
+template <class Algorithm, DescribedRobot R, Frames frames>
+[[nodiscard]] consteval auto compile() {
+  constexpr auto program = trace<Algorithm, R, frames, usual_room<R>()>();
+  if constexpr (program.is_whole()) {
+    return program;
+  } else {
+    return trace<Algorithm, R, frames, program.size>();
+  }
+}
+
+/// The program of an algorithm in given frames.
+template <class Algorithm, DescribedRobot R, Frames frames>
+inline constexpr auto program_in = compile<Algorithm, R, frames>();
+
+/// The frames that make the cheaper programs. Trying them on each algorithm would take the compiler
+/// longer than all the rest. The gravity efforts are tried, for all algorithms: their program is short
+/// and consists of what the frames make cheaper or dearer, the way of vectors to the leaves and back.
+template <DescribedRobot R>
+[[nodiscard]] consteval Frames best_frames() {
+  constexpr int moving = program_in<Gravity, R, Frames::moving>.operations().cost();
+  constexpr int resting = program_in<Gravity, R, Frames::resting>.operations().cost();
+  return resting < moving ? Frames::resting : Frames::moving;
+}
+
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval Frames frames_for() {
+  if constexpr (needs_own_frames<Algorithm>) {
+    return Frames::moving;
+  } else {
+    return best_frames<R>();
+  }
+}
+
+}  // namespace detail
+
+/// The program that an algorithm becomes for a robot.
+template <class Algorithm, DescribedRobot R>
+inline constexpr const auto& program =
+    detail::program_in<Algorithm, R, detail::frames_for<Algorithm, R>()>;
+
+/// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
+/// but for rounding.
+/// @param q       joint positions [rad or m]
+/// @param inputs  the algorithm's other inputs
+/// Real-time: yes.
+template <class Algorithm, DescribedRobot R, class S, std::size_t N, class... Inputs>
+[[nodiscard]] inline auto run(const std::array<S, N>& q, const Inputs&... inputs) noexcept {
+  std::array<S, (1 + sizeof...(Inputs)) * N> input;
+  std::size_t next = 0;
+  const auto append = [&](const std::array<S, N>& values) noexcept {
+    for (const S& value : values) input[next++] = value;
+  };
+  append(q);
+  (append(inputs), ...);
+  const auto output = symbolic::run_program<program<Algorithm, R>>(input);
+
+  constexpr int n = static_cast<int>(N), b = detail::ModelOf<R>::body_count;
+  decltype(Algorithm::template evaluate<S, n, b>(
+      std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(), inputs...)) result;
+  next = 0;
+  symbolic::for_each_scalar<S>(result, [&](S& value) noexcept { value = output[next++]; });
+  return result;
+}
+
+}  // namespace articula::compiled
+
+namespace articula {
+
+/// How many operations the program of an algorithm takes, once per call; sines counts pairs of sine
+/// and cosine. For example `operations<InverseDynamics, Q2d>().multiplications`.
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval symbolic::OperationCounts operations() {
+  return compiled::program<Algorithm, R>.operations();
+}
+
+}  // namespace articula

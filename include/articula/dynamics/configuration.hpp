@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Where the joints of a mechanism stand, ready for the algorithms.
+#pragma once
+
+#include "articula/core/constant_math.hpp"
+#include "articula/dynamics/coupling.hpp"
+#include "articula/model/mechanism.hpp"
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+
+namespace articula {
+
+/// A body's mass distribution by its moments about the origin of a frame: all that its motion can
+/// feel of it. The second moment, unlike the inertia, is turned and shifted without regard to its
+/// trace, and its part along the joint's axis is zero in a canonical mechanism.
+template <class S>
+struct MassMoments {
+  S mass = S(0.0);         ///< m [kg]
+  Vector3<S> first{};      ///< h = integral of r dm [kg m], 3 x 1
+  Symmetric3<S> second{};  ///< J = integral of r r^T dm = trace(I)/2 1 - I [kg m^2], 3 x 3
+
+  friend constexpr MassMoments operator+(const MassMoments& a, const MassMoments& b) noexcept {
+    return {a.mass + b.mass, a.first + b.first, a.second + b.second};
+  }
+};
+
+/// The moments of an inertia.
+template <class S>
+[[nodiscard]] constexpr MassMoments<S> moments_of(const Inertia<double>& inertia) noexcept {
+  const Symmetric3<double>& i = inertia.moment;
+  return {S(inertia.mass),
+          constant<S>(inertia.first_moment),
+          {S((i.yy + i.zz - i.xx) / 2), S(-i.xy), S(-i.xz), S((i.xx + i.zz - i.yy) / 2), S(-i.yz),
+           S((i.xx + i.yy - i.zz) / 2)}};
+}
+
+/// A turn about z.
+template <class S>
+struct AxialTurn {
+  S sine = S(0.0);
+  S cosine = S(1.0);
+
+  [[nodiscard]] constexpr Vector3<S> operator()(const Vector3<S>& x) const noexcept {
+    return {cosine * x.x - sine * x.y, sine * x.x + cosine * x.y, x.z};
+  }
+  [[nodiscard]] constexpr Vector3<S> back(const Vector3<S>& x) const noexcept {
+    return {cosine * x.x + sine * x.y, cosine * x.y - sine * x.x, x.z};
+  }
+  /// Rz A Rz^T. With k = s (xx - yy) + 2 c xy the elements become xx - s k, yy + s k and c k - xy.
+  [[nodiscard]] constexpr Symmetric3<S> operator()(const Symmetric3<S>& a) const noexcept {
+    const S k = sine * (a.xx - a.yy) + cosine * (a.xy + a.xy), shift = sine * k;
+    return {a.xx - shift, cosine * k - a.xy,           cosine * a.xz - sine * a.yz,
+            a.yy + shift, sine * a.xz + cosine * a.yz, a.zz};
+  }
+  [[nodiscard]] constexpr MassMoments<S> operator()(const MassMoments<S>& m) const noexcept {
+    return {m.mass, (*this)(m.first), (*this)(m.second)};
+  }
+};
+
+/// Where one body stands relative to its parent, and how its mass lies in its frame. Turning by the
+/// joint and turning by the body's fixed placement are kept apart, because a turn about z costs
+/// four multiplications and a general one nine.
+template <class S>
+struct JointPlacement {
+  Matrix3<S> rotation;     ///< fixed turn to the parent's frame, R
+  AxialTurn<S> turn;       ///< turn about z that comes before it
+  Vector3<S> translation;  ///< origin of this body in the parent's frame [m], 3 x 1
+  MassMoments<S> moments;  ///< of the body, in its frame
+
+  /// Parent's components of a vector given in this body's: R Rz(q) x.
+  [[nodiscard]] constexpr Vector3<S> to_parent(const Vector3<S>& x) const noexcept {
+    return rotation * turn(x);
+  }
+  /// This body's components of a vector given in the parent's: Rz(q)^T R^T x.
+  [[nodiscard]] constexpr Vector3<S> from_parent(const Vector3<S>& x) const noexcept {
+    return turn.back(transposed_times(rotation, x));
+  }
+  /// Adds a mass distribution given in this body's frame to one of the parent: with t the
+  /// translation, h the turned first moment and a = h + m t/2, J becomes R J R^T + a t^T + t a^T.
+  constexpr void add_to_parent(const MassMoments<S>& own, MassMoments<S>& parent) const noexcept {
+    const MassMoments<S> turned = turn(own);
+    const Vector3<S>& t = translation;
+    const Vector3<S> h = rotation * turned.first, half_shift = (S(0.5) * own.mass) * t;
+    const Vector3<S> a = h + half_shift;
+    const S xx = a.x * t.x, yy = a.y * t.y, zz = a.z * t.z;
+    const Symmetric3<S> shift{xx + xx, a.x * t.y + a.y * t.x, a.x * t.z + a.z * t.x,
+                              yy + yy, a.y * t.z + a.z * t.y, zz + zz};
+    parent.mass = parent.mass + own.mass;
+    parent.first = parent.first + h + (half_shift + half_shift);
+    parent.second = parent.second + shift + rotated(rotation, turned.second);
+  }
+  /// The whole turn as a matrix, R Rz(q).
+  [[nodiscard]] constexpr Matrix3<S> matrix() const noexcept {
+    const Vector3<S> x = rotation.column(0), y = rotation.column(1);
+    const S &s = turn.sine, &c = turn.cosine;
+    return Matrix3<S>{{{c * x + s * y, c * y - s * x, rotation.column(2)}}}.transposed();
+  }
+};
+
+/// All bodies of a mechanism relative to their parents.
+template <class S, int Bodies>
+using Configuration = JointArray<JointPlacement<S>, Bodies>;
+
+/// The frames in which the vectors of a body are given. All have z along the joint's axis.
+enum class Frames : unsigned char {
+  moving,  ///< Each body's own frame.
+  /// Where it can be, the frame that the body would have if its joint stood at 0. Bodies on
+  /// parallel axes are then seen from one direction, angles are added where vectors would be
+  /// turned, and it is the body's mass that turns. It can be where a body carries no axes but such
+  /// as are parallel to its own; the others have their own frame.
+  resting,
+};
+
+namespace detail {
+
+/// True if all axes that a body carries are parallel to its own.
+template <int N, int B>
+[[nodiscard]] constexpr bool carries_parallel_axes(const Mechanism<N, B>& mechanism,
+                                                   std::size_t index) noexcept {
+  for (const Body& body : mechanism.bodies) {
+    const double along_z = body.placement.rotation.rows[2].z;
+    if (body.parent == static_cast<int>(index) && along_z != 1 && along_z != -1) return false;
+  }
+  return true;
+}
+
+/// The turn about z by an angle [rad], also where the compiler itself computes.
+template <class S>
+[[nodiscard]] constexpr AxialTurn<S> turn_by(const S& angle) noexcept {
+  if constexpr (std::same_as<S, double>) {
+    if (std::is_constant_evaluated()) {
+      const auto [sine, cosine] = constant_math::sine_cosine(angle);
+      return {sine, cosine};
+    }
+  }
+  using std::cos, std::sin;
+  return {sin(angle), cos(angle)};
+}
+
+}  // namespace detail
+
+/// The configuration of a mechanism at joint positions.
+/// @param mechanism  the robot's bodies; for resting frames in canonical form
+/// @param q          joint positions [rad or m]
+/// @param frames     in which the algorithms shall calculate
+/// Real-time: yes. O(N) for moving frames.
+template <class S, int N, int B>
+[[nodiscard]] constexpr Configuration<S, B> configuration_of(
+    const Mechanism<N, B>& mechanism, const JointArray<S, N>& q,
+    Frames frames = Frames::moving) noexcept {
+  const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
+  Configuration<S, B> configuration;
+  JointArray<S, B> angle{};              // by which a body has turned in the frame it is seen in
+  JointArray<AxialTurn<S>, B> own_turn;  // by that angle
+  own_turn.fill({S(0.0), S(1.0)});       // g++ 12 leaves elements of large arrays uninitialised
+  for (std::size_t i = 0; i < configuration.size(); ++i) {
+    const Body& body = mechanism.bodies[i];
+    JointPlacement<S>& joint = configuration[i];
+    joint = {constant<S>(body.placement.rotation),
+             {},
+             constant<S>(body.placement.translation),
+             moments_of<S>(body.inertia)};
+    if (body.parent >= 0 && frames == Frames::resting) {
+      const auto parent = static_cast<std::size_t>(body.parent);
+      joint.translation = own_turn[parent](joint.translation);
+      angle[i] =
+          S(body.placement.rotation.rows[2].z) * angle[parent];  // 0, or the axes are parallel
+    }
+    if (body.prismatic) {
+      joint.translation = joint.translation + position[i] * joint.rotation.column(2);
+    } else {
+      angle[i] = angle[i] + position[i];
+    }
+    if (body.prismatic && frames == Frames::moving) continue;
+    const AxialTurn<S> turn = detail::turn_by(angle[i]);
+    if (frames == Frames::resting && detail::carries_parallel_axes(mechanism, i)) {
+      own_turn[i] = turn;
+      joint.moments = turn(joint.moments);
+    } else {
+      joint.turn = turn;
+      angle[i] = S(0.0);
+    }
+  }
+  return configuration;
+}
+
+}  // namespace articula

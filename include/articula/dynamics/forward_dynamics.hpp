@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Forward dynamics: from effort to motion.
+#pragma once
+
+#include "articula/dynamics/mass_matrix.hpp"
+#include "articula/dynamics/nonlinear_effects.hpp"
+#include "articula/dynamics/tree_factors.hpp"
+
+namespace articula {
+
+/// The algorithm behind forward_dynamics: the mass matrix, factorised along the tree, and the bias
+/// efforts. Source: [Featherstone 2008, section 6.1].
+struct ForwardDynamics {
+  template <class S, int N, int B>
+  [[nodiscard]] static constexpr JointArray<S, N> evaluate(
+      const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration,
+      const JointArray<S, N>& v, const JointArray<S, N>& effort) noexcept {
+    const auto matrix = MassMatrix::evaluate<S, N, B>(mechanism, configuration);
+    JointArray<S, N> b = NonlinearEffects::evaluate<S, N, B>(mechanism, configuration, v);
+    for (std::size_t i = 0; i < b.size(); ++i) b[i] = effort[i] - b[i];
+    const JointArray<int, N> parents = branches(mechanism);
+    return solve<S, N>(parents, factorise<S, N>(parents, matrix), b);
+  }
+};
+
+/// The joint accelerations that efforts cause: a = M(q)^-1 (effort - h(q, v)). The inverse of
+/// inverse_dynamics in its last argument. Joint damping and friction are not in it.
+/// @param robot   a described robot or a model
+/// @param q       joint positions [rad or m], N x 1
+/// @param v       joint velocities [rad/s or m/s], N x 1
+/// @param effort  joint efforts [N m or N], N x 1
+/// @return        joint accelerations [rad/s^2 or m/s^2], N x 1
+/// Real-time: yes. O(N d^2) with d the depth of the tree.
+template <Robot R>
+[[nodiscard]] JointVector<joint_count<R>> forward_dynamics(
+    const R& robot, const JointVector<joint_count<R>>& q, const JointVector<joint_count<R>>& v,
+    const JointVector<joint_count<R>>& effort) noexcept {
+  return detail::to_vector(detail::evaluate<ForwardDynamics>(robot, q, v, effort));
+}
+
+}  // namespace articula

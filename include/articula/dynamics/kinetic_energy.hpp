@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The energy of motion.
+#pragma once
+
+#include "articula/dynamics/evaluate.hpp"
+
+namespace articula {
+
+/// The algorithm behind kinetic_energy: velocities from the base outwards, then the sum over the
+/// bodies of m u.u/2 + u.(w x h) + w.I w/2, with u the velocity of the frame's origin.
+struct KineticEnergy {
+  template <class S, int N, int B>
+  [[nodiscard]] static constexpr S evaluate(const Mechanism<N, B>& mechanism,
+                                            const Configuration<S, B>& configuration,
+                                            const JointArray<S, N>& v) noexcept {
+    JointArray<Vector3<S>, B> angular, linear;
+    const JointArray<S, B> velocity = body_rates<S, N, B>(mechanism, v);
+    S energy = S(0.0);
+    for (std::size_t i = 0; i < velocity.size(); ++i) {
+      const Body& body = mechanism.bodies[i];
+      Vector3<S> w{}, u{};
+      if (body.parent >= 0) {
+        const auto p = static_cast<std::size_t>(body.parent);
+        w = configuration[i].from_parent(angular[p]);
+        u = configuration[i].from_parent(linear[p] +
+                                         cross(angular[p], configuration[i].translation));
+      }
+      (body.prismatic ? u.z : w.z) = (body.prismatic ? u.z : w.z) + velocity[i];
+      angular[i] = w;
+      linear[i] = u;
+      const auto& [mass, h, j] = configuration[i].moments;
+      const Symmetric3<S> inertia{j.yy + j.zz, -j.xy, -j.xz, j.xx + j.zz, -j.yz, j.xx + j.yy};
+      energy = energy + S(0.5) * (mass * dot(u, u) + dot(w, inertia * w)) + dot(u, cross(w, h));
+    }
+    return energy;
+  }
+};
+
+/// The kinetic energy of the moving bodies, v^T M(q) v / 2.
+/// @param robot  a described robot or a model
+/// @param q      joint positions [rad or m], N x 1
+/// @param v      joint velocities [rad/s or m/s], N x 1
+/// @return       energy [J]
+/// Real-time: yes. O(N).
+template <Robot R>
+[[nodiscard]] double kinetic_energy(const R& robot, const JointVector<joint_count<R>>& q,
+                                    const JointVector<joint_count<R>>& v) noexcept {
+  return detail::evaluate<KineticEnergy>(robot, q, v);
+}
+
+}  // namespace articula

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The mass matrix.
+#pragma once
+
+#include "articula/dynamics/evaluate.hpp"
+#include "articula/dynamics/newton_euler.hpp"
+
+namespace articula {
+
+/// The algorithm behind mass_matrix: composite rigid bodies. Seen from a joint, everything it
+/// carries is one rigid body; its inertia gives the wrench for a unit acceleration of that joint,
+/// which is followed down to the base and felt by every joint on the way.
+/// Source: [Walker, Orin 1982, method 3]; [Featherstone 2008, section 6.2].
+struct MassMatrix {
+  template <class S, int N, int B>
+  [[nodiscard]] static constexpr JointRows<S, N> evaluate(
+      const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
+    JointArray<MassMoments<S>, B> composite;
+    for (std::size_t i = 0; i < composite.size(); ++i) composite[i] = configuration[i].moments;
+    JointRows<S, B> matrix;
+    for (auto& row : matrix) row.fill(S(0.0));
+    for (std::size_t i = composite.size(); i-- > 0;) {
+      Wrench<S> wrench = unit_acceleration_wrench(composite[i], mechanism.bodies[i].prismatic);
+      matrix[i][i] = felt_by(mechanism.bodies[i], wrench);
+      std::size_t j = i;
+      while (mechanism.bodies[j].parent >= 0) {
+        const Vector3<S> force = configuration[j].to_parent(wrench.force);
+        wrench = {force, configuration[j].to_parent(wrench.moment) +
+                             cross(configuration[j].translation, force)};
+        j = static_cast<std::size_t>(mechanism.bodies[j].parent);
+        matrix[i][j] = matrix[j][i] = felt_by(mechanism.bodies[j], wrench);
+      }
+      if (mechanism.bodies[i].parent >= 0) {
+        configuration[i].add_to_parent(
+            composite[i], composite[static_cast<std::size_t>(mechanism.bodies[i].parent)]);
+      }
+    }
+    return joint_matrix<S, N, B>(mechanism, matrix);
+  }
+
+ private:
+  /// The wrench that gives a resting body a unit acceleration along (or about) its z axis.
+  template <class S>
+  static constexpr Wrench<S> unit_acceleration_wrench(const MassMoments<S>& body,
+                                                      bool prismatic) noexcept {
+    const Vector3<S>& h = body.first;
+    const Symmetric3<S>& j = body.second;
+    if (prismatic) return {{S(0.0), S(0.0), body.mass}, {h.y, -h.x, S(0.0)}};
+    return {{-h.y, h.x, S(0.0)}, {-j.xz, -j.yz, j.xx + j.yy}};
+  }
+  template <class S>
+  static constexpr S felt_by(const Body& body, const Wrench<S>& wrench) noexcept {
+    return body.prismatic ? wrench.force.z : wrench.moment.z;
+  }
+};
+
+/// The matrix M(q) of the equations of motion M(q) a + h(q, v) = effort: symmetric, positive
+/// definite, and kinetic energy is v^T M v / 2.
+/// @param robot  a described robot or a model
+/// @param q      joint positions [rad or m], N x 1
+/// @return       M [kg m^2, kg m or kg], N x N, both triangles filled
+/// Real-time: yes. O(N d) with d the depth of the tree.
+template <Robot R>
+[[nodiscard]] JointMatrix<joint_count<R>> mass_matrix(
+    const R& robot, const JointVector<joint_count<R>>& q) noexcept {
+  return detail::to_matrix(detail::evaluate<MassMatrix>(robot, q));
+}
+
+}  // namespace articula

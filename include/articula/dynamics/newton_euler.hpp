@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The recursive Newton-Euler algorithm.
+#pragma once
+
+#include "articula/dynamics/configuration.hpp"
+#include "articula/model/mechanism.hpp"
+
+namespace articula {
+
+/// A force and a moment about the origin of a body's frame.
+template <class S>
+struct Wrench {
+  Vector3<S> force{};   ///< [N], 3 x 1
+  Vector3<S> moment{};  ///< [N m], 3 x 1
+};
+
+namespace detail {
+
+/// How a body moves, in its own frame. The base is held still and accelerates against gravity
+/// instead, so that every body's weight comes with its acceleration.
+template <class S>
+struct BodyMotion {
+  Vector3<S> angular_velocity{};      ///< w [rad/s], 3 x 1
+  Vector3<S> angular_acceleration{};  ///< dw/dt [rad/s^2], 3 x 1
+  Vector3<S> acceleration{};          ///< of the frame's origin, minus gravity [m/s^2], 3 x 1
+};
+
+/// The products of the components of an angular velocity, each of which is needed several times.
+template <class S>
+struct VelocityProducts {
+  S xx, yy, zz, xy, xz, yz;
+
+  constexpr explicit VelocityProducts(const Vector3<S>& w) noexcept
+      : xx(w.x * w.x), yy(w.y * w.y), zz(w.z * w.z), xy(w.x * w.y), xz(w.x * w.z), yz(w.y * w.z) {}
+};
+
+/// The matrix U with U r the acceleration of a point at r relative to the origin:
+/// U = [dw/dt]x + [w]x [w]x.
+template <class S>
+constexpr Matrix3<S> acceleration_gradient(const VelocityProducts<S>& w,
+                                           const Vector3<S>& dw) noexcept {
+  return {{{{-(w.yy + w.zz), w.xy - dw.z, w.xz + dw.y},
+            {w.xy + dw.z, -(w.xx + w.zz), w.yz - dw.x},
+            {w.xz - dw.y, w.yz + dw.x, -(w.xx + w.yy)}}}};
+}
+
+/// Force and moment that give a body its motion: f = m a + U h and n = h x a + the vector of the
+/// antisymmetric part of U J, in which (Jxx + Jyy) is written for the part of z.
+template <class S>
+constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion, const VelocityProducts<S>& w,
+                               const Matrix3<S>& u, const MassMoments<S>& moments) noexcept {
+  const Vector3<S>& h = moments.first;
+  const Symmetric3<S>& j = moments.second;
+  const auto& [ux, uy, uz] = u.rows;
+  const Vector3<S> rotation_moment{
+      j.yy * uz.y - j.zz * uy.z + j.yz * (w.zz - w.yy) + j.xy * uz.x - j.xz * uy.x,
+      j.zz * ux.z - j.xx * uz.x + j.xz * (w.xx - w.zz) + j.yz * ux.y - j.xy * uz.y,
+      (j.xx + j.yy) * motion.angular_acceleration.z + (j.xx - j.yy) * w.xy + j.xy * (w.yy - w.xx) +
+          j.xz * uy.z - j.yz * ux.z};
+  return {moments.mass * motion.acceleration + u * h,
+          rotation_moment + cross(h, motion.acceleration)};
+}
+
+}  // namespace detail
+
+/// The joint efforts that give a mechanism its motion: effort = M(q) a + h(q, v) with gravity in h.
+/// Velocities and accelerations run from the base to the leaves, forces back from the leaves to the
+/// base. Source: [Luh, Walker, Paul 1980]; with the matrix U of [Balafoutis, Patel, Misra 1988]; in
+/// link frames as [Khalil, Dombre 2002, section 9.5].
+/// @param mechanism      the robot's bodies
+/// @param configuration  where they stand
+/// @param v              joint velocities [rad/s or m/s]
+/// @param a              joint accelerations [rad/s^2 or m/s^2]
+/// @return               joint efforts [N m or N]
+/// Real-time: yes. O(N).
+template <class S, int N, int B>
+[[nodiscard]] constexpr JointArray<S, N> newton_euler(const Mechanism<N, B>& mechanism,
+                                                      const Configuration<S, B>& configuration,
+                                                      const JointArray<S, N>& v,
+                                                      const JointArray<S, N>& a) noexcept {
+  const JointArray<S, B> velocity = body_rates<S, N, B>(mechanism, v);
+  const JointArray<S, B> acceleration = body_rates<S, N, B>(mechanism, a);
+  JointArray<detail::BodyMotion<S>, B> motions;
+  JointArray<Matrix3<S>, B> gradients;
+  JointArray<Wrench<S>, B> wrenches;
+
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    const Body& body = mechanism.bodies[i];
+    const JointPlacement<S>& joint = configuration[i];
+    detail::BodyMotion<S> parent{{}, {}, constant<S>(-mechanism.gravity)};
+    if (body.parent >= 0) {
+      const auto p = static_cast<std::size_t>(body.parent);
+      parent = motions[p];
+      parent.acceleration = parent.acceleration + gradients[p] * joint.translation;
+    }
+    const Vector3<S> w = joint.from_parent(parent.angular_velocity);
+    const Vector3<S> dw = joint.from_parent(parent.angular_acceleration);
+    const Vector3<S> dv = joint.from_parent(parent.acceleration);
+    if (body.prismatic) {
+      const S coriolis = S(2.0) * velocity[i];
+      motions[i] = {w, dw, {dv.x + w.y * coriolis, dv.y - w.x * coriolis, dv.z + acceleration[i]}};
+    } else {
+      motions[i] = {{w.x, w.y, w.z + velocity[i]},
+                    {dw.x + w.y * velocity[i], dw.y - w.x * velocity[i], dw.z + acceleration[i]},
+                    dv};
+    }
+    const detail::VelocityProducts<S> products(motions[i].angular_velocity);
+    gradients[i] = detail::acceleration_gradient(products, motions[i].angular_acceleration);
+    wrenches[i] = detail::wrench_for(motions[i], products, gradients[i], joint.moments);
+  }
+
+  JointArray<S, B> effort;
+  for (std::size_t i = velocity.size(); i-- > 0;) {
+    const Body& body = mechanism.bodies[i];
+    effort[i] = body.prismatic ? wrenches[i].force.z : wrenches[i].moment.z;
+    if (body.parent < 0) continue;
+    Wrench<S>& parent = wrenches[static_cast<std::size_t>(body.parent)];
+    const Vector3<S> force = configuration[i].to_parent(wrenches[i].force);
+    parent.force = parent.force + force;
+    parent.moment = parent.moment + configuration[i].to_parent(wrenches[i].moment) +
+                    cross(configuration[i].translation, force);
+  }
+  return joint_efforts<S, N, B>(mechanism, effort);
+}
+
+}  // namespace articula

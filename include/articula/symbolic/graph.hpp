@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A graph of expressions that simplifies itself while it grows.
+#pragma once
+
+#include "articula/core/constant_math.hpp"
+#include "articula/symbolic/expression.hpp"
+#include "articula/symbolic/growing_array.hpp"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace articula::symbolic {
+
+/// Expressions of real numbers as a graph in which no two nodes compute the same. Every operation
+/// looks for a simpler form of its result before it adds a node:
+///
+/// - constants are computed at once, and so are sums with 0 and products with 0, 1 and -1;
+/// - signs move outwards, (-x) y = -(x y), -x - y = -(x + y), sin(-x) = -sin x, until a sum or an
+///   output takes them in;
+/// - nested constants meet: a (b x) = (a b) x, (x + a) + b = x + (a + b);
+/// - like terms meet: a x + b x = (a + b) x;
+/// - opposite terms cancel: (x + y) + (z - y) = x + z, also if they differ by a constant;
+/// - operands of sums and products are put in order, so that x y and y x are one node.
+///
+/// Real numbers, not floating-point ones: 0 x is 0 even where x turns out to be infinite, and
+/// results may differ in rounding from the operations as they were written.
+class Graph {
+ public:
+  constexpr Graph() {
+    for (int& leaf : newest_leaf_) leaf = Term::none;
+  }
+
+  [[nodiscard]] constexpr int size() const { return entries_.size(); }
+  [[nodiscard]] constexpr const Node& operator[](int node) const { return entries_[node].node; }
+
+  /// The function's input number `index`.
+  constexpr Term input(int index) { return {0, intern(Operation::input, index, 0)}; }
+
+  constexpr Term add(Term x, Term y) {
+    if (x.is_constant()) std::swap(x, y);
+    if (x.is_constant()) return {x.constant + y.constant};
+    if (y.is_constant()) return add_constant(x, y.constant);
+    if (const auto sum = add_like_terms(x, y)) return *sum;
+    if (const auto sum = add_opposite_terms(x, y)) return *sum;
+    if (y.node < x.node) std::swap(x, y);
+    const bool same_sign = x.negative == y.negative;
+    const Operation operation = same_sign ? Operation::add : Operation::subtract;
+    return {0, intern(operation, x.node, y.node), x.negative};
+  }
+
+  constexpr Term multiply(Term x, Term y) {
+    if (y.is_constant()) std::swap(x, y);
+    if (y.is_constant()) return {x.constant * y.constant};
+    if (x.is_constant()) return multiply_by_constant(x.constant, y);
+    if (y.node < x.node) std::swap(x, y);
+    return {0, intern(Operation::multiply, x.node, y.node), x.negative != y.negative};
+  }
+
+  constexpr Term divide(Term x, Term y) {
+    if (x.is_constant() && y.is_constant()) return {x.constant / y.constant};
+    if (y.is_constant()) return multiply_by_constant(1 / y.constant, x);
+    if (x.is(0)) return x;
+    if (x.node == y.node) return {x.negative == y.negative ? 1.0 : -1.0};
+    if (x.is_constant() && x.constant < 0) return -divide(-x, y);
+    return {0, intern(Operation::divide, node_of(x), y.node), x.negative != y.negative};
+  }
+
+  constexpr Term square_root(Term x) {
+    if (x.is_constant()) return {constant_math::square_root(x.constant)};
+    int radicand = x.node;
+    if (x.negative) radicand = intern(Operation::multiply, node_of({-1.0}), x.node);
+    return {0, intern(Operation::square_root, radicand, 0)};
+  }
+
+  constexpr Term sine(Term x) {
+    if (x.is_constant()) return {constant_math::sine_cosine(x.constant).sine};
+    return {0, intern(Operation::sine, x.node, 0), x.negative};
+  }
+
+  constexpr Term cosine(Term x) {
+    if (x.is_constant()) return {constant_math::sine_cosine(x.constant).cosine};
+    return {0, intern(Operation::cosine, x.node, 0)};
+  }
+
+ private:
+  [[nodiscard]] constexpr bool is_constant(int node) const {
+    return (*this)[node].operation == Operation::constant;
+  }
+
+  /// A number times a node.
+  struct Multiple {
+    double factor;
+    int node;
+  };
+
+  /// A term as a multiple of a node that is no multiple itself.
+  [[nodiscard]] constexpr Multiple multiple(const Term& x) const {
+    const double sign = x.negative ? -1 : 1;
+    const Node& node = (*this)[x.node];
+    if (node.operation == Operation::multiply && is_constant(node.left)) {
+      return {sign * (*this)[node.left].value, node.right};
+    }
+    return {sign, x.node};
+  }
+
+  /// A node plus a number.
+  struct Shifted {
+    int node;
+    double offset;
+  };
+
+  /// A node as another one, which is no such sum itself, plus a number.
+  [[nodiscard]] constexpr Shifted shifted(int index) const {
+    const Node& node = (*this)[index];
+    if (node.operation == Operation::add && is_constant(node.right)) {
+      return {node.left, (*this)[node.right].value};
+    }
+    return {index, 0};
+  }
+
+  /// The two terms whose sum a term is: the operands of a sum or difference, or itself and 0.
+  [[nodiscard]] constexpr std::array<Term, 2> summands(const Term& x) const {
+    const Node& node = (*this)[x.node];
+    const bool is_difference = node.operation == Operation::subtract;
+    if (node.operation != Operation::add && !is_difference) return {x, Term{}};
+    const Term left{0, node.left, x.negative}, right{0, node.right, x.negative != is_difference};
+    if (!is_constant(node.right)) return {left, right};
+    const double constant = (*this)[node.right].value;
+    return {left, Term{right.negative ? -constant : constant}};
+  }
+
+  /// a x + b x = (a + b) x. Not x + x, which is as good as 2 x.
+  constexpr std::optional<Term> add_like_terms(const Term& x, const Term& y) {
+    const Multiple a = multiple(x), b = multiple(y);
+    if (a.node != b.node) return {};
+    const double factor = a.factor + b.factor;
+    const bool is_node_twice = x.node == y.node && x.node == a.node && factor != 0;
+    if (is_node_twice) return {};
+    return multiply_by_constant(factor, {0, a.node});
+  }
+
+  /// (x + u) + (y - w) = (x + y) + c where u - w is the number c.
+  constexpr std::optional<Term> add_opposite_terms(const Term& x, const Term& y) {
+    const std::array<Term, 2> p = summands(x), q = summands(y);
+    for (const std::size_t i : {0U, 1U}) {
+      for (const std::size_t j : {0U, 1U}) {
+        const Term u = p[i], w = q[j];
+        if (u.is_constant() || w.is_constant() || u.negative == w.negative) continue;
+        const Shifted a = shifted(u.node), b = shifted(w.node);
+        if (a.node != b.node) continue;
+        const double rest = u.negative ? b.offset - a.offset : a.offset - b.offset;
+        return add(add(p[1 - i], q[1 - j]), {rest});
+      }
+    }
+    return {};
+  }
+
+  /// x + c with the sign outside: -x + c = -(x - c).
+  constexpr Term add_constant(const Term& x, double c) {
+    const Shifted inner = shifted(x.node);
+    const double offset = inner.offset + (x.negative ? -c : c);
+    if (offset == 0) return {0, inner.node, x.negative};
+    return {0, intern(Operation::add, inner.node, node_of({offset})), x.negative};
+  }
+
+  /// c x with the sign outside and the constant on the left.
+  constexpr Term multiply_by_constant(double c, const Term& x) {
+    if (c == 0) return {};
+    const Multiple inner = multiple(x);
+    const double product = c * inner.factor, factor = product < 0 ? -product : product;
+    if (factor == 1) return {0, inner.node, product < 0};
+    return {0, intern(Operation::multiply, node_of({factor}), inner.node), product < 0};
+  }
+
+  /// The node of a term without its sign.
+  constexpr int node_of(const Term& x) {
+    return x.is_constant() ? intern(Operation::constant, 0, 0, x.constant) : x.node;
+  }
+
+  /// The node that does this; a new one if there is none. It is looked for among the nodes that have
+  /// the same last operand, of which there are few; inputs and constants, which have no operands,
+  /// among those that their number or value is likely to tell apart.
+  constexpr int intern(Operation operation, int left, int right, double value = 0) {
+    int* newest = nullptr;
+    if (has_left(operation)) {
+      newest = &entries_[has_right(operation) ? right : left].newest_user;
+    } else {
+      const std::uint64_t bits = std::bit_cast<std::uint64_t>(value) + static_cast<unsigned>(left);
+      newest = &newest_leaf_[(bits * golden) >> (64U - leaf_bits)];
+    }
+    for (int i = *newest; i != Term::none; i = entries_[i].next) {
+      const Node& node = entries_[i].node;
+      if (node.left == left && node.right == right && node.operation == operation &&
+          node.value == value) {
+        return i;
+      }
+    }
+    const int next = *newest;
+    *newest = entries_.size();
+    return entries_.append({{operation, left, right, value}, Term::none, next});
+  }
+
+  static constexpr std::uint64_t golden = 0x9E3779B97F4A7C15U;  // 2^64 over the golden ratio
+  static constexpr unsigned leaf_bits = 8;
+
+  /// A node and its place in the lists that intern searches.
+  struct Entry {
+    Node node;
+    int newest_user;  // of the nodes that have this one as their last operand
+    int next;         // in the list that this node is in, an older one
+  };
+
+  GrowingArray<Entry> entries_{2048};
+  int newest_leaf_[1U << leaf_bits];
+};
+
+}  // namespace articula::symbolic
