@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Open-loop control: the reference's effort goes straight to the joints.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// Open-loop control: effort = clamp(effort_ref).
+/// Uses the reference's effort alone.
+/// @tparam R  the robot
+template <Robot R>
+class Bypass : public EffortController<R, EffortFeedforward<joint_count<R>>> {
+ public:
+  explicit Bypass(const R& robot = described<R>())
+      : EffortController<R, EffortFeedforward<articula::joint_count<R>>>(robot, {}) {}
+};
+
+}  // namespace articula

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Computed torque control: the model does the work, feedback corrects the rest.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/friction_compensation.hpp"
+#include "articula/control/pid_law.hpp"
+#include "articula/control/sum_controller.hpp"
+#include "articula/dynamics/forward_dynamics.hpp"
+#include "articula/dynamics/gravity.hpp"
+#include "articula/dynamics/inverse_dynamics.hpp"
+
+namespace articula {
+
+/// The effort that makes the rigid bodies accelerate as reference and feedback ask:
+/// effort = M(q) (a_ref + PID(q_ref - q, v_ref - v)) + h(q, v), where the PID's output is an
+/// acceleration.
+/// @tparam R  the robot
+template <Robot R>
+class ComputedTorqueLaw {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// @param robot  its model does the work
+  /// @param gains  of the feedback: proportional [1/s^2], integral [1/s^3], derivative [1/s],
+  ///               clamps in rad/s^2 or m/s^2
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  ComputedTorqueLaw(const R& robot, const JointPidGains<joint_count>& gains)
+      : robot_(robot), feedback_(gains, robot) {}
+
+  /// Forgets the integral. Real-time: yes.
+  void start(const JointState<joint_count>& state) noexcept { feedback_.start(state); }
+
+  /// The effort [N m or N], N x 1. Real-time: yes.
+  [[nodiscard]] JointVector<joint_count> effort(const JointState<joint_count>& state,
+                                                const JointReference<joint_count>& reference,
+                                                double period) noexcept {
+    position_ = state.position;
+    const JointVector<joint_count> acceleration =
+        reference.acceleration + feedback_.effort(state, reference, period);
+    return inverse_dynamics(robot_, state.position, state.velocity, acceleration);
+  }
+
+  /// Keeps the integrals from winding up. The feedback asks for accelerations, so it is told the
+  /// acceleration that was lost, M(q)^-1 excess: through the coupling of the joints an effort may be
+  /// cut off on the side that its own joint is not asked to go to.
+  /// @param excess  effort minus what was left of it [N m or N], N x 1
+  /// Real-time: yes.
+  void limited(const JointVector<joint_count>& excess) noexcept {
+    if ((excess.array() == 0).all()) return;
+    // M^-1 excess is the acceleration from rest that the excess causes beyond what carries the robot.
+    const JointVector<joint_count> rest = JointVector<joint_count>::Zero();
+    feedback_.limited(
+        forward_dynamics(robot_, position_, rest, excess + gravity(robot_, position_)));
+  }
+
+  /// Goes on with other gains of the feedback. Real-time: yes.
+  void set_gains(const ValidPidGains<joint_count>& gains) noexcept { feedback_.set_gains(gains); }
+
+ private:
+  [[no_unique_address]] R robot_;
+  JointVector<joint_count> position_ = JointVector<joint_count>::Zero();  ///< q of the last cycle
+  PidLaw<joint_count> feedback_;
+};
+
+/// Computed torque control (inverse dynamics control): with an exact model every joint's error
+/// obeys e'' + d e' + p e = 0, whatever the others do.
+/// effort = clamp(M(q) (a_ref + PID) + h(q, v) + D v + f sign(v) + effort_ref).
+/// Uses all of the reference.   Source: [Siciliano et al. 2009, section 8.5.2].
+/// @tparam R  the robot
+template <Robot R>
+class ComputedTorque : public EffortController<R, ComputedTorqueLaw<R>, FrictionCompensation<R>,
+                                               EffortFeedforward<joint_count<R>>> {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// Critically damped errors that decay with exp(-20 t): 63 % of a step in about 0.1 s.
+  ComputedTorque() requires DescribedRobot<R> : ComputedTorque(critically_damped(20)) {}
+
+  /// @param gains  of the feedback: proportional [1/s^2], integral [1/s^3], derivative [1/s],
+  ///               clamps in rad/s^2 or m/s^2
+  /// @param robot  its model does the work
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  explicit ComputedTorque(const JointPidGains<joint_count>& gains, const R& robot = described<R>())
+      : EffortController<R, ComputedTorqueLaw<R>, FrictionCompensation<R>,
+                         EffortFeedforward<joint_count>>(robot, ComputedTorqueLaw<R>(robot, gains),
+                                                         FrictionCompensation<R>(robot), {}) {}
+
+  /// Feedback gains for critically damped errors, the same for all joints: p = w^2, d = 2 w.
+  /// @param bandwidth  w [rad/s], where every error decays as (1 + w t) exp(-w t)
+  [[nodiscard]] static constexpr JointPidGains<joint_count> critically_damped(
+      double bandwidth) noexcept {
+    JointPidGains<joint_count> gains{};
+    for (PidGains& g : gains) {
+      g.proportional = bandwidth * bandwidth;
+      g.derivative = 2 * bandwidth;
+    }
+    return gains;
+  }
+};
+
+}  // namespace articula

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The PID laws of ROS, for those who need the same numbers.
+#pragma once
+
+#include "articula/control/joint_pid.hpp"
+#include "articula/control/pid_gains.hpp"
+#include "articula/core/joint_reference.hpp"
+#include "articula/core/joint_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace articula {
+
+/// The versions of ROS's control_toolbox whose laws differ.
+enum class ControlToolbox : unsigned char {
+  current,            ///< Kilted and later (5.7 to 6.3)
+  humble,             ///< ROS 2 Humble, antiwindup false
+  humble_antiwindup,  ///< ROS 2 Humble, antiwindup true
+  noetic,             ///< ROS 1 Noetic, antiwindup false
+  noetic_antiwindup,  ///< ROS 1 Noetic, antiwindup true
+};
+
+/// The PID of each of N joints as control_toolbox computes it, to the last bit where it matters: for
+/// comparing with, or moving from, a robot under ros_control or ros2_control. For new work see PidLaw.
+/// With e = q_ref - q, e' = v_ref - v or (e - e_last)/dt, as `derivative_of` says:
+///
+///     current:  u  = p e + I + d e',   u' = clamp(u, output_clamp_min, output_clamp_max)
+///               unless |e| <= error_deadband:
+///                 none                     I <- I + dt i e
+///                 back_calculation         I <- I + dt (i e + (u' - u)/T_t)       (i not 0)
+///                 conditional_integration  I <- I + dt i e, unless u' != u and e u > 0
+///               I <- clamp(I, integral_clamp_min, integral_clamp_max)
+///               u' is returned; the integral is used first and advanced then
+///     humble,   E <- E + dt e,   u = p e + clamp(i E, integral_clamp_min, integral_clamp_max) + d e'
+///     noetic:   with antiwindup, i E itself is kept between the clamps, else it goes on
+///
+/// e_last is 0 at the start, so that the first e' kicks; noetic alone leaves the first one out. A
+/// period of 0 gives the last output again (current) or 0. An error that is not finite gives NaN
+/// (current) or 0. The other gains are not used. It is not told what is cut off from the total.
+/// Source: control_toolbox, pid.cpp of the branches named.
+/// @tparam N  number of joints
+template <int N>
+class ControlToolboxPidLaw {
+ public:
+  /// @param version  whose law
+  /// @param gains    of the N joints
+  /// @param names    of the same joints, for the error message
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  ControlToolboxPidLaw(ControlToolbox version, const JointPidGains<N>& gains,
+                       const JointNames<N>& names)
+      : version_(version), gains_(gains, names) {}
+
+  /// Forgets the past. Real-time: yes.
+  void start(const JointState<N>&) noexcept { memories_ = {}; }
+
+  /// The output of each joint, N x 1. Real-time: yes. O(N).
+  [[nodiscard]] JointVector<N> effort(const JointState<N>& state,
+                                      const JointReference<N>& reference, double period) noexcept {
+    JointVector<N> output;
+    for (int j = 0; j < N; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      const double error = reference.position[j] - state.position[j];
+      const double rate = reference.velocity[j] - state.velocity[j];
+      output[j] = version_ == ControlToolbox::current
+                      ? current(gains_[i], memories_[i], error, rate, period)
+                      : legacy(gains_[i], memories_[i], error, rate, period);
+    }
+    return output;
+  }
+
+  /// Goes on with other gains. Real-time: yes.
+  void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains; }
+
+  /// The integral terms that the next (current) or the last (humble, noetic) output contains
+  /// [output], N x 1. Real-time: yes.
+  [[nodiscard]] JointVector<N> integral() const noexcept {
+    JointVector<N> terms;
+    for (int j = 0; j < N; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      terms[j] = version_ == ControlToolbox::current
+                     ? memories_[i].integral
+                     : clamped(gains_[i], gains_[i].integral * memories_[i].integral);
+    }
+    return terms;
+  }
+
+ private:
+  struct Memory {
+    double integral = 0;  ///< I [output] (current) or the sum of the error [rad s or m s]
+    double last_error = 0;
+    double last_output = 0;
+    bool fresh = true;
+  };
+
+  [[nodiscard]] static double clamped(const PidGains& g, double integral) noexcept {
+    return std::clamp(integral, g.integral_clamp_min, g.integral_clamp_max);
+  }
+
+  [[nodiscard]] static double current(const PidGains& g, Memory& memory, double error, double rate,
+                                      double period) noexcept {
+    constexpr double epsilon = std::numeric_limits<double>::epsilon();
+    if (!(period > epsilon)) return memory.last_output;
+    if (!is_finite(error)) return memory.last_output = std::numeric_limits<double>::quiet_NaN();
+    if (g.derivative_of == DerivativeOf::error) rate = (error - memory.last_error) / period;
+    memory.last_error = error;
+    const double wanted = g.proportional * error + memory.integral + g.derivative * rate;
+    const double output = std::clamp(wanted, g.output_clamp_min, g.output_clamp_max);
+    if (std::abs(error) > g.error_deadband) {
+      double step = g.integral * error;
+      if (g.anti_windup == AntiWindup::back_calculation && g.integral != 0 && output != wanted) {
+        step += (output - wanted) / JointPid::tracking_time(g);
+      } else if (g.anti_windup == AntiWindup::conditional_integration &&
+                 std::abs(wanted - output) > epsilon && error * wanted > 0) {
+        step = 0;
+      }
+      memory.integral += period * step;
+    }
+    memory.integral = clamped(g, memory.integral);
+    return memory.last_output = output;
+  }
+
+  [[nodiscard]] double legacy(const PidGains& g, Memory& memory, double error, double rate,
+                              double period) const noexcept {
+    const bool of_error = g.derivative_of == DerivativeOf::error;
+    if (!(period > 0) || !is_finite(error) || (!of_error && !is_finite(rate))) return 0;
+    const bool noetic =
+        version_ == ControlToolbox::noetic || version_ == ControlToolbox::noetic_antiwindup;
+    if (of_error) rate = memory.fresh && noetic ? 0 : (error - memory.last_error) / period;
+    memory.fresh = false;
+    memory.last_error = error;
+    memory.integral += period * error;
+    const bool antiwindup = version_ == ControlToolbox::humble_antiwindup ||
+                            version_ == ControlToolbox::noetic_antiwindup;
+    if (antiwindup && g.integral != 0) {
+      const double a = g.integral_clamp_min / g.integral, b = g.integral_clamp_max / g.integral;
+      memory.integral = std::clamp(memory.integral, std::min(a, b), std::max(a, b));
+    }
+    const double term = g.integral * memory.integral;
+    return g.proportional * error + (antiwindup ? term : clamped(g, term)) + g.derivative * rate;
+  }
+
+  ControlToolbox version_;
+  ValidPidGains<N> gains_;
+  std::array<Memory, static_cast<std::size_t>(N)> memories_{};
+};
+
+}  // namespace articula

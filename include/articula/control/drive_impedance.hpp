@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Drives that are springs and dampers themselves.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/gravity_compensation.hpp"
+#include "articula/control/impedance_gains.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// Joint impedance control closed in the drives, at their own rate: they are given K, D, q_ref and
+/// v_ref, and the effort clamp(g(q) + effort_ref) to add. The counterpart of JointImpedance for
+/// drives that take a MultiModeCommand. Uses the reference's position, velocity and effort.
+/// @tparam R  the robot
+template <Robot R>
+class DriveImpedance {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// @param gains  of each joint
+  /// @param robot  whose weight is carried and whose effort limits hold for what is added
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  explicit DriveImpedance(const JointImpedanceGains<joint_count>& gains,
+                          const R& robot = described<R>())
+      : gains_(gains, joint_names(robot)), added_(robot, GravityCompensation<R>(robot), {}) {}
+
+  /// Nothing to forget. Real-time: yes.
+  void start(const JointState<joint_count>& state) noexcept { added_.start(state); }
+
+  /// The springs, dampers and efforts for the coming period. Real-time: yes.
+  [[nodiscard]] MultiModeCommand<joint_count> update(const JointState<joint_count>& state,
+                                                     const JointReference<joint_count>& reference,
+                                                     double period) noexcept {
+    MultiModeCommand<joint_count> command{.position = reference.position,
+                                          .velocity = reference.velocity};
+    for (int j = 0; j < joint_count; ++j) {
+      const ImpedanceGains& g = gains_[static_cast<std::size_t>(j)];
+      command.stiffness[j] = g.stiffness;
+      command.damping[j] = g.damping;
+    }
+    command.effort = added_.update(state, reference, period).effort;
+    return command;
+  }
+
+  /// Goes on with other springs and dampers. Real-time: yes.
+  void set_gains(const ValidImpedanceGains<joint_count>& gains) noexcept { gains_ = gains; }
+
+ private:
+  ValidImpedanceGains<joint_count> gains_;
+  EffortController<R, GravityCompensation<R>, EffortFeedforward<joint_count>> added_;
+};
+
+}  // namespace articula

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a part of a controller is.
+#pragma once
+
+#include "articula/core/joint_reference.hpp"
+#include "articula/core/joint_state.hpp"
+#include "articula/core/joint_vector.hpp"
+
+#include <concepts>
+
+namespace articula {
+
+/// A part of a controller: one summand of the total effort, not yet limited. In a controller of
+/// velocity or position drives the same part is a summand of the velocity or position.
+///
+/// - `start(state)` forgets the past.
+/// - `effort(state, reference, period)` is the part's share for the coming period, in the unit of the
+///   command [N m or N; rad/s or m/s; rad or m].
+/// @tparam L  the part
+/// @tparam N  number of joints
+template <class L, int N>
+concept EffortLaw = requires(L law, const JointState<N>& state, const JointReference<N>& reference,
+                             double period) {
+  { law.start(state) }
+  noexcept;
+  { law.effort(state, reference, period) }
+  noexcept->std::convertible_to<JointVector<N>>;
+};
+
+/// What must know when its command is cut off: after `effort` (or a controller's `update`),
+/// `limited(excess)` tells by how much the total exceeded the limits (positive above the upper
+/// limit, negative below the lower, 0 within) in the unit of the command, so that it can take back
+/// what would only wind up. It may be told more than once in a cycle, of one limit after the other.
+template <class L, int N>
+concept LimitAware = requires(L law, const JointVector<N>& excess) {
+  { law.limited(excess) }
+  noexcept;
+};
+
+/// What can go on with other gains of the kind `Gains` between two cycles.
+template <class L, class Gains>
+concept TakesGains = requires(L law, const Gains& gains) {
+  { law.set_gains(gains) }
+  noexcept;
+};
+
+}  // namespace articula

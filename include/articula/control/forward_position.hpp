@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Position drives go where the reference says.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// Position drives go where the reference says: position = clamp(q_ref), within the joints' limits.
+/// Uses the reference's position alone.
+/// @tparam R  the robot
+template <Robot R>
+class ForwardPosition : public PositionController<R, PositionFeedforward<joint_count<R>>> {
+ public:
+  explicit ForwardPosition(const R& robot = described<R>())
+      : PositionController<R, PositionFeedforward<articula::joint_count<R>>>(robot, {}) {}
+};
+
+}  // namespace articula

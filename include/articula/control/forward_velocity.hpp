@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Velocity drives go as fast as the reference says.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// Velocity drives go as fast as the reference says: velocity = clamp(v_ref), within the joints'
+/// limits. Uses the reference's velocity alone.
+/// @tparam R  the robot
+template <Robot R>
+class ForwardVelocity : public VelocityController<R, VelocityFeedforward<joint_count<R>>> {
+ public:
+  explicit ForwardVelocity(const R& robot = described<R>())
+      : VelocityController<R, VelocityFeedforward<articula::joint_count<R>>>(robot, {}) {}
+};
+
+}  // namespace articula

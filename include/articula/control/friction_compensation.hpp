@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The effort that overcomes joint damping and friction.
+#pragma once
+
+#include "articula/core/joint_reference.hpp"
+#include "articula/core/joint_state.hpp"
+#include "articula/dynamics/friction_effort.hpp"
+
+namespace articula {
+
+/// Cancels the joints' own damping and Coulomb friction at the measured velocity: effort = D v + f
+/// sign(v). Source: [Siciliano et al. 2009, equation 8.56], where it is part of n(q, v).
+/// @tparam R  the robot
+template <Robot R>
+class FrictionCompensation {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  FrictionCompensation() requires DescribedRobot<R> {}
+  explicit FrictionCompensation(const R& robot) : robot_(robot) {}
+
+  /// Nothing to forget. Real-time: yes.
+  void start(const JointState<joint_count>&) noexcept {}
+
+  /// D v + f sign(v) [N m or N], N x 1. Real-time: yes.
+  [[nodiscard]] JointVector<joint_count> effort(const JointState<joint_count>& state,
+                                                const JointReference<joint_count>&,
+                                                double) const noexcept {
+    return -friction_effort(robot_, state.velocity);
+  }
+
+ private:
+  [[no_unique_address]] R robot_;
+};
+
+}  // namespace articula

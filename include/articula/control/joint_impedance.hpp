@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Joints that give way like springs and dampers.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/gravity_compensation.hpp"
+#include "articula/control/impedance_gains.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// A spring and a damper between each of N joints and its reference:
+/// effort = K (q_ref - q) + D (v_ref - v).
+/// @tparam N  number of joints
+template <int N>
+class ImpedanceLaw {
+ public:
+  explicit ImpedanceLaw(const ValidImpedanceGains<N>& gains) : gains_(gains) {}
+
+  /// Nothing to forget. Real-time: yes.
+  void start(const JointState<N>&) noexcept {}
+
+  /// The effort [N m or N], N x 1. Real-time: yes.
+  [[nodiscard]] JointVector<N> effort(const JointState<N>& state,
+                                      const JointReference<N>& reference, double) const noexcept {
+    JointVector<N> effort;
+    for (int j = 0; j < N; ++j) {
+      const ImpedanceGains& g = gains_[static_cast<std::size_t>(j)];
+      effort[j] = g.stiffness * (reference.position[j] - state.position[j]) +
+                  g.damping * (reference.velocity[j] - state.velocity[j]);
+    }
+    return effort;
+  }
+
+  /// Goes on with other springs and dampers. Real-time: yes.
+  void set_gains(const ValidImpedanceGains<N>& gains) noexcept { gains_ = gains; }
+
+ private:
+  ValidImpedanceGains<N> gains_;
+};
+
+/// Joint impedance control: the robot, relieved of its weight, gives way to pushes as if each joint
+/// hung on a spring and a damper. effort = clamp(K (q_ref - q) + D (v_ref - v) + g(q) + effort_ref).
+/// Uses the reference's position, velocity and effort.
+/// Source: [Siciliano et al. 2009, section 8.5.1], PD control with gravity compensation.
+/// @tparam R  the robot
+template <Robot R>
+class JointImpedance
+    : public EffortController<R, ImpedanceLaw<joint_count<R>>, GravityCompensation<R>,
+                              EffortFeedforward<joint_count<R>>> {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// @param gains  of each joint
+  /// @param robot  whose weight is carried and whose effort limits hold
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  explicit JointImpedance(const JointImpedanceGains<joint_count>& gains,
+                          const R& robot = described<R>())
+      : EffortController<R, ImpedanceLaw<joint_count>, GravityCompensation<R>,
+                         EffortFeedforward<joint_count>>(
+            robot, ImpedanceLaw<joint_count>({gains, joint_names(robot)}),
+            GravityCompensation<R>(robot), {}) {}
+};
+
+}  // namespace articula

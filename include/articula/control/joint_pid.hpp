@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The PID law of one joint.
+#pragma once
+
+#include "articula/control/pid_gains.hpp"
+#include "articula/core/finite.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace articula {
+
+/// What a PID is told in a cycle.
+struct PidInput {
+  double error = 0;               ///< e = r - y, of the variable that is controlled
+  double measured = 0;            ///< y
+  double rate_error = 0;          ///< c r' - y', of measured y', if that is so
+  bool rate_is_measured = true;   ///< else the derivative is that of the error, whatever is asked
+  double velocity_reference = 0;  ///< v_ref, for the feed-forward
+  double acceleration_reference = 0;  ///< a_ref, for the feed-forward
+};
+
+/// The PID law of one joint, with all that its gains can ask for. In cycle k, dt after the last one,
+///
+///     I   <- clamp(I + i e dt, integral_clamp_min, integral_clamp_max)   unless |e| <= dead-band
+///     s    = c r' - y' as measured, or (c (r - r_last) - (y - y_last))/dt
+///     D   <- D + dt/(T_f + dt) (s - D)
+///     u    = p (b r - y) + I + d D + f_v v_ref + f_a a_ref
+///     u'   = clamp(u, output_clamp_min, output_clamp_max)
+///
+/// I is in units of the output and is integrated before use (backward Euler), D is the low-pass
+/// T_f D' + D = s in backward Euler. For weights b < 1 and c < 1, r and y are counted from where y was
+/// at the start, so that a joint that is asked to stay gets no output.
+///
+/// By what the output is cut off, u - u', and what the caller cuts off later, the integral is kept
+/// from winding up in one of three ways (AntiWindup): none; back-calculation,
+///
+///     I <- I - dt/T_t (u - u'),   T_t = sqrt(d/i), or p/i where d is 0, unless given;
+///
+/// or conditional integration: the last step of an integral that pushed further is taken back.
+/// Source: [Åström, Hägglund 2006, sections 3.3 to 3.5].
+class JointPid {
+ public:
+  /// Forgets the past: the integral is 0, or the clamp that is next to it. Real-time: yes.
+  void start(const PidGains& g) noexcept {
+    integral_ = previous_integral_ = std::clamp(0.0, g.integral_clamp_min, g.integral_clamp_max);
+    fresh_ = true;
+  }
+
+  /// The output u'.
+  /// @param g       that validate() accepts
+  /// @param in      this cycle's input
+  /// @param period  dt [s]
+  /// @param turn    what the error is counted modulo: 2 pi for a joint that turns for ever, 0: nothing
+  /// Real-time: yes.
+  [[nodiscard]] double update(const PidGains& g, const PidInput& in, double period,
+                              double turn = 0) noexcept {
+    if (fresh_) {
+      origin_ = last_measured_ = in.measured;
+      last_error_ = in.error;
+    }
+    const double rate = filtered(g, rate_of(g, in, period, turn), period);
+    last_error_ = in.error;
+    last_measured_ = in.measured;
+    fresh_ = false;
+
+    period_ = period;
+    previous_integral_ = integral_;
+    if (!(std::abs(in.error) <= g.error_deadband)) {
+      set_integral(g, integral_ + g.integral * in.error * period);
+    }
+    const double proportional = weighted(g.position_weight, in.error, in.measured - origin_);
+    const double output = g.proportional * proportional + integral_ + g.derivative * rate +
+                          g.velocity_feedforward * in.velocity_reference +
+                          g.acceleration_feedforward * in.acceleration_reference;
+    const double clamped = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
+    if (clamped != output) limited(g, output - clamped);
+    return clamped;
+  }
+
+  /// Keeps the integral from winding up when an output was cut off.
+  /// @param excess  the output minus what was left of it; that of an overflow may be anything
+  /// Real-time: yes.
+  void limited(const PidGains& g, double excess) noexcept {
+    if (!is_finite(excess)) {
+      integral_ = previous_integral_;
+    } else if (g.anti_windup == AntiWindup::conditional_integration) {
+      const bool pushes_further = (excess > 0 && integral_ > previous_integral_) ||
+                                  (excess < 0 && integral_ < previous_integral_);
+      if (pushes_further) integral_ = previous_integral_;
+    } else if (g.anti_windup == AntiWindup::back_calculation && g.integral != 0) {
+      // A step beyond T_t would overshoot what it is to follow.
+      set_integral(g, integral_ - std::min(1.0, period_ / tracking_time(g)) * excess);
+    }
+  }
+
+  /// The integral term I [output]. Real-time: yes.
+  [[nodiscard]] double integral() const noexcept { return integral_; }
+
+  /// T_t [s] of back-calculation. Real-time: yes.
+  [[nodiscard]] static double tracking_time(const PidGains& g) noexcept {
+    if (g.tracking_time > 0) return g.tracking_time;
+    if (g.derivative != 0) return std::sqrt(std::abs(g.derivative / g.integral));
+    return std::abs(g.proportional / g.integral);
+  }
+
+  /// The difference of two angles, the short way round. Real-time: yes.
+  /// @param turn  a full turn; 0: the difference as it is
+  [[nodiscard]] static double short_way(double difference, double turn) noexcept {
+    return turn > 0 ? std::remainder(difference, turn) : difference;
+  }
+
+ private:
+  /// weight r - y = weight e - (1 - weight) y.
+  [[nodiscard]] static double weighted(double weight, double error, double measured) noexcept {
+    return weight == 1 ? error : weight * error - (1 - weight) * measured;
+  }
+
+  [[nodiscard]] double rate_of(const PidGains& g, const PidInput& in, double period,
+                               double turn) const noexcept {
+    if (in.rate_is_measured && g.derivative_of == DerivativeOf::measured_velocity) {
+      return in.rate_error;
+    }
+    if (!(period > 0)) return 0;
+    return weighted(g.velocity_weight, short_way(in.error - last_error_, turn),
+                    in.measured - last_measured_) /
+           period;
+  }
+
+  [[nodiscard]] double filtered(const PidGains& g, double rate, double period) noexcept {
+    const double time = g.derivative_filter_time;
+    const bool unfiltered = fresh_ || !(time > 0) || !is_finite(rate);
+    const double next = unfiltered ? rate : rate_ + period / (time + period) * (rate - rate_);
+    if (is_finite(next)) rate_ = next;  // an overflow is not to be remembered
+    return next;
+  }
+
+  /// A step that overflows is not taken.
+  void set_integral(const PidGains& g, double next) noexcept {
+    next = std::clamp(next, g.integral_clamp_min, g.integral_clamp_max);
+    if (is_finite(next)) integral_ = next;
+  }
+
+  double integral_ = 0;           ///< I [output]
+  double previous_integral_ = 0;  ///< I before the last step [output]
+  double rate_ = 0;               ///< D
+  double last_error_ = 0;
+  double last_measured_ = 0;
+  double origin_ = 0;  ///< y at the start
+  double period_ = 0;  ///< dt of the last update [s]
+  bool fresh_ = true;  ///< there was no update since the start
+};
+
+}  // namespace articula

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A controller whose commands keep limits.
+#pragma once
+
+#include "articula/control/effort_law.hpp"
+#include "articula/control/effort_limiter.hpp"
+#include "articula/control/joint_limiter.hpp"
+#include "articula/core/joint_command.hpp"
+#include "articula/core/joint_reference.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+namespace articula {
+
+/// A controller whose commands keep limits of position, velocity, acceleration, jerk and effort, so
+/// that every joint can always stop before its position limit (see JointLimiter):
+///
+///     template <class R>
+///     using CarefulPid = articula::Limited<R, articula::PidPlusGravity>;
+///     articula::Loop<articula::Q2dSim, CarefulPid> loop(CarefulPid<articula::Q2d>(limits));
+///
+/// - Position commands: limits hold for the commands, which begin where the joint is measured.
+/// - Velocity commands: likewise, at the measured position; a drive that lags needs some room.
+/// - Effort commands: limits hold for the motion that the model foresees (see EffortLimiter).
+/// - Multi-mode commands: likewise, for the total effort at the measured state. Where it is too much,
+///   the drive's references are drawn towards the state.
+///
+/// What is within the limits passes unchanged. A command that is not finite brakes all joints. The
+/// controller is told what was cut off, if it wants to know (LimitAware).
+/// @tparam R                   the robot
+/// @tparam ControllerTemplate  makes the controller of a robot
+template <Robot R, template <class> class ControllerTemplate>
+class Limited {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using ControllerType = ControllerTemplate<R>;
+  using State = JointState<joint_count>;
+  using Reference = JointReference<joint_count>;
+  using Command = decltype(std::declval<ControllerType&>().update(
+      std::declval<const State&>(), std::declval<const Reference&>(), double()));
+
+  /// Whether the command contains efforts.
+  static constexpr bool by_effort = requires(Command command) { command.effort; };
+
+  /// The limits of the robot's description. (For efforts it does not say enough.)
+  Limited() requires DescribedRobot<R> && std::default_initializable<ControllerType> &&(!by_effort)
+      : Limited(command_limits(R())) {}
+
+  /// @param limits      to keep
+  /// @param controller  whose commands are limited
+  /// @param robot       whose joints these are
+  /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is beyond
+  ///         what the description says, or is missing (see EffortLimiter)
+  explicit Limited(const CommandLimits<joint_count>& limits,
+                   ControllerType controller = ControllerType(), const R& robot = described<R>())
+      : controller_(std::move(controller)),
+        limits_(limits),
+        limiter_(make_limiter(limits, robot)) {}
+
+  /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
+  void start(const State& state) noexcept {
+    controller_.start(state);
+    started_ = false;
+  }
+
+  /// The controller's command, limited. Before any position is known a position command is NaN, which
+  /// no loop writes.
+  /// Real-time: yes, if the controller's is.
+  [[nodiscard]] Command update(const State& state, const Reference& reference,
+                               double period) noexcept {
+    const Command asked = controller_.update(state, reference, period);
+    report_ = {};
+    begin_cycle(state, period);
+    if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {
+      return {told(asked.effort, limit_effort(state, asked.effort))};
+    } else if constexpr (std::same_as<Command, VelocityCommand<joint_count>>) {
+      return {told(asked.velocity, limit_velocity(state, asked.velocity))};
+    } else if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
+      return {told(asked.position, limit_position(asked.position))};
+    } else {
+      return limit_multi_mode(state, asked);
+    }
+  }
+
+  /// What the last update changed. Real-time: yes.
+  [[nodiscard]] const LimitReport<joint_count>& report() const noexcept { return report_; }
+  [[nodiscard]] const CommandLimits<joint_count>& limits() const noexcept { return limits_; }
+  [[nodiscard]] ControllerType& controller() noexcept { return controller_; }
+  [[nodiscard]] const ControllerType& controller() const noexcept { return controller_; }
+
+  /// Goes on with other gains of the controller. Real-time: yes.
+  template <class Gains>
+  requires TakesGains<ControllerType, Gains>
+  void set_gains(const Gains& gains) noexcept { controller_.set_gains(gains); }
+
+ private:
+  using Vector = JointVector<joint_count>;
+  using JointLimiters = std::array<JointLimiter, static_cast<std::size_t>(joint_count)>;
+  using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, JointLimiters>;
+  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+  [[nodiscard]] static constexpr std::size_t index(int j) noexcept {
+    return static_cast<std::size_t>(j);
+  }
+
+  [[nodiscard]] static Limiter make_limiter(const CommandLimits<joint_count>& limits,
+                                            const R& robot) {
+    validate(limits, robot);
+    if constexpr (by_effort) {
+      return EffortLimiter<R>(limits, robot);
+    } else {
+      JointLimiters limiters;
+      for (int j = 0; j < joint_count; ++j) limiters[index(j)] = JointLimiter(limits, j);
+      return limiters;
+    }
+  }
+
+  /// Before the first cycle the joints' motion is what is measured; with another period they go on.
+  void begin_cycle(const State& state, double period) noexcept {
+    const bool usable = is_finite(period) && period > 0;
+    const bool begins = !started_ && is_finite(state);
+    const bool changes = started_ && usable && period != period_;
+    if (usable) period_ = period;
+    if constexpr (by_effort) {
+      if (begins) limiter_.start(state, period_);
+      if (changes) limiter_.set_period(period_);
+    } else {
+      for (int j = 0; j < joint_count; ++j) {
+        JointLimiter& limiter = limiter_[index(j)];
+        if (begins) limiter.start({state.position[j], state.velocity[j], 0}, period_);
+        if (changes) limiter.start(limiter.motion(), period_);
+      }
+    }
+    started_ = started_ || begins;
+  }
+
+  /// Notes what became of a command, and tells the controller.
+  [[nodiscard]] const Vector& told(const Vector& asked, const Vector& given) noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      JointLimitReport& report = report_[index(j)];
+      // What only rounding has changed is not worth a report.
+      if (std::abs(asked[j] - given[j]) <= 1e-12 * (1 + std::abs(given[j]))) report = {};
+      report.asked = asked[j];
+      report.given = given[j];
+    }
+    if constexpr (LimitAware<ControllerType, joint_count>) controller_.limited(asked - given);
+    return given;
+  }
+
+  [[nodiscard]] Vector limit_position(const Vector& asked) noexcept {
+    if (!started_) return Vector::Constant(not_a_number);
+    const bool brake = !is_finite(asked);
+    Vector given;
+    for (int j = 0; j < joint_count; ++j) {
+      JointLimiter& limiter = limiter_[index(j)];
+      const double now = limiter.motion().position;
+      const double wish = brake ? not_a_number : (asked[j] - now) / period_;
+      const bool granted = limiter.move(wish, report_[index(j)]);
+      // Rounding must not lead beyond a limit, nor away from what was granted.
+      given[j] = std::clamp(granted ? asked[j] : limiter.motion().position,
+                            std::min(limits_.lower[j], now), std::max(limits_.upper[j], now));
+      limiter.measured(given[j]);
+    }
+    return given;
+  }
+
+  [[nodiscard]] Vector limit_velocity(const State& state, const Vector& asked) noexcept {
+    if (!started_) return Vector::Zero();
+    const bool brake = !is_finite(asked) || !is_finite(state.position);
+    Vector given;
+    for (int j = 0; j < joint_count; ++j) {
+      JointLimiter& limiter = limiter_[index(j)];
+      if (is_finite(state.position[j])) limiter.measured(state.position[j]);
+      static_cast<void>(limiter.move(brake ? not_a_number : asked[j], report_[index(j)]));
+      given[j] = limiter.motion().velocity;
+    }
+    return given;
+  }
+
+  [[nodiscard]] Vector limit_effort(const State& state, const Vector& asked) noexcept {
+    return started_ ? limiter_.limit(state, asked, report_) : Vector(Vector::Zero());
+  }
+
+  [[nodiscard]] Command limit_multi_mode(const State& state, const Command& asked) noexcept {
+    const auto pull_of = [&](const Command& c) -> Vector {
+      return c.stiffness.cwiseProduct(c.position - state.position) +
+             c.damping.cwiseProduct(c.velocity - state.velocity);
+    };
+    const Vector asked_total = pull_of(asked) + asked.effort;
+    if (!is_finite(asked_total) || !is_finite(asked)) {  // nothing but the effort that brakes
+      Command braking;
+      braking.effort = told(asked_total, limit_effort(state, Vector::Constant(not_a_number)));
+      return braking;
+    }
+    Command given = asked;
+    given.position = given.position.cwiseMax(limits_.lower).cwiseMin(limits_.upper);
+    given.velocity = given.velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity);
+    given.stiffness = given.stiffness.cwiseMax(0);
+    given.damping = given.damping.cwiseMax(0);
+    const Vector pull = pull_of(given), total = pull + asked.effort;
+    const Vector effort = limit_effort(state, total);
+    for (int j = 0; j < joint_count; ++j) {
+      JointLimitReport& report = report_[index(j)];
+      report.position = report.position || given.position[j] != asked.position[j];
+      report.velocity = report.velocity || given.velocity[j] != asked.velocity[j];
+      if (effort[j] == total[j] && std::abs(asked.effort[j]) <= limits_.effort[j]) continue;
+      // The references are drawn towards the state until spring and damper pull no more than what is
+      // left for them; the rest is in the effort, which thereby keeps its limit.
+      const double left =
+          effort[j] - std::clamp(asked.effort[j], -limits_.effort[j], limits_.effort[j]);
+      const double share = pull[j] != 0 ? std::clamp(left / pull[j], 0.0, 1.0) : 1;
+      given.position[j] = state.position[j] + share * (given.position[j] - state.position[j]);
+      given.velocity[j] = state.velocity[j] + share * (given.velocity[j] - state.velocity[j]);
+      given.effort[j] = effort[j] - share * pull[j];
+    }
+    static_cast<void>(told(asked_total, effort));
+    return given;
+  }
+
+  ControllerType controller_;
+  CommandLimits<joint_count> limits_;
+  Limiter limiter_;
+  LimitReport<joint_count> report_{};
+  double period_ = 1e-3;
+  bool started_ = false;
+};
+
+}  // namespace articula

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file PID control of each joint.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/pid_law.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// PID control of each joint: effort = clamp(PID + effort_ref), see PidLaw.
+/// Uses the reference's position, velocity and effort.
+/// @tparam R  the robot
+template <Robot R>
+class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward<joint_count<R>>> {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// With the gains that the robot brings along.
+  Pid() requires HasPidGains<R> : Pid(R::pid_gains) {}
+
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  explicit Pid(const JointPidGains<joint_count>& gains, const R& robot = described<R>())
+      : EffortController<R, PidLaw<joint_count>, EffortFeedforward<joint_count>>(
+            robot, PidLaw<joint_count>(gains, robot), {}) {}
+};
+
+}  // namespace articula

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file PID control of each joint, relieved of the robot's weight.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/gravity_compensation.hpp"
+#include "articula/control/pid_law.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// PID control of each joint, relieved of the robot's weight: effort = clamp(PID + g(q) +
+/// effort_ref). Uses the reference's position, velocity and effort.
+/// @tparam R  the robot
+template <Robot R>
+class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, GravityCompensation<R>,
+                                               EffortFeedforward<joint_count<R>>> {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// With the gains that the robot brings along.
+  PidPlusGravity() requires HasPidGains<R> : PidPlusGravity(R::pid_gains) {}
+
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  explicit PidPlusGravity(const JointPidGains<joint_count>& gains, const R& robot = described<R>())
+      : EffortController<R, PidLaw<joint_count>, GravityCompensation<R>,
+                         EffortFeedforward<joint_count>>(robot, PidLaw<joint_count>(gains, robot),
+                                                         GravityCompensation<R>(robot), {}) {}
+};
+
+}  // namespace articula

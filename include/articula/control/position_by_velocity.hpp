@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Position control through velocity drives.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/pid_law.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// Position control through velocity drives: velocity = clamp(PID + v_ref), see PidLaw, whose output
+/// is a velocity here. Uses the reference's position and velocity.
+/// @tparam R  the robot
+template <Robot R>
+class PositionByVelocity
+    : public VelocityController<R, PidLaw<joint_count<R>>, VelocityFeedforward<joint_count<R>>> {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// @param gains  proportional [1/s], integral [1/s^2], derivative [1], clamps in rad/s or m/s
+  /// @param robot  whose velocity limits hold
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  explicit PositionByVelocity(const JointPidGains<joint_count>& gains,
+                              const R& robot = described<R>())
+      : VelocityController<R, PidLaw<joint_count>, VelocityFeedforward<joint_count>>(
+            robot, PidLaw<joint_count>(gains, robot), {}) {}
+};
+
+}  // namespace articula

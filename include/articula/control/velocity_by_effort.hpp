@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Velocity control of each joint through its effort.
+#pragma once
+
+#include "articula/control/feedforward.hpp"
+#include "articula/control/pid_law.hpp"
+#include "articula/control/sum_controller.hpp"
+
+namespace articula {
+
+/// Velocity control of each joint: effort = clamp(PID + effort_ref), where the PID's error is
+/// v_ref - v. Uses the reference's velocity and effort.
+/// @tparam R  the robot
+template <Robot R>
+class VelocityByEffort : public EffortController<R, PidLaw<joint_count<R>, PidOf::velocity>,
+                                                 EffortFeedforward<joint_count<R>>> {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Law = PidLaw<joint_count, PidOf::velocity>;
+
+  /// @param gains  proportional [N m s/rad or N s/m], integral [N m/rad or N/m],
+  ///               derivative [kg m^2 or kg], clamps in N m or N
+  /// @param robot  whose effort limits hold
+  /// @throws std::invalid_argument naming joint, gain and value, see validate
+  explicit VelocityByEffort(const JointPidGains<joint_count>& gains,
+                            const R& robot = described<R>())
+      : EffortController<R, Law, EffortFeedforward<joint_count>>(robot, Law(gains, robot), {}) {}
+};
+
+}  // namespace articula
