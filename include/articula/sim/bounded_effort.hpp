@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Constraint efforts with bounds: what stops and dry friction do to a robot.
+#pragma once
+
+#include "articula/dynamics/evaluate.hpp"
+#include "articula/dynamics/tree_factors.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace articula {
+
+/// What each joint's constraint can exert: any effort between the bounds, as much as it takes to
+/// hold the joint still. A joint without constraint has both at 0.
+template <int N>
+struct EffortBounds {
+  JointVector<N> lower = JointVector<N>::Zero();  ///< [N m or N], N x 1, <= upper, may be -infinity
+  JointVector<N> upper = JointVector<N>::Zero();  ///< [N m or N], N x 1, may be infinity
+};
+
+/// The answer of hold_within_bounds.
+template <int N>
+struct BoundedEffort {
+  JointVector<N> motion = JointVector<N>::Zero();  ///< x, zero for the joints that are held, N x 1
+  JointVector<N> effort = JointVector<N>::Zero();  ///< what each constraint exerts, N x 1
+  std::array<bool, static_cast<std::size_t>(N)> held{};  ///< which joints are held still
+};
+
+/// Finds constraint efforts within bounds that hold as many joints as they can:
+///
+///     M x = load + effort,   lower <= effort <= upper,
+///     x_j = 0 where effort_j lies between its bounds, x_j >= 0 at the lower, x_j <= 0 at the
+///     upper.
+///
+/// With accelerations for x this is dry friction and contact with a stop; with velocities and load
+/// = M v it is an inelastic impact. The answer exists and is unique for positive definite M. Found
+/// by principal pivoting: the first joint that breaks a rule changes sides, until none does [Murty
+/// 1974]; from the usual starts that takes a few rounds.
+/// @param parents      of the tree that M has, see branches
+/// @param mass_matrix  M, N x N, positive definite
+/// @param load         all other efforts (or momenta), N x 1
+/// @param bounds       of the constraint efforts (or impulses)
+/// Real-time: yes. O(N^3) a round; the number of rounds is limited.
+template <int N>
+[[nodiscard]] BoundedEffort<N> hold_within_bounds(const JointArray<int, N>& parents,
+                                                  const JointMatrix<N>& mass_matrix,
+                                                  const JointVector<N>& load,
+                                                  const EffortBounds<N>& bounds) noexcept {
+  BoundedEffort<N> answer;
+  for (int j = 0; j < N; ++j) {
+    answer.held[static_cast<std::size_t>(j)] = bounds.lower[j] < bounds.upper[j];
+  }
+  constexpr int rounds = 16 * N;  // far beyond what was seen; the limit only bounds the time
+  for (int round = 0; round < rounds; ++round) {
+    // Held joints leave the equations: identity rows and columns, zero right-hand side.
+    JointMatrix<N> m = mass_matrix;
+    JointVector<N> b = load + answer.effort;
+    for (int j = 0; j < N; ++j) {
+      if (!answer.held[static_cast<std::size_t>(j)]) continue;
+      m.row(j).setZero();
+      m.col(j).setZero();
+      m(j, j) = 1;
+      b[j] = 0;
+    }
+    const auto factors = factorise<double, N>(parents, detail::to_rows(m));
+    answer.motion = detail::to_vector(solve<double, N>(parents, factors, detail::to_array(b)));
+    const JointVector<N> needed = mass_matrix * answer.motion - load;
+    int wrong = -1;
+    for (int j = N - 1; j >= 0; --j) {
+      const auto i = static_cast<std::size_t>(j);
+      if (answer.held[i]) {
+        answer.motion[j] = 0;  // exactly, so that a held joint stays where it is to the last bit
+        if (needed[j] < bounds.lower[j] || needed[j] > bounds.upper[j]) wrong = j;
+      } else if (bounds.lower[j] < bounds.upper[j]) {
+        const bool at_lower = answer.effort[j] == bounds.lower[j];
+        if (at_lower ? answer.motion[j] < 0 : answer.motion[j] > 0) wrong = j;
+      }
+    }
+    for (int j = 0; j < N; ++j) {
+      if (answer.held[static_cast<std::size_t>(j)] && j != wrong) answer.effort[j] = needed[j];
+    }
+    if (wrong < 0) break;
+    bool& held = answer.held[static_cast<std::size_t>(wrong)];
+    if (held) {
+      answer.effort[wrong] =
+          needed[wrong] < bounds.lower[wrong] ? bounds.lower[wrong] : bounds.upper[wrong];
+    }
+    held = !held;
+  }
+  return answer;
+}
+
+}  // namespace articula

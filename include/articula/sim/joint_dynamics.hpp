@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file How a robot's joints move under efforts: rigid bodies, damping, dry friction and stops.
+#pragma once
+
+#include "articula/dynamics/forward_dynamics.hpp"
+#include "articula/sim/bounded_effort.hpp"
+#include "articula/sim/runge_kutta.hpp"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace articula {
+
+/// Advances a robot in time under constant efforts. Between events the motion is smooth and is
+/// integrated by Runge-Kutta; an event (a joint reaches its stop, or comes to rest against dry
+/// friction) is located in time to the last bits, dealt with, and the step goes on from there.
+/// Stops are inelastic: a joint that arrives gives up its velocity by an impulse through the mass
+/// matrix, which cannot add energy, and is then held for as long as it is pushed. Dry friction
+/// holds a resting joint exactly.
+/// @tparam R  the robot
+template <Robot R>
+class JointDynamics {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  explicit JointDynamics(const R& robot)
+      : robot_(robot),
+        lower_(joint_values(robot, [](const JointProperties& j) { return j.limits.lower; })),
+        upper_(joint_values(robot, [](const JointProperties& j) { return j.limits.upper; })),
+        damping_(joint_values(robot, [](const JointProperties& j) { return j.damping; })),
+        friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
+        parents_(branches(model_of(robot).mechanism)),
+        has_friction_((friction_.array() > 0).any()) {}
+
+  /// The motion after one step.
+  /// @param motion  position and velocity at its beginning; positions within the joints' limits
+  /// @param effort  efforts of the drives, constant over the step [N m or N], N x 1
+  /// @param step    [s]
+  /// Real-time: yes. One Runge-Kutta step, and some fifty more for each event.
+  [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion,
+                                            const JointVector<joint_count>& effort,
+                                            double step) const noexcept {
+    double rest = step;
+    for (int event = 0; event < most_events && rest > 0; ++event) {
+      if (any_at_stop(motion)) motion = after_impact(motion, Rebound::yes);
+      const Phase phase = phase_at(motion, effort);
+      Motion<joint_count> next = smooth_step(phase, motion, effort, rest);
+      if (!event_between(phase, next)) return next;
+
+      double before = 0, after = rest;  // the event lies in (before, after]
+      while (after - before > std::numeric_limits<double>::epsilon() * step) {
+        const double middle = before + (after - before) / 2;
+        const Motion<joint_count> there = smooth_step(phase, motion, effort, middle);
+        if (event_between(phase, there)) {
+          after = middle;
+          next = there;
+        } else {
+          before = middle;
+        }
+      }
+      motion = settle(phase, next);
+      rest -= after;
+    }
+    if (rest > 0) {  // joints at stops jolt each other ever more often and less: that ends here
+      motion = after_impact(motion, Rebound::no);
+      const Phase phase = phase_at(motion, effort);
+      motion = settle(phase, smooth_step(phase, motion, effort, rest));
+    }
+    return motion;
+  }
+
+ private:
+  static constexpr int most_events = 8 * joint_count;
+
+  /// Whether a joint at its stop may leave it when another one's impact throws it back.
+  enum class Rebound { yes, no };
+
+  /// What stays the same between two events.
+  struct Phase {
+    bool any_held = false;  ///< some joint is held still
+    std::array<bool, static_cast<std::size_t>(joint_count)> held{};
+    /// Friction efforts of the joints that slide [N m or N], N x 1
+    JointVector<joint_count> sliding = JointVector<joint_count>::Zero();
+  };
+
+  [[nodiscard]] bool at_lower(const Motion<joint_count>& m, int j) const noexcept {
+    return m.position[j] <= lower_[j];
+  }
+  [[nodiscard]] bool at_upper(const Motion<joint_count>& m, int j) const noexcept {
+    return m.position[j] >= upper_[j];
+  }
+  [[nodiscard]] bool any_at_stop(const Motion<joint_count>& m) const noexcept {
+    return (m.position.array() <= lower_.array()).any() ||
+           (m.position.array() >= upper_.array()).any();
+  }
+
+  /// The velocity after all joints that run into their stops have hit them. Without rebound, all
+  /// joints that are at a stop come to rest, which takes more energy.
+  [[nodiscard]] Motion<joint_count> after_impact(Motion<joint_count> motion,
+                                                 Rebound rebound) const noexcept {
+    EffortBounds<joint_count> impulse;
+    bool hits = false;
+    for (int j = 0; j < joint_count; ++j) {
+      const bool lower = at_lower(motion, j), upper = at_upper(motion, j);
+      const bool either = (lower || upper) && rebound == Rebound::no;
+      if (lower || either) impulse.upper[j] = JointLimits::infinity;
+      if (upper || either) impulse.lower[j] = -JointLimits::infinity;
+      hits = hits || (lower && motion.velocity[j] < 0) || (upper && motion.velocity[j] > 0);
+    }
+    if (hits) {
+      const JointMatrix<joint_count> m = mass_matrix(robot_, motion.position);
+      motion.velocity =
+          hold_within_bounds<joint_count>(parents_, m, m * motion.velocity, impulse).motion;
+    }
+    return motion;
+  }
+
+  /// Which joints are held from here on, and how friction acts on the others.
+  [[nodiscard]] Phase phase_at(const Motion<joint_count>& motion,
+                               const JointVector<joint_count>& effort) const noexcept {
+    Phase phase;
+    EffortBounds<joint_count> bounds;
+    bool may_hold = false;
+    for (int j = 0; j < joint_count; ++j) {
+      if (motion.velocity[j] != 0) {
+        phase.sliding[j] = motion.velocity[j] > 0 ? -friction_[j] : friction_[j];
+        continue;
+      }
+      bounds.lower[j] = at_upper(motion, j) ? -JointLimits::infinity : -friction_[j];
+      bounds.upper[j] = at_lower(motion, j) ? JointLimits::infinity : friction_[j];
+      may_hold = may_hold || bounds.lower[j] < bounds.upper[j];
+    }
+    if (!may_hold) return phase;
+    const JointVector<joint_count> load =
+        effort + phase.sliding - damping_.cwiseProduct(motion.velocity) -
+        nonlinear_effects(robot_, motion.position, motion.velocity);
+    const auto answer = hold_within_bounds<joint_count>(
+        parents_, mass_matrix(robot_, motion.position), load, bounds);
+    phase.held = answer.held;
+    for (int j = 0; j < joint_count; ++j) {
+      const bool held = answer.held[static_cast<std::size_t>(j)];
+      phase.any_held = phase.any_held || held;
+      const bool breaks_away = !held && bounds.lower[j] < bounds.upper[j];
+      if (breaks_away) phase.sliding[j] = answer.effort[j];
+    }
+    return phase;
+  }
+
+  /// A Runge-Kutta step within one phase.
+  [[nodiscard]] Motion<joint_count> smooth_step(const Phase& phase,
+                                                const Motion<joint_count>& motion,
+                                                const JointVector<joint_count>& effort,
+                                                double step) const noexcept {
+    const JointVector<joint_count> drive = effort + phase.sliding;
+    if (!phase.any_held) {
+      return runge_kutta_step<joint_count>(motion, step, [&](const auto& q, const auto& v) {
+        return forward_dynamics(robot_, q, v, drive - damping_.cwiseProduct(v));
+      });
+    }
+    EffortBounds<joint_count> bounds;
+    for (int j = 0; j < joint_count; ++j) {
+      if (!phase.held[static_cast<std::size_t>(j)]) continue;
+      bounds.lower[j] = -JointLimits::infinity;
+      bounds.upper[j] = JointLimits::infinity;
+    }
+    return runge_kutta_step<joint_count>(motion, step, [&](const auto& q, const auto& v) {
+      const JointVector<joint_count> load =
+          drive - damping_.cwiseProduct(v) - nonlinear_effects(robot_, q, v);
+      return hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), load, bounds).motion;
+    });
+  }
+
+  /// True if a joint has passed its stop, or one that slid against friction has turned back.
+  [[nodiscard]] bool event_between(const Phase& phase,
+                                   const Motion<joint_count>& later) const noexcept {
+    bool event = (later.position.array() < lower_.array()).any() ||
+                 (later.position.array() > upper_.array()).any();
+    if (has_friction_) event = event || (later.velocity.array() * phase.sliding.array() > 0).any();
+    return event;
+  }
+
+  /// Puts joints that have just passed their stop onto it, and brings those that friction has
+  /// stopped to rest.
+  [[nodiscard]] Motion<joint_count> settle(const Phase& phase,
+                                           Motion<joint_count> motion) const noexcept {
+    motion.position = motion.position.cwiseMax(lower_).cwiseMin(upper_);
+    for (int j = 0; j < joint_count; ++j) {
+      if (motion.velocity[j] * phase.sliding[j] > 0) motion.velocity[j] = 0;
+    }
+    return motion;
+  }
+
+  [[no_unique_address]] R robot_;
+  JointVector<joint_count> lower_;
+  JointVector<joint_count> upper_;
+  JointVector<joint_count> damping_;
+  JointVector<joint_count> friction_;
+  JointArray<int, joint_count> parents_;
+  bool has_friction_;
+};
+
+}  // namespace articula
