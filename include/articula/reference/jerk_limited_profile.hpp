@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Motions from point to point, and stops, within limits of velocity, acceleration and jerk.
+#pragma once
+
+#include "articula/core/joint_reference.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/reference/jerk_motion.hpp"
+#include "articula/reference/motion_limits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace articula {
+
+/// A motion of all joints to rest, as a function of the time since it began.
+///
+///     JerkLimitedProfile<Q2d> profile({0, 0}, {-1, 1}, limits);
+///     loop.reference() = profile.sample(loop.next_time());
+///
+/// From rest to rest, each joint would take the least time that its limits allow (rest_to_rest);
+/// all take as long as the slowest. The others' motion is stretched in time by a factor s, which
+/// divides their velocities by s, accelerations by s^2 and jerks by s^3. A stop is the fastest of
+/// each joint alone (fastest_stop). Every sample keeps the limits to the last bit.
+/// @tparam R  the robot
+template <Robot R>
+class JerkLimitedProfile {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Reference = JointReference<joint_count>;
+  using Limits = MotionLimits<joint_count>;
+
+  /// From rest to rest.
+  /// @param from    where it begins [rad or m], N x 1; may be beyond the joints' limits, so that
+  ///                there is a way back
+  /// @param to      where it ends [rad or m], N x 1
+  /// @param limits  V, A, J
+  /// @throws std::invalid_argument if a limit is out of range, a position is not finite, `to` is
+  ///         beyond a joint's limits, or a joint is so slow that it would never arrive; the message
+  ///         names joint, value and limit
+  JerkLimitedProfile(const JointVector<joint_count>& from, const JointVector<joint_count>& to,
+                     const Limits& limits, const R& robot = described<R>()) {
+    validate(limits, robot);
+    detail::check_positions("profile", to, robot);
+    *this = move(from, to, limits);
+    for (int j = 0; j < joint_count; ++j) {
+      if (is_finite(from[j]) && is_finite(duration_)) continue;
+      detail::refuse("profile: from ", from[j], " to ", to[j], " joint '",
+                     joint_names(robot)[static_cast<std::size_t>(j)], "' never arrives");
+    }
+  }
+
+  /// From rest to rest, as the constructor does, for numbers known to be good.
+  /// @param limits  that validate() accepts
+  /// @param effort  feed-forward on the way and after it [N m or N], N x 1
+  /// Real-time: yes. O(N).
+  [[nodiscard]] static JerkLimitedProfile move(
+      const JointVector<joint_count>& from, const JointVector<joint_count>& to,
+      const Limits& limits,
+      const JointVector<joint_count>& effort = JointVector<joint_count>::Zero()) noexcept {
+    JerkLimitedProfile profile;
+    profile.effort_ = effort;
+    for (int j = 0; j < joint_count; ++j) {
+      JerkMotion& motion = profile.motions_[static_cast<std::size_t>(j)];
+      motion =
+          rest_to_rest(from[j], to[j], limits.velocity[j], limits.acceleration[j], limits.jerk[j]);
+      profile.duration_ = std::max(profile.duration_, motion.duration());
+    }
+    for (int j = 0; j < joint_count; ++j) {
+      const double own = profile.motions_[static_cast<std::size_t>(j)].duration();
+      profile.pace_[j] = own < profile.duration_ ? own / profile.duration_ : 1;
+    }
+    return profile;
+  }
+
+  /// The fastest stop, wherever that is. What the reference asked for is where it begins: position,
+  /// velocity and acceleration go on without a jump. The reference's effort stays as it is, for it
+  /// may be what carries the robot. A velocity beyond V only falls, once an acceleration in its
+  /// direction has faded.
+  /// @param from    what the joints were last asked for
+  /// @param limits  that validate() accepts
+  /// Real-time: yes. O(N).
+  [[nodiscard]] static JerkLimitedProfile stop(const Reference& from,
+                                               const Limits& limits) noexcept {
+    JerkLimitedProfile profile;
+    profile.effort_ = from.effort;
+    for (int j = 0; j < joint_count; ++j) {
+      JerkMotion& motion = profile.motions_[static_cast<std::size_t>(j)];
+      motion = fastest_stop({from.position[j], from.velocity[j], from.acceleration[j]},
+                            limits.acceleration[j], limits.jerk[j]);
+      profile.duration_ = std::max(profile.duration_, motion.duration());
+    }
+    return profile;
+  }
+
+  /// When all joints rest [s]. Real-time: yes.
+  [[nodiscard]] double duration() const noexcept { return duration_; }
+
+  /// The reference at a time since the start [s]; before 0 as at 0, from duration() on at rest.
+  /// Real-time: yes. O(N).
+  [[nodiscard]] Reference sample(double time) const noexcept {
+    Reference reference;
+    reference.effort = effort_;
+    for (int j = 0; j < joint_count; ++j) {
+      const JerkMotion& joint = motions_[static_cast<std::size_t>(j)];
+      const double own_time = time < duration_ ? std::max(0.0, time * pace_[j]) : duration_;
+      const JointMotion motion = joint.sample(own_time);
+      reference.position[j] = motion.position;
+      reference.velocity[j] = motion.velocity * pace_[j];
+      reference.acceleration[j] = motion.acceleration * pace_[j] * pace_[j];
+    }
+    return reference;
+  }
+
+ private:
+  JerkLimitedProfile() = default;
+
+  std::array<JerkMotion, static_cast<std::size_t>(joint_count)> motions_{};
+  JointVector<joint_count> pace_ = JointVector<joint_count>::Ones();  ///< own time per time, <= 1
+  JointVector<joint_count> effort_ = JointVector<joint_count>::Zero();
+  double duration_ = 0;
+};
+
+}  // namespace articula

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Signals on the joints of a robot: waves, sums of them, steps, sweeps.
+#pragma once
+
+#include "articula/core/joint_reference.hpp"
+#include "articula/core/name.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/reference/checks.hpp"
+#include "articula/reference/signal.hpp"
+
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <variant>
+
+namespace articula {
+
+/// What a signal is added to.
+enum class SignalTarget : unsigned char {
+  position,  ///< the reference's position, with its derivatives in velocity and acceleration
+  effort,    ///< the reference's effort: open-loop excitation under Bypass, feed-forward elsewhere
+};
+
+/// A signal on a joint.
+struct JointSignal {
+  Name joint{};
+  Signal signal{};
+  SignalTarget target = SignalTarget::position;
+};
+
+/// The sum of any number of signals on each joint:
+///
+///     JointSignals<Q2d> waves({{"shoulder_active_joint", SineSignal{.amplitude = 0.5,
+///                                                                   .frequency = 1}}});
+///
+/// Joints without a signal stay at `around`. A position beyond the joint's limits is kept at the
+/// limit, with velocity and acceleration 0. A time that is not finite gives NaN, which a loop
+/// refuses.
+/// @tparam R         the robot
+/// @tparam Capacity  most signals there can be, all joints together
+template <Robot R, int Capacity = 32>
+class JointSignals {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  /// @param signals  in any order; those of one joint add up
+  /// @param around   what they are added to
+  /// @throws std::invalid_argument if there are too many signals, a joint is unknown, a signal
+  ///         cannot be evaluated, or `around` is not finite or beyond a joint's limits; the message
+  ///         names joint and signal
+  explicit JointSignals(std::span<const JointSignal> signals,
+                        const JointReference<joint_count>& around = {},
+                        const R& robot = described<R>())
+      : around_(around),
+        lower_(joint_values(robot, [](const auto& joint) { return joint.limits.lower; })),
+        upper_(joint_values(robot, [](const auto& joint) { return joint.limits.upper; })) {
+    detail::check_positions("signals", around.position, robot);
+    if (!is_finite(around)) detail::refuse("signals: what they are added to is not finite");
+    if (signals.size() > entries_.size()) {
+      detail::refuse("signals: ", signals.size(), " are more than the capacity, ", Capacity);
+    }
+    for (const JointSignal& s : signals) {
+      const auto fault = std::visit([](const auto& signal) { return signal.fault(); }, s.signal);
+      if (!fault.empty()) {
+        detail::refuse("signals: number ", size_ + 1, ", on joint '", s.joint.view(), "': ", fault);
+      }
+      entries_[size_++] = {joint_index(robot, s.joint), s.signal, s.target};
+    }
+  }
+  explicit JointSignals(std::initializer_list<JointSignal> signals,
+                        const JointReference<joint_count>& around = {},
+                        const R& robot = described<R>())
+      : JointSignals(std::span(signals.begin(), signals.size()), around, robot) {}
+
+  /// The reference at a time [s]. Real-time: yes. O(N + number of signals).
+  [[nodiscard]] JointReference<joint_count> sample(double time) const noexcept {
+    JointReference<joint_count> reference = around_;
+    if (!is_finite(time)) {
+      reference.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+      return reference;
+    }
+    for (std::size_t k = 0; k < size_; ++k) {
+      const Entry& entry = entries_[k];
+      const SignalValue x =
+          std::visit([&](const auto& signal) { return signal.sample(time); }, entry.signal);
+      if (entry.target == SignalTarget::effort) {
+        reference.effort[entry.joint] += x.value;
+      } else {
+        reference.position[entry.joint] += x.value;
+        reference.velocity[entry.joint] += x.rate;
+        reference.acceleration[entry.joint] += x.acceleration;
+      }
+    }
+    for (int j = 0; j < joint_count; ++j) {
+      if (reference.position[j] >= lower_[j] && reference.position[j] <= upper_[j]) continue;
+      reference.position[j] = reference.position[j] < lower_[j] ? lower_[j] : upper_[j];
+      reference.velocity[j] = reference.acceleration[j] = 0;
+    }
+    return reference;
+  }
+
+ private:
+  struct Entry {
+    int joint = 0;
+    Signal signal{};
+    SignalTarget target = SignalTarget::position;
+  };
+
+  JointReference<joint_count> around_;
+  JointVector<joint_count> lower_;
+  JointVector<joint_count> upper_;
+  std::array<Entry, static_cast<std::size_t>(Capacity)> entries_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace articula

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Trajectories as messages and files have them: joints by name, in any order.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/reference/trajectory.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace articula {
+
+/// One point; the members are those of trajectory_msgs/JointTrajectoryPoint. Each array is empty or
+/// has a number for each joint.
+struct NamedTrajectoryPoint {
+  double time_from_start = 0;           ///< [s]
+  std::vector<double> positions{};      ///< [rad or m]
+  std::vector<double> velocities{};     ///< [rad/s or m/s]
+  std::vector<double> accelerations{};  ///< [rad/s^2 or m/s^2]
+  std::vector<double> effort{};         ///< [N m or N]
+};
+
+/// A trajectory with the members of trajectory_msgs/JointTrajectory.
+struct NamedTrajectory {
+  std::vector<std::string> joint_names{};
+  std::vector<NamedTrajectoryPoint> points{};
+};
+
+/// What is done about numbers that a named trajectory leaves out.
+template <int N>
+struct ArrangeOptions {
+  TrajectoryOptions trajectory{};
+  /// Joints that are not named stay at the position of `from`; otherwise they are missed.
+  bool allow_partial_joints = false;
+  /// Positions (and velocities) that are not given are integrated from velocities (and
+  /// accelerations) by Heun's method, from `from` on at time 0; otherwise they are missed.
+  bool allow_integration = false;
+  JointReference<N> from{};  ///< what the joints are asked for at present
+};
+
+/// Puts a named trajectory in the order of a robot's joints.
+/// @tparam Capacity  most points there can be
+/// @throws TrajectoryError: invalid_joints if a name is unknown or used twice or a joint is not
+///         named; invalid_goal if an array has another length than the names, positions are not
+///         given, or Trajectory refuses the rest; the message names point and joint
+/// Real-time: no (throws, allocates).
+template <int Capacity = 32, Robot R>
+[[nodiscard]] Trajectory<R, Capacity> arrange(const NamedTrajectory& named, const R& robot,
+                                              const ArrangeOptions<joint_count<R>>& options = {}) {
+  constexpr int n = joint_count<R>;
+  const auto refuse = [](TrajectoryOutcome outcome, const auto&... parts) {
+    std::ostringstream message;
+    (message << ... << parts);
+    throw TrajectoryError(outcome, message.str());
+  };
+  const auto names = joint_names(robot);
+  std::array<std::optional<std::size_t>, static_cast<std::size_t>(n)> column{};
+  for (std::size_t c = 0; c < named.joint_names.size(); ++c) {
+    const std::string& name = named.joint_names[c];
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      refuse(TrajectoryOutcome::invalid_joints, "the robot has no free joint '", name, "'");
+    }
+    auto& mine = column[static_cast<std::size_t>(found - names.begin())];
+    if (mine) refuse(TrajectoryOutcome::invalid_joints, "joint '", name, "' is named twice");
+    mine = c;
+  }
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    if (column[j] || options.allow_partial_joints) continue;
+    refuse(TrajectoryOutcome::invalid_joints, "joint '", names[j], "' is not named");
+  }
+
+  std::vector<TrajectoryPoint<n>> points;
+  double time = 0;
+  JointReference<n> last = options.from;
+  for (std::size_t k = 0; k < named.points.size(); ++k) {
+    const NamedTrajectoryPoint& given = named.points[k];
+    const auto arranged = [&](const char* what, const std::vector<double>& values,
+                              const JointVector<n>& others) -> std::optional<JointVector<n>> {
+      if (values.empty()) return std::nullopt;
+      if (values.size() != named.joint_names.size()) {
+        refuse(TrajectoryOutcome::invalid_goal, "point ", k + 1, ": ", values.size(), " ", what,
+               " for ", named.joint_names.size(), " joints");
+      }
+      JointVector<n> result = others;
+      for (int j = 0; j < n; ++j) {
+        const auto& mine = column[static_cast<std::size_t>(j)];
+        if (mine) result[j] = values[*mine];
+      }
+      return result;
+    };
+    const JointVector<n> zero = JointVector<n>::Zero();
+    TrajectoryPoint<n> point{.time_from_start = given.time_from_start};
+    const auto position = arranged("positions", given.positions, options.from.position);
+    point.velocity = arranged("velocities", given.velocities, zero);
+    point.acceleration = arranged("accelerations", given.accelerations, zero);
+    point.effort = arranged("efforts", given.effort, zero).value_or(zero);
+    if (position) {
+      point.position = *position;
+    } else {
+      if (!options.allow_integration || (!point.velocity && !point.acceleration)) {
+        refuse(TrajectoryOutcome::invalid_goal, "point ", k + 1, " has no positions");
+      }
+      const double half = (given.time_from_start - time) / 2;
+      if (!point.velocity) {
+        point.velocity = last.velocity + half * (last.acceleration + *point.acceleration);
+      }
+      point.position = last.position + half * (last.velocity + *point.velocity);
+    }
+    time = given.time_from_start;
+    last = at_point(point);
+    points.push_back(point);
+  }
+  return Trajectory<R, Capacity>(points, options.trajectory, robot);
+}
+
+}  // namespace articula

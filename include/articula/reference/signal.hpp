@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Functions of time to excite or move a joint with: step, ramp, sine, chirp.
+#pragma once
+
+#include "articula/core/finite.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <string_view>
+#include <variant>
+
+namespace articula {
+
+/// A signal at one moment. Its unit is that of what the signal drives: rad or m for a position, N m
+/// or N for an effort.
+struct SignalValue {
+  double value = 0;         ///< [unit]
+  double rate = 0;          ///< first derivative [unit/s]
+  double acceleration = 0;  ///< second derivative [unit/s^2]
+};
+
+/// x(t) = height from `start` on, 0 before.
+struct StepSignal {
+  double height = 0;  ///< [unit]
+  double start = 0;   ///< [s]
+
+  /// Real-time: yes.
+  [[nodiscard]] SignalValue sample(double time) const noexcept {
+    return {time < start ? 0 : height};
+  }
+  /// What is wrong with it; empty if nothing.
+  [[nodiscard]] std::string_view fault() const noexcept {
+    return is_finite(height) && is_finite(start) ? "" : "a member is not a finite number";
+  }
+};
+
+/// A straight line from 0 to `height`, which is held from then on.
+struct RampSignal {
+  double height = 0;    ///< [unit]
+  double duration = 1;  ///< [s], > 0
+  double start = 0;     ///< [s]
+
+  /// Real-time: yes.
+  [[nodiscard]] SignalValue sample(double time) const noexcept {
+    const double share = (time - start) / duration;
+    if (share <= 0) return {};
+    if (share >= 1) return {height};
+    return {height * share, height / duration};
+  }
+  /// What is wrong with it; empty if nothing.
+  [[nodiscard]] std::string_view fault() const noexcept {
+    if (!is_finite(height) || !is_finite(duration) || !is_finite(start)) {
+      return "a member is not a finite number";
+    }
+    if (!(duration > 0)) return "the duration is not positive";
+    return is_finite(height / duration) ? "" : "the slope is infinite";
+  }
+};
+
+/// x(t) = offset + amplitude sin(2 pi frequency t + phase), at all times.
+struct SineSignal {
+  double amplitude = 0;  ///< [unit]
+  double frequency = 0;  ///< [Hz]
+  double phase = 0;      ///< [rad]
+  double offset = 0;     ///< [unit]
+
+  /// Whole turns are taken off first, so that it is as exact after a year as at the start.
+  /// Real-time: yes.
+  [[nodiscard]] SignalValue sample(double time) const noexcept {
+    const double turns = frequency * time, omega = 2 * std::numbers::pi * frequency;
+    const double angle = 2 * std::numbers::pi * (turns - std::floor(turns)) + phase;
+    const double sine = amplitude * std::sin(angle);
+    return {offset + sine, amplitude * omega * std::cos(angle), -sine * omega * omega};
+  }
+  /// What is wrong with it; empty if nothing.
+  [[nodiscard]] std::string_view fault() const noexcept {
+    for (const double x : {amplitude, frequency, phase, offset}) {
+      if (!is_finite(x)) return "a member is not a finite number";
+    }
+    const double omega = 2 * std::numbers::pi * frequency;
+    return is_finite(amplitude * omega * omega) ? "" : "the acceleration is infinite";
+  }
+};
+
+/// A sine whose frequency grows (or falls) exponentially, a logarithmic sweep [Farina 2000]: with
+/// t from the start, w1 = 2 pi first_frequency, k = ln(last_frequency / first_frequency)/duration,
+///
+///     x(t) = amplitude sin((w1/k) (exp(k t) - 1)).
+///
+/// After `duration` the last frequency goes on to the next zero of the sine, and x stays 0 then:
+/// it neither jumps nor leaves a joint under effort.
+struct ChirpSignal {
+  double amplitude = 0;        ///< [unit]
+  double first_frequency = 1;  ///< [Hz], > 0
+  double last_frequency = 1;   ///< [Hz], > 0
+  double duration = 1;         ///< [s], > 0
+  double start = 0;            ///< [s]
+
+  /// Real-time: yes.
+  [[nodiscard]] SignalValue sample(double time) const noexcept {
+    const double t = time - start;
+    if (t < 0) return {};
+    const double growth = std::log(last_frequency / first_frequency) / duration;
+    double angle = angle_at(std::min(t, duration), growth), slope = growth;
+    double omega = 2 * std::numbers::pi * first_frequency * std::exp(growth * t);
+    if (t > duration) {
+      const double zero = std::numbers::pi * std::ceil(angle / std::numbers::pi);
+      omega = 2 * std::numbers::pi * last_frequency;
+      slope = 0;
+      angle += omega * (t - duration);
+      if (angle >= zero) return {};
+    }
+    const double sine = amplitude * std::sin(angle), cosine = amplitude * std::cos(angle);
+    return {sine, omega * cosine, slope * omega * cosine - omega * omega * sine};
+  }
+  /// What is wrong with it; empty if nothing.
+  [[nodiscard]] std::string_view fault() const noexcept {
+    for (const double x : {amplitude, first_frequency, last_frequency, duration, start}) {
+      if (!is_finite(x)) return "a member is not a finite number";
+    }
+    if (!(first_frequency > 0) || !(last_frequency > 0)) return "a frequency is not positive";
+    if (!(duration > 0)) return "the duration is not positive";
+    const double omega = 2 * std::numbers::pi * std::max(first_frequency, last_frequency);
+    const bool moderate = is_finite(amplitude * omega * omega) && is_finite(omega * duration) &&
+                          is_finite(std::log(last_frequency / first_frequency) / duration);
+    return moderate ? "" : "the acceleration or the number of turns is infinite";
+  }
+
+ private:
+  /// (w1/k) (exp(k t) - 1), and its limit w1 t where both frequencies are the same.
+  [[nodiscard]] double angle_at(double t, double growth) const noexcept {
+    const double omega = 2 * std::numbers::pi * first_frequency;
+    return growth == 0 ? omega * t : omega * std::expm1(growth * t) / growth;
+  }
+};
+
+/// Any of them.
+using Signal = std::variant<StepSignal, RampSignal, SineSignal, ChirpSignal>;
+
+}  // namespace articula

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Running a motion slower or faster while it runs.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/core/joint_reference.hpp"
+#include "articula/reference/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace articula {
+
+/// A clock for a motion that can be slowed down, stopped and sped up while it runs. With the speed
+/// f, the motion's own time s and the reference r(s),
+///
+///     ds/dt = f,  position r,  velocity f r',  acceleration f^2 r'' + (df/dt) r'.
+///
+/// f follows what is asked for at a bounded rate, so that velocities do not jump.
+///
+///     override.advance(loop.period());
+///     loop.reference() = override.apply(waves.sample(override.time()));
+class SpeedOverride {
+ public:
+  /// @param rate  |df/dt| while f changes [1/s]
+  /// @throws std::invalid_argument if it is not between 1e-9 and 1e9
+  explicit SpeedOverride(double rate = 2) : rate_(rate) {
+    if (!is_finite(rate) || rate < 1e-9 || rate > 1e9) {
+      detail::refuse("speed override: rate ", rate, " 1/s is not between 1e-9 and 1e9");
+    }
+  }
+
+  /// Asks for a speed: 1 is the motion as it is, 0 a pause. What is not a finite number, or is
+  /// negative, asks for a pause. Real-time: yes.
+  void set(double speed) noexcept { target_ = is_finite(speed) ? std::max(0.0, speed) : 0.0; }
+
+  /// Lets time pass.
+  /// @param period  [s]; nothing happens unless it is finite and positive
+  /// Real-time: yes.
+  void advance(double period) noexcept {
+    if (!is_finite(period) || period <= 0) return;
+    const double change = target_ - speed_;
+    const double changing = std::min(period, std::abs(change) / rate_);
+    slope_ = changing < period ? 0 : std::copysign(rate_, change);
+    const double before = speed_;
+    speed_ = changing < period ? target_ : speed_ + slope_ * period;
+    time_ += changing * (before + speed_) / 2 + (period - changing) * speed_;
+  }
+
+  /// s, the motion's own time [s]. Real-time: yes.
+  [[nodiscard]] double time() const noexcept { return time_; }
+  /// Puts the motion's own time to a value [s]. Real-time: yes.
+  void restart(double time) noexcept { time_ = time; }
+  /// f at this moment. Real-time: yes.
+  [[nodiscard]] double speed() const noexcept { return speed_; }
+
+  /// A reference in the motion's own time, as one in the time of the joints. Real-time: yes.
+  template <int N>
+  [[nodiscard]] JointReference<N> apply(JointReference<N> reference) const noexcept {
+    reference.acceleration = speed_ * speed_ * reference.acceleration + slope_ * reference.velocity;
+    reference.velocity *= speed_;
+    return reference;
+  }
+
+  /// The other way round; for a speed of 0 velocity and acceleration are 0. Real-time: yes.
+  template <int N>
+  [[nodiscard]] JointReference<N> unapply(JointReference<N> reference) const noexcept {
+    if (speed_ > 0) {
+      reference.velocity /= speed_;
+      reference.acceleration =
+          (reference.acceleration - slope_ * reference.velocity) / (speed_ * speed_);
+    } else {
+      reference.velocity.setZero();
+      reference.acceleration.setZero();
+    }
+    return reference;
+  }
+
+ private:
+  double rate_;
+  double target_ = 1;
+  double speed_ = 1;
+  double slope_ = 0;  ///< df/dt
+  double time_ = 0;
+};
+
+}  // namespace articula

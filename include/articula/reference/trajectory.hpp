@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A motion through points at given times.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/reference/trajectory_outcome.hpp"
+#include "articula/reference/trajectory_point.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <sstream>
+
+namespace articula {
+
+/// What lies between the points of a trajectory.
+enum class Interpolation : unsigned char {
+  splines,  ///< a polynomial, see interpolate()
+  none,     ///< nothing: the next point holds from the last one on
+};
+
+/// How a trajectory is to be understood.
+struct TrajectoryOptions {
+  Interpolation interpolation = Interpolation::splines;
+  bool allow_motion_at_end = false;  ///< the last point may have a velocity
+};
+
+/// A motion through points at given times, checked and ready to be sampled:
+///
+///     Trajectory<Q2d> trajectory({{.time_from_start = 0, .position = {0, 0}},
+///                                 {.time_from_start = 1, .position = {-1, 1}}});
+///     loop.reference() = trajectory.sample(loop.next_time());
+///
+/// It begins at its first point, wherever the robot is; a TrajectoryFollower goes from where the
+/// robot is asked to be now, watches tolerances, and can be canceled.
+/// @tparam R         the robot
+/// @tparam Capacity  most points there can be
+template <Robot R, int Capacity = 32>
+class Trajectory {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Point = TrajectoryPoint<joint_count>;
+  using Reference = JointReference<joint_count>;
+  // g++ 12 crashes on a list of points whose default members it has not met before.
+  static_assert(noexcept(Point{}) || true);
+  static_assert(Capacity >= 1, "a trajectory has at least one point");
+
+  /// @param points   in the order of time
+  /// @param options  what lies between them
+  /// @throws TrajectoryError (invalid_goal) if there is no point or too many, a time is negative or
+  ///         not after the one before, a number is not finite or overflows, a position is beyond
+  ///         the joint's limits, a velocity or the mean velocity to a point above its limit, or
+  ///         the last velocity is not zero; the message names point, joint, value and limit
+  explicit Trajectory(std::span<const Point> points, const TrajectoryOptions& options = {},
+                      const R& robot = described<R>())
+      : options_(options), size_(points.size()) {
+    if (points.empty()) refuse("it has no point");
+    if (points.size() > points_.size()) {
+      refuse(points.size(), " points are more than the capacity, ", Capacity);
+    }
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      check_time(points, k);
+      check_numbers(points[k], k, robot);
+      if (k > 0 && options.interpolation == Interpolation::splines) check_way(points, k, robot);
+    }
+    if (!options.allow_motion_at_end) check_end(points.back(), robot);
+    std::copy(points.begin(), points.end(), points_.begin());
+  }
+  explicit Trajectory(std::initializer_list<Point> points, const TrajectoryOptions& options = {},
+                      const R& robot = described<R>())
+      : Trajectory(std::span(points.begin(), points.size()), options, robot) {}
+
+  [[nodiscard]] std::span<const Point> points() const noexcept { return {points_.data(), size_}; }
+  [[nodiscard]] Interpolation interpolation() const noexcept { return options_.interpolation; }
+  /// The time of the last point [s]. Real-time: yes.
+  [[nodiscard]] double duration() const noexcept { return points().back().time_from_start; }
+
+  /// The reference at a time since the start [s]. Until the first point it is that point's position
+  /// at rest, from the last one on the last one's, with its effort. A time that is not finite gives
+  /// NaN, which a loop refuses.
+  /// Real-time: yes. O(N + log Capacity).
+  [[nodiscard]] Reference sample(double time) const noexcept {
+    Reference reference;
+    if (!is_finite(time)) {
+      reference.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+      return reference;
+    }
+    const std::size_t next = next_point(time);
+    if (next > 0 && next < size_) return between(points_[next - 1], points_[next], time);
+    const Point& edge = next == 0 ? points_[0] : points_[size_ - 1];
+    reference.position = edge.position;
+    reference.effort = edge.effort;
+    return reference;
+  }
+
+  /// The index of the first point after a time [s]; the number of points if there is none.
+  /// Real-time: yes. O(log Capacity).
+  [[nodiscard]] std::size_t next_point(double time) const noexcept {
+    const auto all = points();
+    const auto later = [](double t, const Point& point) { return t < point.time_from_start; };
+    return static_cast<std::size_t>(std::upper_bound(all.begin(), all.end(), time, later) -
+                                    all.begin());
+  }
+
+  /// The reference between two points at a time since the start [s], with this trajectory's
+  /// interpolation. Real-time: yes. O(N).
+  [[nodiscard]] Reference between(const Point& a, const Point& b, double time) const noexcept {
+    if (options_.interpolation == Interpolation::none) return at_point(b);
+    return interpolate(a, b, time - a.time_from_start);
+  }
+
+ private:
+  template <class... Parts>
+  [[noreturn]] static void refuse(const Parts&... parts) {
+    std::ostringstream message;
+    (message << ... << parts);
+    throw TrajectoryError(TrajectoryOutcome::invalid_goal, message.str());
+  }
+
+  static void check_time(std::span<const Point> points, std::size_t k) {
+    const double time = points[k].time_from_start;
+    if (!is_finite(time) || time < 0) {
+      refuse("point ", k + 1, ": time_from_start ", time, " s is not a number >= 0");
+    }
+    if (k > 0 && !(time > points[k - 1].time_from_start)) {
+      refuse("point ", k + 1, ": time_from_start ", time,
+             " s is not after that of the point before, ", points[k - 1].time_from_start, " s");
+    }
+  }
+
+  static void check_numbers(const Point& point, std::size_t k, const R& robot) {
+    for (int j = 0; j < joint_count; ++j) {
+      const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+      const auto complain = [&](const char* what, double value, const auto&... reason) {
+        refuse("point ", k + 1, " at ", point.time_from_start, " s: ", what, " ", value,
+               " of joint '", joint.name.view(), "' ", reason...);
+      };
+      const auto check_finite = [&](const char* what, double value) {
+        if (!is_finite(value)) complain(what, value, "is not a finite number");
+      };
+      check_finite("position", point.position[j]);
+      check_finite("effort", point.effort[j]);
+      if (point.acceleration) check_finite("acceleration", (*point.acceleration)[j]);
+      if (point.position[j] < joint.limits.lower || point.position[j] > joint.limits.upper) {
+        complain("position", point.position[j], "is outside its limits ", joint.limits.lower,
+                 " .. ", joint.limits.upper);
+      }
+      if (!point.velocity) continue;
+      check_finite("velocity", (*point.velocity)[j]);
+      if (std::abs((*point.velocity)[j]) > joint.limits.velocity) {
+        complain("velocity", (*point.velocity)[j], "is above its limit ", joint.limits.velocity);
+      }
+    }
+  }
+
+  static void check_way(std::span<const Point> points, std::size_t k, const R& robot) {
+    const Point &a = points[k - 1], &b = points[k];
+    for (int j = 0; j < joint_count; ++j) {
+      const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+      const double speed =
+          std::abs(b.position[j] - a.position[j]) / (b.time_from_start - a.time_from_start);
+      if (is_finite(speed) && speed <= joint.limits.velocity * (1 + 1e-9)) continue;  // rounding
+      refuse("point ", k + 1, " at ", b.time_from_start, " s: joint '", joint.name.view(),
+             "' would need a mean velocity of ", speed, " from the point before, its limit is ",
+             joint.limits.velocity);
+    }
+    const double period = b.time_from_start - a.time_from_start;
+    if (!is_finite(interpolate(a, b, period / 2)) || !is_finite(interpolate(a, b, period))) {
+      refuse("point ", k + 1, " at ", b.time_from_start,
+             " s: the way from the point before overflows");
+    }
+  }
+
+  static void check_end(const Point& last, const R& robot) {
+    if (!last.velocity) return;
+    constexpr double still = 0x1p-23;  // ROS's bound: the resolution of a float
+    for (int j = 0; j < joint_count; ++j) {
+      if (std::abs((*last.velocity)[j]) <= still) continue;
+      refuse("the last point moves: velocity ", (*last.velocity)[j], " of joint '",
+             joint_names(robot)[static_cast<std::size_t>(j)], "' is not 0");
+    }
+  }
+
+  std::array<Point, static_cast<std::size_t>(Capacity)> points_{};
+  TrajectoryOptions options_;
+  std::size_t size_;
+};
+
+}  // namespace articula
