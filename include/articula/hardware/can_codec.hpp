@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a codec is: the language of an arm's drives on a CAN bus, without the bus.
+#pragma once
+
+#include "articula/core/joint_command.hpp"
+#include "articula/hardware/can_batch.hpp"
+
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+namespace articula {
+
+/// Which frames a codec wants to hear, and what it sends in a cycle. All in base format (11 bits).
+struct CanSubscription {
+  std::vector<std::uint32_t> identifiers{};  ///< the drives' frames
+  std::uint32_t last_of_cycle = 0;           ///< of the frame with which each cycle's output ends
+  std::size_t frames_per_cycle = 0;          ///< how many frames that output has
+};
+
+/// What a drive last said of itself and its joint.
+struct DriveReport {
+  static constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
+
+  double position = 0;        ///< q [rad or m]
+  double velocity = 0;        ///< v [rad/s or m/s]
+  double effort = 0;          ///< measured effort [N m or N]
+  std::uint32_t age = never;  ///< cycles begun since the one that the figures above belong to
+  bool enabled = false;       ///< follows commands
+  std::uint16_t fault = 0;    ///< the protocol's own fault code, 0 if there is none
+};
+
+/// What a codec made of a frame.
+enum class [[nodiscard]] CanDecoding : unsigned char{
+    accepted,   ///< A drive's frame, taken into its report.
+    outdated,   ///< A drive's well-formed frame that is too old to be of use.
+    foreign,    ///< A frame of nobody that the codec knows.
+    malformed,  ///< Has a drive's identifier, but the content makes no sense.
+};
+
+/// How far the set-up of the drives is.
+enum class [[nodiscard]] CanSetUp : unsigned char{
+    in_progress,  ///< Go on.
+    done,         ///< All drives are enabled at zero effort (or where they are) and report it.
+    failed,       ///< A drive has refused.
+};
+
+/// The language of an arm's drives: turns commands into frames and frames into reports. It has no
+/// clock, no bus and no threads.
+///
+/// - `subscription()` tells which frames matter.
+/// - `restart()` forgets all: the drives' condition is unknown from here on.
+/// - `set_up(elapsed, batch)` appends the frames that bring the drives a step nearer to being
+///   enabled; it is called about once a cycle, `elapsed` since `restart`, until it says done.
+/// - `encode(command, batch)` begins a cycle: appends the frames that hand it to the drives.
+/// - `encode_stop(batch)` begins a cycle in which all drives are to let go: no effort, disabled.
+/// - `decode(frame)` takes in a frame. It is total: any frame gives an answer.
+/// - `reports()` tells what is known of each drive, in the order of the joints.
+///
+/// Everything but `subscription` is noexcept and real-time.
+/// @tparam C  the codec
+template <class C>
+concept CanCodec = JointCommand<typename C::Command, C::joint_count> &&
+    requires(C codec, const C& constant, const typename C::Command& command, const CanFrame& frame,
+             std::chrono::nanoseconds elapsed, CanBatch& batch) {
+  { constant.subscription() } -> std::same_as<CanSubscription>;
+  { codec.restart() }
+  noexcept;
+  { codec.set_up(elapsed, batch) }
+  noexcept->std::same_as<CanSetUp>;
+  { codec.encode(command, batch) }
+  noexcept;
+  { codec.encode_stop(batch) }
+  noexcept;
+  { codec.decode(frame) }
+  noexcept->std::same_as<CanDecoding>;
+  { constant.reports() }
+  noexcept
+      ->std::convertible_to<std::span<const DriveReport, static_cast<std::size_t>(C::joint_count)>>;
+};
+
+}  // namespace articula

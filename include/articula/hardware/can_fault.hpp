@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What can go wrong between a loop and its drives.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace articula {
+
+/// Why the drives were told to let go.
+enum class CanCause : unsigned char {
+  none,           ///< All is well.
+  no_activation,  ///< The drives could not be enabled in time, or one has refused.
+  link_down,      ///< The interface is switched off.
+  link_gone,      ///< The interface does not exist any more.
+  bus_off,        ///< The controller has left the bus after too many errors.
+  not_sent,       ///< The bus has not taken our frames for too many cycles.
+  drive_silent,   ///< A drive's feedback is missing for too many cycles.
+  drive_fault,    ///< A drive reports a fault.
+  drive_let_go,   ///< A drive reports that it does not follow commands, without a fault.
+};
+
+/// What went wrong first, and where.
+struct CanFault {
+  CanCause cause = CanCause::none;
+  int joint = -1;          ///< index of the joint whose drive it was; -1 if it was no drive
+  std::uint16_t code = 0;  ///< the drive's own fault code; 0 if it gave none
+};
+
+/// The cause in words, for messages and logs. Real-time: yes.
+[[nodiscard]] constexpr std::string_view to_string(CanCause cause) noexcept {
+  switch (cause) {
+    case CanCause::none:
+      return "no fault";
+    case CanCause::no_activation:
+      return "the drives could not be enabled";
+    case CanCause::link_down:
+      return "the CAN interface is down";
+    case CanCause::link_gone:
+      return "the CAN interface is gone";
+    case CanCause::bus_off:
+      return "the CAN controller is bus-off";
+    case CanCause::not_sent:
+      return "the CAN bus does not take frames";
+    case CanCause::drive_silent:
+      return "a drive is silent";
+    case CanCause::drive_fault:
+      return "a drive reports a fault";
+    case CanCause::drive_let_go:
+      return "a drive has let go";
+  }
+  return "unknown fault";
+}
+
+}  // namespace articula

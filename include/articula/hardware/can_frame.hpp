@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A CAN frame as a value, without any bus.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace articula {
+
+/// A classical CAN data frame [ISO 11898-1]. Remote frames and CAN FD are not used.
+struct CanFrame {
+  std::uint32_t identifier = 0;        ///< 11 bits, or 29 if extended; the lower one wins the bus
+  bool extended = false;               ///< has a 29 bit identifier
+  std::uint8_t length = 0;             ///< bytes of data, 0 .. 8
+  std::array<std::uint8_t, 8> data{};  ///< payload; bytes beyond `length` are 0
+
+  friend constexpr bool operator==(const CanFrame&, const CanFrame&) = default;
+};
+
+/// True for a frame that can be on a bus: identifier and length within their ranges.
+/// Real-time: yes.
+[[nodiscard]] constexpr bool is_valid(const CanFrame& frame) noexcept {
+  return frame.identifier < (frame.extended ? 1U << 29 : 1U << 11) && frame.length <= 8;
+}
+
+/// The most bits that a frame can take on the bus, stuff bits and interframe space included:
+/// g + 8 n + 13 + floor((g + 8 n - 1) / 4), n bytes of data, g = 34 or, extended, 54
+/// [Davis et al. 2007, eq. 1]. Divided by the bit rate this is its longest time on the bus.
+/// Real-time: yes.
+[[nodiscard]] constexpr int worst_case_bits(const CanFrame& frame) noexcept {
+  const int stuffed = (frame.extended ? 54 : 34) + 8 * frame.length;
+  return stuffed + 13 + (stuffed - 1) / 4;
+}
+
+/// Reads an integer from a payload, least significant byte first.
+/// @tparam T       type of the result; signed types are sign-extended
+/// @tparam Offset  first byte
+/// @tparam Bytes   number of bytes
+/// Real-time: yes.
+template <class T, std::size_t Offset, std::size_t Bytes = sizeof(T)>
+[[nodiscard]] constexpr T load_little_endian(const std::array<std::uint8_t, 8>& data) noexcept {
+  static_assert(Bytes <= sizeof(T) && Bytes <= 4 && Offset + Bytes <= 8);
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < Bytes; ++i) bits |= std::uint32_t{data[Offset + i]} << (8 * i);
+  constexpr std::uint32_t sign = std::uint32_t{1} << (8 * Bytes - 1);
+  if constexpr (T(-1) < T(0)) {
+    // Subtracting twice the sign bit's weight extends it; in unsigned arithmetic nothing overflows.
+    const std::uint32_t extended = (bits ^ sign) - sign;
+    return static_cast<T>(static_cast<std::int32_t>(extended));
+  } else {
+    return static_cast<T>(bits);
+  }
+}
+
+/// Writes the low bytes of an integer into a payload, least significant byte first.
+/// @tparam Offset  first byte
+/// @tparam Bytes   number of bytes
+/// Real-time: yes.
+template <std::size_t Offset, std::size_t Bytes, class T>
+constexpr void store_little_endian(std::array<std::uint8_t, 8>& data, T value) noexcept {
+  static_assert(Bytes <= 4 && Offset + Bytes <= 8);
+  const auto bits = static_cast<std::uint32_t>(value);
+  for (std::size_t i = 0; i < Bytes; ++i) {
+    data[Offset + i] = static_cast<std::uint8_t>(bits >> (8 * i) & 0xff);
+  }
+}
+
+}  // namespace articula

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A robot whose drives are on a CAN bus.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/core/hardware.hpp"
+#include "articula/hardware/can_codec.hpp"
+#include "articula/hardware/can_fault.hpp"
+#include "articula/hardware/can_hardware_options.hpp"
+#include "articula/hardware/can_transport.hpp"
+#include "articula/model/robot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <utility>
+
+namespace articula {
+
+/// A robot whose drives are on a CAN bus.
+///
+/// `write` sends the commands of a cycle and the frame that puts them into force; the drives answer
+/// with feedback, which the next `read` takes in. Where the feedback of some joint is missing, its
+/// last one is used until it is too old. When something is wrong for good (see CanCause) while the
+/// drives are active, they are told to let go, in every cycle from then on, until `activate`
+/// succeeds again: nothing starts to move by itself. docs/hardware.md has a table of all faults.
+/// @tparam R          the robot
+/// @tparam Codec      the language of its drives
+/// @tparam Transport  the way to the bus
+template <Robot R, CanCodec Codec, CanTransport Transport>
+class CanHardware {
+ public:
+  using RobotType = R;
+  using Command = typename Codec::Command;
+  static constexpr int joint_count = articula::joint_count<R>;
+  static_assert(Codec::joint_count == joint_count, "the codec is for another number of joints");
+
+  /// @param codec      the drives' language
+  /// @param transport  the way to the bus
+  /// @throws std::invalid_argument as validate(options) says
+  explicit CanHardware(Codec codec, Transport transport, const CanHardwareOptions& options = {},
+                       const R& robot = described<R>())
+      : robot_(robot),
+        codec_(std::move(codec)),
+        transport_(std::move(transport)),
+        options_(options) {
+    validate(options);
+  }
+
+  /// The one that is moved from has no drives any more.
+  CanHardware(CanHardware&& other) noexcept
+      : robot_(other.robot_),
+        codec_(std::move(other.codec_)),
+        transport_(std::move(other.transport_)),
+        options_(other.options_),
+        mode_(std::exchange(other.mode_, Mode::inactive)),
+        fault_(other.fault_),
+        dropped_(other.dropped_),
+        not_sent_(other.not_sent_),
+        feedback_time_(other.feedback_time_),
+        statistics_(other.statistics_) {}
+  CanHardware& operator=(CanHardware&&) = delete;
+
+  /// Drives that are active are told to let go.
+  ~CanHardware() {
+    if (mode_ != Mode::inactive) static_cast<void>(deactivate());
+  }
+
+  /// Opens the way to the bus, anew if need be, clears faults and enables the drives.
+  /// @return Status::ok when all drives are enabled and have reported where they are; else
+  ///         Status::hardware_fault, and fault() tells why
+  /// Real-time: no (waits for the drives).
+  [[nodiscard]] Status activate() noexcept {
+    mode_ = Mode::inactive;
+    fault_ = {};
+    dropped_ = not_sent_ = 0;
+    codec_.restart();
+    if (transport_.open(codec_.subscription()) != Status::ok) {
+      fault_ = {CanCause::link_gone};
+      return Status::hardware_fault;
+    }
+    drain();
+    codec_.restart();  // what had been waiting in the receive queue told of the past
+    const auto begin = transport_.now();
+    CanSetUp progress = CanSetUp::in_progress;
+    for (auto tick = begin; progress == CanSetUp::in_progress; tick += options_.set_up_period) {
+      if (tick - begin > options_.set_up_time) break;
+      CanBatch batch;
+      progress = codec_.set_up(tick - begin, batch);
+      if (!batch.empty()) static_cast<void>(transport_.send(batch));
+      if (progress == CanSetUp::in_progress) listen_until(tick + options_.set_up_period);
+    }
+    if (progress == CanSetUp::done) {
+      dropped_ = not_sent_ = 0;
+      mode_ = Mode::active;
+      return Status::ok;
+    }
+    fault_ = {CanCause::no_activation};
+    blame([&](const DriveReport& r) { return r.fault != 0 || r.age >= options_.stale_after; });
+    if (fault_.joint < 0) blame([](const DriveReport& r) { return !r.enabled; });
+    send_stop();
+    return Status::hardware_fault;
+  }
+
+  /// Tells the drives to let go and waits until they have; over a new way to the bus, if the old one
+  /// is gone.
+  /// @return Status::ok when all drives have reported it, else Status::hardware_fault
+  /// Real-time: no (waits for the drives).
+  [[nodiscard]] Status deactivate() noexcept {
+    mode_ = Mode::inactive;
+    if (transport_.link() == CanLink::gone &&
+        transport_.open(codec_.subscription()) != Status::ok) {
+      return Status::hardware_fault;
+    }
+    constexpr int patience = 20;  // set-up periods
+    for (int k = 0; k < patience; ++k) {
+      send_stop();
+      listen_until(transport_.now() + options_.set_up_period);
+      const bool let_go = std::ranges::all_of(
+          reports(), [](const DriveReport& r) { return r.age == 0 && !r.enabled; });
+      if (let_go) return Status::ok;
+    }
+    return Status::hardware_fault;
+  }
+
+  /// Takes in what the drives have said and judges it.
+  /// @param state  receives the last figures of each joint
+  /// @return       Status::ok; Status::stale_state if a joint's figures are too old;
+  ///               Status::hardware_fault if the link or a drive has failed, and fault() tells why
+  /// Real-time: yes, but for the bus.
+  [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
+    drain();
+    if (mode_ == Mode::active) look_for_faults();
+    bool stale = false, partial = false;
+    for (int j = 0; j < joint_count; ++j) {
+      const DriveReport& report = reports()[static_cast<std::size_t>(j)];
+      state.position[j] = report.position;
+      state.velocity[j] = report.velocity;
+      state.effort[j] = report.effort;
+      stale = stale || report.age >= options_.stale_after;
+      partial = partial || report.age > 0;
+    }
+    if (partial) ++statistics_.partial;
+    if (mode_ == Mode::faulted || transport_.link() != CanLink::up) return Status::hardware_fault;
+    return stale ? Status::stale_state : Status::ok;
+  }
+
+  /// Sends the commands of a cycle. While the drives are not active, they are told to let go
+  /// instead, and go on reporting.
+  /// @param command  per joint; if it is not finite, the drives get zero effort, zero velocity or
+  ///                 the measured position instead
+  /// @return         Status::ok, also while the bus is too busy for a cycle or two, whose commands
+  ///                 are dropped; Status::non_finite_command; Status::hardware_fault if the bus takes
+  ///                 nothing for as long as feedback may be missing, or after a fault
+  /// Real-time: yes, but for the bus.
+  [[nodiscard]] Status write(const Command& command) noexcept {
+    ++statistics_.cycles;
+    CanBatch batch;
+    const bool finite = is_finite(command);
+    if (mode_ == Mode::active) {
+      codec_.encode(finite ? command : substitute(), batch);
+    } else {
+      codec_.encode_stop(batch);
+    }
+    const CanSending sending = send(batch);
+    if (mode_ == Mode::active && not_sent_ >= options_.not_sent_after) fail({CanCause::not_sent});
+    if (mode_ == Mode::faulted || sending == CanSending::failed) return Status::hardware_fault;
+    if (dropped_ >= options_.stale_after) return Status::hardware_fault;
+    return finite ? Status::ok : Status::non_finite_command;
+  }
+
+  /// Waits until the feedback of all joints for the last cycle is there: for loops that the bus
+  /// paces.
+  /// @param time  longest time to wait
+  /// @return      Status::ok, or Status::stale_state if it did not come in time
+  /// Real-time: yes, but for the wait.
+  [[nodiscard]] Status wait(std::chrono::nanoseconds time) noexcept {
+    const auto end = transport_.now() + time;
+    for (;;) {
+      drain();
+      const bool complete =
+          std::ranges::all_of(reports(), [](const DriveReport& r) { return r.age == 0; });
+      if (complete) return Status::ok;
+      const auto rest = end - transport_.now();
+      if (rest.count() <= 0 || transport_.link() != CanLink::up) return Status::stale_state;
+      transport_.wait(rest);
+    }
+  }
+
+  /// Why the drives were told to let go, or why activate failed; CanCause::none if all is well.
+  /// Real-time: yes.
+  [[nodiscard]] const CanFault& fault() const noexcept { return fault_; }
+  /// When the newest frame of a drive arrived, by the transport's time stamps. Real-time: yes.
+  [[nodiscard]] std::chrono::nanoseconds feedback_time() const noexcept { return feedback_time_; }
+  [[nodiscard]] const CanStatistics& statistics() const noexcept { return statistics_; }
+  [[nodiscard]] auto reports() const noexcept { return codec_.reports(); }
+  [[nodiscard]] const Codec& codec() const noexcept { return codec_; }
+  [[nodiscard]] Transport& transport() noexcept { return transport_; }
+  [[nodiscard]] const Transport& transport() const noexcept { return transport_; }
+  [[nodiscard]] const R& robot() const noexcept { return robot_; }
+
+ private:
+  enum class Mode : unsigned char { inactive, active, faulted };
+
+  /// Takes in what has arrived. A flood of frames does not hold up the loop: what is left after
+  /// some hundred waits for the next cycle, or is lost in the kernel, which counts it.
+  void drain() noexcept {
+    constexpr int most_rounds = 8;
+    for (int round = 0; round < most_rounds; ++round) {
+      std::array<ReceivedCanFrame, 32> frames;
+      const std::size_t count = transport_.receive(frames);
+      for (std::size_t i = 0; i < count; ++i) take(frames[i]);
+      if (count < frames.size()) return;
+    }
+  }
+
+  void take(const ReceivedCanFrame& received) noexcept {
+    switch (codec_.decode(received.frame)) {
+      case CanDecoding::accepted:
+        ++statistics_.accepted;
+        feedback_time_ = received.time;
+        return;
+      case CanDecoding::outdated:
+        ++statistics_.outdated;
+        return;
+      case CanDecoding::foreign:
+        ++statistics_.foreign;
+        return;
+      case CanDecoding::malformed:
+        ++statistics_.malformed;
+        return;
+    }
+  }
+
+  void look_for_faults() noexcept {
+    switch (transport_.link()) {
+      case CanLink::up:
+        break;
+      case CanLink::down:
+        return fail({CanCause::link_down});
+      case CanLink::bus_off:
+        return fail({CanCause::bus_off});
+      case CanLink::gone:
+        return fail({CanCause::link_gone});
+    }
+    for (int j = 0; j < joint_count; ++j) {
+      const DriveReport& report = reports()[static_cast<std::size_t>(j)];
+      if (report.fault != 0) return fail({CanCause::drive_fault, j, report.fault});
+      if (!report.enabled) return fail({CanCause::drive_let_go, j});
+      if (report.age >= options_.silent_after) return fail({CanCause::drive_silent, j});
+    }
+  }
+
+  void fail(const CanFault& fault) noexcept {
+    fault_ = fault;
+    mode_ = Mode::faulted;
+  }
+
+  /// Names the first drive to which a condition applies as the one at fault.
+  template <class Condition>
+  void blame(Condition condition) noexcept {
+    const auto drive = std::ranges::find_if(reports(), condition);
+    if (drive == reports().end()) return;
+    fault_.joint = static_cast<int>(drive - reports().begin());
+    fault_.code = drive->fault;
+  }
+
+  /// What stands in for a command with a NaN or infinity.
+  [[nodiscard]] Command substitute() const noexcept {
+    Command command;
+    if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
+      for (int j = 0; j < joint_count; ++j) {
+        command.position[j] = reports()[static_cast<std::size_t>(j)].position;
+      }
+    }
+    return command;
+  }
+
+  CanSending send(const CanBatch& batch) noexcept {
+    const CanSending sending = transport_.send(batch);
+    if (sending == CanSending::unconfirmed) ++statistics_.unconfirmed;
+    const bool taken = sending == CanSending::sent || sending == CanSending::unconfirmed;
+    if (!taken) ++statistics_.not_sent;
+    dropped_ = taken ? 0 : dropped_ + 1;
+    not_sent_ = sending == CanSending::sent ? 0 : not_sent_ + 1;
+    return sending;
+  }
+
+  void send_stop() noexcept {
+    CanBatch batch;
+    codec_.encode_stop(batch);
+    static_cast<void>(send(batch));
+  }
+
+  void listen_until(std::chrono::nanoseconds end) noexcept {
+    for (auto now = transport_.now(); now < end; now = transport_.now()) {
+      transport_.wait(end - now);
+      drain();
+    }
+  }
+
+  [[no_unique_address]] R robot_;
+  Codec codec_;
+  Transport transport_;
+  CanHardwareOptions options_;
+  Mode mode_ = Mode::inactive;
+  CanFault fault_{};
+  std::uint32_t dropped_ = 0;   ///< cycles in a row that the bus did not take
+  std::uint32_t not_sent_ = 0;  ///< cycles in a row that did not, or not surely, get onto it
+  std::chrono::nanoseconds feedback_time_{};
+  CanStatistics statistics_{};
+};
+
+}  // namespace articula

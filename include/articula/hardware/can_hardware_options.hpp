@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file How patient the CAN driver is, and what it counts.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <sstream>
+#include <stdexcept>
+
+namespace articula {
+
+/// How patient the CAN driver is.
+struct CanHardwareOptions {
+  /// Age from which a joint's figures are not used: in cycles since the one they belong to. The
+  /// feedback of the last cycle has age 0. Likewise, how many cycles in a row the bus may be too busy
+  /// to take before writing is no longer ok.
+  std::uint32_t stale_after = 3;
+  /// Age from which the drive counts as silent, which is a fault [cycles].
+  std::uint32_t silent_after = 20;
+  /// Cycles in a row whose frames did not, or not surely, get onto the bus, from which that is a
+  /// fault.
+  std::uint32_t not_sent_after = 10;
+  /// Time between two steps of the drives' set-up, about the period of the loop.
+  std::chrono::nanoseconds set_up_period = std::chrono::milliseconds(1);
+  /// Longest time that the set-up may take.
+  std::chrono::nanoseconds set_up_time = std::chrono::seconds(5);
+};
+
+/// Refuses options that make no sense.
+/// @throws std::invalid_argument naming the option, the value and the limit
+/// Real-time: no (throws).
+inline void validate(const CanHardwareOptions& options) {
+  const auto require = [](bool condition, const auto&... parts) {
+    if (condition) return;
+    std::ostringstream message;
+    message << "CAN hardware: ";
+    (message << ... << parts);
+    throw std::invalid_argument(message.str());
+  };
+  require(options.stale_after >= 1, "stale_after ", options.stale_after, " is less than 1 cycle");
+  require(options.silent_after >= options.stale_after, "silent_after ", options.silent_after,
+          " is less than stale_after ", options.stale_after);
+  require(options.not_sent_after >= 1, "not_sent_after ", options.not_sent_after,
+          " is less than 1 cycle");
+  require(options.set_up_period.count() > 0, "set_up_period ", options.set_up_period.count(),
+          " ns is not positive");
+  require(options.set_up_time >= options.set_up_period, "set_up_time ", options.set_up_time.count(),
+          " ns is less than set_up_period ", options.set_up_period.count(), " ns");
+}
+
+/// What the CAN driver has counted since it was made.
+struct CanStatistics {
+  std::uint64_t cycles = 0;       ///< commands written
+  std::uint64_t not_sent = 0;     ///< of these, not or not wholly taken by the bus
+  std::uint64_t unconfirmed = 0;  ///< of these, sent without a sign of life of the one before
+  std::uint64_t partial = 0;      ///< readings in which some joint's feedback was missing
+  std::uint64_t accepted = 0;     ///< frames of the drives that were taken in
+  std::uint64_t outdated = 0;     ///< frames of the drives that were too old
+  std::uint64_t foreign = 0;      ///< frames of nobody we know
+  std::uint64_t malformed = 0;    ///< frames with a drive's identifier that make no sense
+};
+
+}  // namespace articula

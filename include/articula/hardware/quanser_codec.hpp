@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The language of the Quanser arm's joint modules.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/hardware/can_codec.hpp"
+#include "articula/hardware/quanser_module.hpp"
+#include "articula/hardware/quanser_protocol.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace articula {
+
+/// Codec of the Quanser arm's joint modules, docs/quanser_protocol.md. The position is that of the
+/// motor's encoder; `load_position` has the other one. A joint's figures are taken over only when
+/// both of its frames for a cycle are there, so they belong together.
+/// @tparam R  the robot
+template <Robot R>
+class QuanserCodec {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Command = EffortCommand<joint_count>;
+  static_assert(joint_count <= quanser::last_node, "the protocol has 31 nodes");
+
+  /// @param modules  in the order of the joints
+  /// @throws std::invalid_argument as validate says
+  explicit QuanserCodec(const QuanserModules<joint_count>& modules, const R& robot = described<R>())
+      : modules_(modules) {
+    validate(robot, modules);
+  }
+
+  /// Real-time: no (allocates).
+  [[nodiscard]] CanSubscription subscription() const {
+    CanSubscription subscription{.last_of_cycle = quanser::sync_identifier,
+                                 .frames_per_cycle = modules_.size() + 1};
+    for (const QuanserModule& module : modules_) {
+      for (const std::uint32_t base :
+           {quanser::position_base, quanser::motion_base, quanser::heartbeat_base}) {
+        subscription.identifiers.push_back(base + module.node);
+      }
+    }
+    return subscription;
+  }
+
+  /// Forgets what the modules have said. Real-time: yes.
+  void restart() noexcept {
+    reports_.fill({});
+    halves_.fill({});
+    load_position_.setZero();
+    next_request_ = {};
+  }
+
+  /// Clears faults, waits until all modules report that they have let go, enables them and waits
+  /// until they report that. Requests are repeated, in case one was lost. Real-time: yes.
+  [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
+    const auto all = [&](auto condition) { return std::ranges::all_of(reports_, condition); };
+    if (all([](const DriveReport& r) { return r.age == 0 && r.enabled && r.fault == 0; })) {
+      return CanSetUp::done;
+    }
+    if (elapsed >= next_request_) {
+      constexpr std::chrono::milliseconds between_requests{20};
+      const bool begun = next_request_ > std::chrono::nanoseconds{};
+      next_request_ = elapsed + between_requests;
+      const bool calm = begun && all([](const DriveReport& r) {
+                          return r.age != DriveReport::never && r.fault == 0;
+                        });
+      const auto request = calm ? quanser::Control::enable : quanser::Control::clear_faults;
+      for (const QuanserModule& module : modules_) {
+        batch.push_back(quanser::encode(request, module.node));
+      }
+    }
+    begin_cycle(batch);
+    return CanSetUp::in_progress;
+  }
+
+  /// One effort frame for each module, rounded to 1e-3 N m and held within the range of the frame,
+  /// 0 for a NaN, and SYNC. Real-time: yes. O(N).
+  void encode(const Command& command, CanBatch& batch) noexcept {
+    const auto counter = static_cast<std::uint8_t>(cycle_ + 1);
+    for (std::size_t j = 0; j < modules_.size(); ++j) {
+      batch.push_back(quanser::encode(
+          quanser::Effort{millis(command.effort[static_cast<int>(j)]), counter}, modules_[j].node));
+    }
+    begin_cycle(batch);
+  }
+
+  /// Disables all modules. Real-time: yes. O(N).
+  void encode_stop(CanBatch& batch) noexcept {
+    for (const QuanserModule& module : modules_) {
+      batch.push_back(quanser::encode(quanser::Control::disable, module.node));
+    }
+    begin_cycle(batch);
+  }
+
+  /// Takes in a module's frame. Real-time: yes. O(N).
+  [[nodiscard]] CanDecoding decode(const CanFrame& frame) noexcept {
+    const std::uint8_t node = quanser::node_of(frame);
+    for (std::size_t j = 0; j < modules_.size(); ++j) {
+      if (node == 0 || modules_[j].node != node) continue;
+      if (const auto position = quanser::decode_position(frame)) {
+        halves_[j].position = *position;
+        halves_[j].position_cycle = cycle_of(position->counter);
+        return complete(j, position->counter);
+      }
+      if (const auto motion = quanser::decode_motion(frame)) {
+        halves_[j].motion = *motion;
+        halves_[j].motion_cycle = cycle_of(motion->counter);
+        return complete(j, motion->counter);
+      }
+      if (const auto heartbeat = quanser::decode_heartbeat(frame)) {
+        take_condition(j, heartbeat->status, heartbeat->faults);
+        return CanDecoding::accepted;
+      }
+      return CanDecoding::malformed;
+    }
+    return CanDecoding::foreign;
+  }
+
+  /// What the modules have said. Real-time: yes.
+  [[nodiscard]] std::span<const DriveReport, static_cast<std::size_t>(joint_count)> reports()
+      const noexcept {
+    return reports_;
+  }
+  /// Position of the load's encoders, of the same cycle as the report [rad], N x 1.
+  /// Real-time: yes.
+  [[nodiscard]] const JointVector<joint_count>& load_position() const noexcept {
+    return load_position_;
+  }
+  /// How many cycles were begun; the counter on the wire is its lowest byte. Real-time: yes.
+  [[nodiscard]] std::uint64_t cycle() const noexcept { return cycle_; }
+  [[nodiscard]] const QuanserModules<joint_count>& modules() const noexcept { return modules_; }
+
+ private:
+  /// The two frames of a module for one cycle; cycle 0 has never been.
+  struct Halves {
+    quanser::Position position{};
+    quanser::Motion motion{};
+    std::uint64_t position_cycle = 0;
+    std::uint64_t motion_cycle = 0;
+    std::uint64_t taken_cycle = 0;
+  };
+
+  [[nodiscard]] static std::int16_t millis(double value) noexcept {
+    if (!is_finite(value)) return 0;
+    return static_cast<std::int16_t>(std::lround(std::clamp(value * 1e3, -32767.0, 32767.0)));
+  }
+
+  void begin_cycle(CanBatch& batch) noexcept {
+    ++cycle_;
+    for (DriveReport& report : reports_) {
+      if (report.age < DriveReport::never - 1) ++report.age;
+    }
+    batch.push_back(quanser::encode_sync(static_cast<std::uint8_t>(cycle_)));
+  }
+
+  /// The cycle that a counter means: one of the last 128, or 0 for none of them.
+  [[nodiscard]] std::uint64_t cycle_of(std::uint8_t counter) const noexcept {
+    const auto age = static_cast<std::uint8_t>(static_cast<std::uint8_t>(cycle_) - counter);
+    return age < 128 && age < cycle_ ? cycle_ - age : 0;
+  }
+
+  [[nodiscard]] CanDecoding complete(std::size_t j, std::uint8_t counter) noexcept {
+    Halves& half = halves_[j];
+    if (cycle_of(counter) == 0 || cycle_of(counter) <= half.taken_cycle) {
+      return CanDecoding::outdated;
+    }
+    if (half.position_cycle != half.motion_cycle) return CanDecoding::accepted;
+    half.taken_cycle = half.position_cycle;
+    const QuanserModule& module = modules_[j];
+    DriveReport& report = reports_[j];
+    report.position = half.position.motor_counts / module.motor_scale() + module.position_at_zero;
+    load_position_[static_cast<int>(j)] =
+        half.position.load_counts / module.load_scale() + module.position_at_zero;
+    report.velocity = half.motion.milliradians_per_second / 1e3;
+    report.effort = half.motion.millinewton_metres / 1e3;
+    report.age = static_cast<std::uint32_t>(cycle_ - half.taken_cycle);
+    take_condition(j, half.position.status, half.motion.faults);
+    return CanDecoding::accepted;
+  }
+
+  void take_condition(std::size_t j, std::uint8_t status, std::uint8_t faults) noexcept {
+    reports_[j].enabled = (status & quanser::enabled) != 0;
+    // A status that says faulty without telling which fault counts as internal.
+    const bool nameless = (status & quanser::faulty) != 0 && faults == 0;
+    reports_[j].fault = nameless ? std::uint8_t{quanser::internal} : faults;
+  }
+
+  QuanserModules<joint_count> modules_;
+  std::array<DriveReport, static_cast<std::size_t>(joint_count)> reports_{};
+  std::array<Halves, static_cast<std::size_t>(joint_count)> halves_{};
+  JointVector<joint_count> load_position_ = JointVector<joint_count>::Zero();
+  std::uint64_t cycle_ = 0;
+  std::chrono::nanoseconds next_request_{};
+};
+
+}  // namespace articula
