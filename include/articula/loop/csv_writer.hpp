@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Records as comma-separated values.
+#pragma once
+
+#include "articula/loop/cycle_record.hpp"
+#include "articula/model/robot.hpp"
+
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace articula {
+
+/// Writes records to a file: a header that names every column with its unit, then one line each.
+/// Numbers are written so that reading them back gives the same.
+/// @tparam R            the robot
+/// @tparam CommandType  of the loop
+template <Robot R, class CommandType>
+class CsvWriter {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Record = CycleRecord<joint_count, CommandType>;
+
+  /// @throws std::runtime_error if the file cannot be written
+  explicit CsvWriter(const std::filesystem::path& path, const R& robot = described<R>())
+      : path_(path.string()), file_(path) {
+    file_.precision(std::numeric_limits<double>::max_digits10);
+    file_ << "cycle,time [s],status";
+    for (const JointProperties& joint : model_of(robot).joints) {
+      const bool slides = joint.type == JointType::prismatic;
+      const std::string name(joint.name.view()), q = slides ? "m" : "rad";
+      const std::string effort = slides ? " [N]" : " [N m]";
+      const std::string position = " [" + q + "]", velocity = " [" + q + "/s]";
+      for (const std::string& column :
+           {"position" + position, "velocity" + velocity, "effort" + effort,
+            "reference position" + position, "reference velocity" + velocity,
+            "reference acceleration [" + q + "/s^2]", "reference effort" + effort,
+            "command" + (commands_efforts      ? effort
+                         : commands_velocities ? velocity
+                                               : position)}) {
+        file_ << ',' << name << ' ' << column;
+      }
+    }
+    file_ << ",latency [s],period [s],update [s]\n";
+    check();
+  }
+
+  /// Writes one record.
+  /// @throws std::runtime_error if it cannot be written
+  void write(const Record& record) {
+    file_ << record.cycle << ',' << record.time << ',' << to_string(record.status);
+    for (int j = 0; j < joint_count; ++j) {
+      for (const auto* vector :
+           {&record.state.position, &record.state.velocity, &record.state.effort,
+            &record.reference.position, &record.reference.velocity, &record.reference.acceleration,
+            &record.reference.effort, &values_of(record.command)}) {
+        file_ << ',' << (*vector)[j];
+      }
+    }
+    const CycleTiming& timing = record.timing;
+    for (const auto duration : {timing.latency, timing.period, timing.update}) {
+      file_ << ',' << std::chrono::duration<double>(duration).count();
+    }
+    file_ << '\n';
+    check();
+  }
+
+  /// Completes the file.
+  /// @throws std::runtime_error if not all could be written
+  void close() {
+    file_.close();
+    check();
+  }
+
+ private:
+  static constexpr bool commands_efforts = std::same_as<CommandType, EffortCommand<joint_count>>;
+  static constexpr bool commands_velocities =
+      std::same_as<CommandType, VelocityCommand<joint_count>>;
+
+  void check() const {
+    if (!file_) throw std::runtime_error("cannot write " + path_);
+  }
+
+  std::string path_;
+  std::ofstream file_;
+};
+
+}  // namespace articula

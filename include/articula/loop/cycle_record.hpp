@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What is recorded of one cycle.
+#pragma once
+
+#include "articula/core/joint_reference.hpp"
+#include "articula/core/joint_state.hpp"
+#include "articula/core/status.hpp"
+#include "articula/loop/run_report.hpp"
+
+#include <cstdint>
+#include <type_traits>
+
+namespace articula {
+
+/// All of one cycle: what was measured, asked, computed and when. A plain value of some 50 doubles
+/// for six joints; recording it costs the loop a copy.
+/// @tparam N            number of joints
+/// @tparam CommandType  of the loop
+template <int N, class CommandType>
+struct CycleRecord {
+  static constexpr int joint_count = N;
+  using Command = CommandType;
+
+  std::uint64_t cycle = 0;     ///< number of the cycle in its run, from 1
+  double time = 0;             ///< of the loop [s]
+  Status status = Status::ok;  ///< how the cycle ended
+  JointState<N> state{};
+  JointReference<N> reference{};
+  Command command{};
+  CycleTiming timing{};
+};
+
+/// The record type of a loop.
+template <class LoopType>
+using CycleRecordOf = CycleRecord<LoopType::joint_count, typename LoopType::Command>;
+
+/// The record of the cycle that a loop has just made.
+/// @param loop    a Loop or a SupervisedLoop
+/// @param report  of its run
+/// Real-time: yes. O(N).
+template <class LoopType>
+[[nodiscard]] CycleRecordOf<LoopType> record_of(const LoopType& loop,
+                                                const RunReport& report) noexcept {
+  return {.cycle = report.cycles,
+          .time = loop.time(),
+          .status = report.status,
+          .state = loop.state(),
+          .reference = loop.reference(),
+          .command = loop.command(),
+          .timing = report.timing};
+}
+
+}  // namespace articula

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A queue of fixed size between two threads.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+namespace articula {
+
+/// Hands every value from one writing to one reading thread, in order: records, events. Neither side
+/// ever waits for the other. What finds the ring full is dropped, and counted.
+/// Source: [Lamport 1977], the ring buffer of one producer and one consumer.
+/// @tparam T         what is handed over; its assignment must be fit for real time
+/// @tparam Capacity  how many values the ring holds, a power of two
+/// @tparam Atomic    std::atomic, or what a test puts in its place
+template <std::default_initializable T, std::size_t Capacity,
+          template <class> class Atomic = std::atomic>
+requires std::is_copy_assignable_v<T>
+class EventRing {
+ public:
+  static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0,
+                "the ring's capacity is a power of two");
+  static constexpr std::size_t capacity = Capacity;
+
+  EventRing() = default;
+  EventRing(const EventRing&) = delete;
+  EventRing& operator=(const EventRing&) = delete;
+
+  /// Appends a value. For the writing thread.
+  /// @return false if the ring is full and the value was dropped
+  /// Real-time: yes, if T's assignment is. Wait-free.
+  bool push(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
+    const std::size_t tail = tail_.load(std::memory_order_relaxed);
+    if (tail - head_.load(std::memory_order_acquire) == Capacity) {
+      dropped_.store(dropped_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+      return false;
+    }
+    slots_[tail % Capacity] = value;
+    tail_.store(tail + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// Takes the oldest value. For the reading thread.
+  /// @param value  receives it
+  /// @return       false if the ring is empty; `value` is as before then
+  /// Real-time: yes, if T's assignment is. Wait-free.
+  [[nodiscard]] bool pop(T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
+    const std::size_t head = head_.load(std::memory_order_relaxed);
+    if (head == tail_.load(std::memory_order_acquire)) return false;
+    value = slots_[head % Capacity];
+    head_.store(head + 1, std::memory_order_release);
+    return true;
+  }
+
+  /// How many values were dropped so far. For any thread. Real-time: yes.
+  [[nodiscard]] std::uint64_t dropped() const noexcept {
+    return dropped_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  // Both counters run on for ever; their difference is right even when they wrap. On cache lines of
+  // their own, or the threads would slow each other down.
+  alignas(64) Atomic<std::size_t> tail_ = 0;  ///< values pushed so far
+  Atomic<std::uint64_t> dropped_ = 0;         ///< written by the pushing thread alone
+  alignas(64) Atomic<std::size_t> head_ = 0;  ///< values popped so far
+  alignas(64) std::array<T, Capacity> slots_{};
+};
+
+}  // namespace articula

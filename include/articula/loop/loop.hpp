@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The control loop: one hardware, one controller, one cycle at a time.
+#pragma once
+
+#include "articula/core/controller.hpp"
+#include "articula/core/finite.hpp"
+#include "articula/core/hardware.hpp"
+#include "articula/loop/safe_command.hpp"
+#include "articula/model/robot.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace articula {
+
+/// A control loop of one hardware and one controller, put together by the compiler.
+///
+///     Loop<Q2dSim, PidPlusGravity> loop;
+///     loop.reference().position = {-1.0, 1.0};
+///     while (loop.update() == Status::ok) { ... }
+///
+/// One cycle reads the joints, lets the controller compute, keeps the command within the robot's
+/// effort limits and writes it. NaN and infinity never reach the hardware: whatever goes wrong, the
+/// command that is written is a safe one (see safe_command) and the Status tells.
+/// @tparam HardwareType        satisfies Hardware
+/// @tparam ControllerTemplate  makes a Controller of the hardware's robot
+template <class HardwareType, template <class> class ControllerTemplate>
+class Loop {
+ public:
+  using RobotType = typename HardwareType::RobotType;
+  using ControllerType = ControllerTemplate<RobotType>;
+  static constexpr int joint_count = articula::joint_count<RobotType>;
+  using State = JointState<joint_count>;
+  using Reference = JointReference<joint_count>;
+  using Command = decltype(std::declval<ControllerType&>().update(
+      std::declval<const State&>(), std::declval<const Reference&>(), double()));
+  static_assert(Controller<ControllerType, joint_count>,
+                "start and update of the controller must be noexcept, "
+                "see core/controller.hpp");
+  static_assert(Hardware<HardwareType, Command>,
+                "the hardware does not accept this controller's command, or "
+                "lacks something, see core/hardware.hpp");
+
+  /// Default hardware and controller.
+  Loop() requires std::default_initializable<HardwareType> &&
+      std::default_initializable<ControllerType> : Loop(HardwareType(), ControllerType()) {}
+
+  /// A given controller on default hardware.
+  explicit Loop(ControllerType controller) requires std::default_initializable<HardwareType>
+      : Loop(HardwareType(), std::move(controller)) {}
+
+  /// Given hardware under the default controller.
+  explicit Loop(HardwareType hardware) requires std::default_initializable<ControllerType>
+      : Loop(std::move(hardware), ControllerType()) {}
+
+  /// Activates the hardware, reads where the joints are and makes that the reference.
+  /// @param hardware    the joints
+  /// @param controller  with its gains
+  /// @param period      time between two updates [s]; hardware that has a period of its own
+  ///                    dictates it
+  /// @throws std::invalid_argument if the period is not a positive number
+  /// @throws std::runtime_error if the hardware cannot be activated
+  Loop(HardwareType hardware, ControllerType controller, double period = 1e-3)
+      : hardware_(std::move(hardware)), controller_(std::move(controller)), period_(period) {
+    if constexpr (requires { hardware_.period(); }) period_ = hardware_.period();
+    if (!is_finite(period_) || period_ <= 0) {
+      std::ostringstream message;
+      message << "loop: period " << period_ << " s is not a positive number";
+      throw std::invalid_argument(message.str());
+    }
+    if (hardware_.activate() != Status::ok)
+      throw std::runtime_error("loop: hardware cannot be activated");
+    const bool known = hardware_.read(state_) == Status::ok && is_finite(state_.position);
+    initial_position_ =
+        known ? state_.position
+              : JointVector<joint_count>::Constant(std::numeric_limits<double>::quiet_NaN());
+    reference_.position = initial_position_;
+    if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
+      command_.position = initial_position_;
+    }
+  }
+
+  /// One cycle: read, control, limit, write. The first good cycle starts the controller; joints
+  /// whose reference position the user has not set by then are to stay where they are measured.
+  /// @return Status::ok, or the first thing that went wrong; the command that was written is safe
+  ///         either way
+  /// Real-time: yes, if the hardware's read and write are.
+  [[nodiscard]] Status update() noexcept {
+    time_ = next_time();
+    ++cycles_;
+
+    const Status read = hardware_.read(state_);
+    Status status = read;
+    if (status == Status::ok && !is_finite(state_)) status = Status::non_finite_state;
+    if (status == Status::ok && !started_) start();
+    if (status == Status::ok && !is_finite(reference_)) status = Status::non_finite_reference;
+    Command command;
+    if (status == Status::ok) {
+      command = controller_.update(state_, reference_, period_);
+      if (!is_finite(command)) status = Status::non_finite_command;
+    }
+    command_ = status == Status::ok
+                   ? limited(hardware_.robot(), command)
+                   : safe_command(hardware_.robot(), trusted_position(read), command_);
+
+    if (!is_finite(command_)) return status;  // a position command before any position is known
+    const Status write = hardware_.write(command_);
+    return status == Status::ok ? write : status;
+  }
+
+  /// What the joints shall do; may be changed between two updates.
+  [[nodiscard]] Reference& reference() noexcept { return reference_; }
+  [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
+  /// What was measured at the beginning of the last update, before the first update at
+  /// construction.
+  [[nodiscard]] const State& state() const noexcept { return state_; }
+  /// What was written at the end of the last update.
+  [[nodiscard]] const Command& command() const noexcept { return command_; }
+  /// The time to which state() and command() belong: 0 at the first update, then one period more
+  /// each [s].
+  [[nodiscard]] double time() const noexcept { return time_; }
+  /// What time() will be after the next update, and so the time that its reference is for [s].
+  [[nodiscard]] double next_time() const noexcept { return static_cast<double>(cycles_) * period_; }
+  /// Time between two updates [s].
+  [[nodiscard]] double period() const noexcept { return period_; }
+  [[nodiscard]] ControllerType& controller() noexcept { return controller_; }
+  [[nodiscard]] const ControllerType& controller() const noexcept { return controller_; }
+  [[nodiscard]] HardwareType& hardware() noexcept { return hardware_; }
+  [[nodiscard]] const HardwareType& hardware() const noexcept { return hardware_; }
+
+ private:
+  void start() noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      const bool untouched = is_finite(initial_position_[j])
+                                 ? reference_.position[j] == initial_position_[j]
+                                 : !is_finite(reference_.position[j]);
+      if (untouched) reference_.position[j] = state_.position[j];
+    }
+    controller_.start(state_);
+    started_ = true;
+  }
+
+  /// The position that a safe command may build on: none where the hardware could not be read.
+  [[nodiscard]] JointVector<joint_count> trusted_position(Status read) const noexcept {
+    if (read == Status::hardware_fault) {
+      return JointVector<joint_count>::Constant(std::numeric_limits<double>::quiet_NaN());
+    }
+    return state_.position;
+  }
+
+  HardwareType hardware_;
+  ControllerType controller_;
+  double period_;
+  double time_ = 0;
+  std::uint64_t cycles_ = 0;
+  bool started_ = false;
+  State state_{};
+  Reference reference_{};
+  Command command_{};
+  JointVector<joint_count> initial_position_;
+};
+
+}  // namespace articula

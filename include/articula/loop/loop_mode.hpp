@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a supervised loop is about.
+#pragma once
+
+#include <string_view>
+
+namespace articula {
+
+/// What a supervised loop is about.
+enum class LoopMode : unsigned char {
+  inactive,  ///< It watches. The hardware is not active and is written nothing.
+  starting,  ///< The hardware is active and gets safe commands until a good state comes.
+  active,    ///< It controls.
+  fault,     ///< Something went wrong. The safe behaviour goes on until it is acknowledged.
+};
+
+/// The mode in words. Real-time: yes.
+[[nodiscard]] constexpr std::string_view to_string(LoopMode mode) noexcept {
+  switch (mode) {
+    case LoopMode::inactive:
+      return "inactive";
+    case LoopMode::starting:
+      return "starting";
+    case LoopMode::active:
+      return "active";
+    case LoopMode::fault:
+      return "fault";
+  }
+  return "unknown mode";
+}
+
+}  // namespace articula

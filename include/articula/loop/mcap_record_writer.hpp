@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Records in an MCAP file. Needs nlohmann-json (target articula::recording).
+#pragma once
+
+#include "articula/loop/mcap_writer.hpp"
+#include "articula/loop/record_json.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+namespace articula {
+
+/// Writes records to an MCAP file, as JSON messages of the topic "cycle". Their time is the loop's,
+/// which begins at 0.
+/// @tparam R            the robot
+/// @tparam CommandType  of the loop
+template <Robot R, class CommandType>
+class McapRecordWriter {
+ public:
+  using Record = CycleRecord<joint_count<R>, CommandType>;
+
+  /// @throws std::runtime_error if the file cannot be written
+  explicit McapRecordWriter(const std::filesystem::path& path, const R& robot = described<R>())
+      : robot_(robot),
+        writer_(path, "cycle", "articula.Cycle", schema_of(record_json(robot, Record())).dump()) {}
+
+  /// Writes one record.
+  /// @throws std::runtime_error if it cannot be written
+  void write(const Record& record) {
+    writer_.write(std::chrono::nanoseconds(std::llround(record.time * 1e9)),
+                  record_json(robot_, record).dump());
+  }
+
+  /// Completes the file.
+  /// @throws std::runtime_error if not all could be written
+  void close() { writer_.close(); }
+
+ private:
+  [[no_unique_address]] R robot_;
+  McapWriter writer_;
+};
+
+}  // namespace articula

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Makes a thread fit for real time. Linux.
+#pragma once
+
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+namespace articula {
+
+/// What a thread asks of the system.
+struct ThreadOptions {
+  int priority = 80;              ///< SCHED_FIFO, 1 (low) .. 99; 0: scheduling stays as it is
+  std::vector<int> processors{};  ///< numbers of those it may run on; empty: all stay allowed
+  bool lock_memory = true;  ///< keeps all memory of the program, now and later, from being paged
+  std::size_t stack_size = 256 * 1024;  ///< how much of the stack is touched in advance [bytes]
+
+  /// Receives what the system refuses, and the thread goes on without it. Where there is none, a
+  /// refusal is an error.
+  std::function<void(const std::string&)> warn{};
+};
+
+namespace detail {
+
+/// Touches the stack page by page, so that its pages are there before they are needed.
+[[gnu::noinline]] inline char touch_stack(std::size_t size) {
+  constexpr std::size_t frame = 4096;
+  volatile char page[frame];
+  page[0] = 0;
+  page[frame - 1] = 0;
+  // Something is done with the page after the call, or the compiler would make a loop of it.
+  return size > frame ? static_cast<char>(touch_stack(size - frame) + page[0]) : page[0];
+}
+
+}  // namespace detail
+
+/// Makes the calling thread fit for real time: locked memory, touched stack, processors, priority.
+/// It stays so after the run.
+/// @throws std::invalid_argument if an option makes no sense; the message names it, its value and
+///         limit
+/// @throws std::system_error if the system refuses, unless `warn` takes the refusal
+/// Real-time: no (set-up).
+inline void make_realtime(const ThreadOptions& options) {
+  const auto reject = [](const auto&... parts) {
+    std::ostringstream message;
+    message << "real-time thread: ";
+    (message << ... << parts);
+    throw std::invalid_argument(message.str());
+  };
+  if (options.priority < 0 || options.priority > 99) {
+    reject("priority ", options.priority, " is not between 0 and 99");
+  }
+  for (const int processor : options.processors) {
+    if (processor < 0 || processor >= CPU_SETSIZE) {
+      reject("processor ", processor, " is not between 0 and ", CPU_SETSIZE - 1);
+    }
+  }
+  rlimit stack{};
+  if (getrlimit(RLIMIT_STACK, &stack) == 0 && options.stack_size > stack.rlim_cur / 2) {
+    reject("stack_size ", options.stack_size, " is more than half of the stack, ", stack.rlim_cur);
+  }
+
+  const auto refused = [&](int error, const std::string& what, const char* remedy) {
+    const std::string message = "real-time thread: " + what;
+    if (!options.warn) throw std::system_error(error, std::generic_category(), message + remedy);
+    options.warn(message + ": " + std::generic_category().message(error) + remedy);
+  };
+  if (options.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+    refused(errno, "memory cannot be locked", " (needs CAP_IPC_LOCK or a higher ulimit -l)");
+  }
+  static_cast<void>(detail::touch_stack(options.stack_size));
+  if (!options.processors.empty()) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (const int processor : options.processors) {
+      CPU_SET(static_cast<std::size_t>(processor), &set);
+    }
+    const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+    if (error != 0) refused(error, "none of the processors can be used", "");
+  }
+  if (options.priority > 0) {
+    sched_param parameters{};
+    parameters.sched_priority = options.priority;
+    const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+    if (error != 0) {
+      refused(error, "SCHED_FIFO priority " + std::to_string(options.priority) + " is not granted",
+              " (needs CAP_SYS_NICE or a higher ulimit -r)");
+    }
+  }
+}
+
+}  // namespace articula

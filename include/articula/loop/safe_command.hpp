@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The command for a cycle in which something is wrong.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/core/joint_command.hpp"
+#include "articula/core/joint_state.hpp"
+#include "articula/dynamics/gravity.hpp"
+
+#include <concepts>
+
+namespace articula {
+
+/// Keeps a command's effort within the limits of the robot's drives. Positions, velocities and gains
+/// pass: what drives make of them is theirs to limit (or see Limited). Real-time: yes.
+template <Robot R, JointCommand<joint_count<R>> Command>
+[[nodiscard]] Command limited(const R& robot, Command command) noexcept {
+  if constexpr (requires { command.effort; }) {
+    const JointVector<joint_count<R>> limits = effort_limits(robot);
+    command.effort = command.effort.cwiseMin(limits).cwiseMax(-limits);
+  }
+  return command;
+}
+
+/// The command for a cycle in which something is wrong. Where the position is known, it holds: by
+/// the gravity effort, the position itself, or zero velocity; drives with a spring of their own hold
+/// it by the last stiffness and damping, and the gravity effort. Where it is not, efforts,
+/// velocities and stiffnesses are zero, and the last damping stays. There is no safe position
+/// without a measured one, so the position command is `last` then.
+/// @param robot     whose joints these are
+/// @param position  measured position [rad or m], N x 1; not used unless finite
+/// @param last      the last command that was written
+/// @return          a finite command within the limits
+/// Real-time: yes.
+template <Robot R, JointCommand<joint_count<R>> Command>
+[[nodiscard]] Command safe_command(const R& robot, const JointVector<joint_count<R>>& position,
+                                   const Command& last) noexcept {
+  Command command;
+  if constexpr (std::same_as<Command, PositionCommand<joint_count<R>>>) {
+    command.position = is_finite(position) ? position : last.position;
+  } else if constexpr (requires { command.effort; }) {
+    if constexpr (std::same_as<Command, MultiModeCommand<joint_count<R>>>) {
+      command.damping = last.damping;
+      if (is_finite(position)) {
+        command.position = position;
+        command.stiffness = last.stiffness;
+      }
+    }
+    if (is_finite(position)) command.effort = gravity(robot, position);
+    if (!is_finite(command.effort)) command.effort.setZero();
+    command = limited(robot, command);
+  }
+  return command;
+}
+
+}  // namespace articula
