@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// The laws of control_toolbox: figures computed elsewhere, from the same formulas in another language.
+#include <articula/control/control_toolbox_pid_law.hpp>
+#include <articula/control/pid_law.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "numbers.hpp"
+
+using namespace articula;
+
+namespace {
+
+/// The course's shoulder, its derivative being that of the error.
+constexpr PidGains course{.proportional = 2310,
+                          .integral = 4640,
+                          .derivative = 0.299,
+                          .integral_clamp_min = -27.94,
+                          .integral_clamp_max = 27.94,
+                          .anti_windup = AntiWindup::none,
+                          .derivative_of = DerivativeOf::error};
+
+ControlToolboxPidLaw<1> law_of(ControlToolbox version, const PidGains& gains = course) {
+  return {version, {gains}, {"shoulder"}};
+}
+
+double output(ControlToolboxPidLaw<1>& law, double error, double period = 1e-3) {
+  JointReference<1> reference;
+  reference.position[0] = error;
+  return law.effort({}, reference, period)[0];
+}
+
+std::string printed(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::vector<std::string> first_outputs(ControlToolbox version) {
+  auto law = law_of(version);
+  std::vector<std::string> outputs;
+  for (int k = 0; k < 3; ++k) outputs.push_back(printed(output(law, 0.01)));
+  return outputs;
+}
+
+/// How many cycles after the error has changed its sign the integral term stays at its clamp.
+int cycles_at_the_clamp(ControlToolbox version) {
+  auto law = law_of(version);
+  for (int k = 0; k < 2000; ++k) static_cast<void>(output(law, 0.01));
+  CHECK(law.integral()[0] == 27.94);
+  for (int k = 1;; ++k) {
+    const double before = law.integral()[0];
+    static_cast<void>(output(law, -0.01));
+    // The current law uses the term that it had before, the others the one that they have now.
+    const double used = version == ControlToolbox::current ? before : law.integral()[0];
+    if (used < 27.94) return k;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the first outputs for a constant error") {
+  using Texts = std::vector<std::string>;
+  CHECK(first_outputs(ControlToolbox::noetic) == Texts{"23.1464", "23.1928", "23.2392"});
+  CHECK(first_outputs(ControlToolbox::humble) == Texts{"26.1364", "23.1928", "23.2392"});
+  CHECK(first_outputs(ControlToolbox::current) == Texts{"26.09", "23.1464", "23.1928"});
+}
+
+TEST_CASE("the integral reaches its clamp after 0.602 s") {
+  for (const auto version : {ControlToolbox::noetic, ControlToolbox::humble}) {
+    auto law = law_of(version);
+    int cycles = 0;
+    for (; law.integral()[0] < 27.94; ++cycles) static_cast<void>(output(law, 0.01));
+    CHECK(cycles == 603);  // 0.602 s after the first
+  }
+}
+
+TEST_CASE("how long the integral stays at its clamp when the error changes its sign") {
+  CHECK(cycles_at_the_clamp(ControlToolbox::humble) == 1398);
+  CHECK(cycles_at_the_clamp(ControlToolbox::noetic) == 1398);
+  CHECK(cycles_at_the_clamp(ControlToolbox::humble_antiwindup) == 1);
+  CHECK(cycles_at_the_clamp(ControlToolbox::noetic_antiwindup) == 1);
+  CHECK(cycles_at_the_clamp(ControlToolbox::current) == 2);
+}
+
+TEST_CASE("our own law has noetic's outputs, and no windup") {
+  PidGains g = course;
+  g.anti_windup = AntiWindup::conditional_integration;
+  PidLaw<1> law({g}, {"shoulder"});
+  JointReference<1> reference;
+  reference.position[0] = 0.01;
+  const char* const expected[] = {"23.1464", "23.1928", "23.2392"};
+  for (const char* text : expected) {
+    CHECK(printed(law.effort({}, reference, 1e-3)[0]) == text);
+  }
+  for (int k = 3; k < 2000; ++k) static_cast<void>(law.effort({}, reference, 1e-3));
+  CHECK(law.integral()[0] == 27.94);
+  reference.position[0] = -0.01;
+  static_cast<void>(law.effort({}, reference, 1e-3));
+  CHECK(law.integral()[0] < 27.94);
+}
+
+TEST_CASE("the default tracking time is sqrt(d/i), or p/i without a derivative") {
+  CHECK(JointPid::tracking_time(course) == Approx(8.03e-3).margin(5e-6));  // the digits given
+  PidGains pi = course;
+  pi.derivative = 0;
+  CHECK(JointPid::tracking_time(pi) == 2310.0 / 4640);
+}
+
+TEST_CASE("the current law's ways against windup") {
+  PidGains g{.proportional = 10,
+             .integral = 100,
+             .output_clamp_min = -1,
+             .output_clamp_max = 1,
+             .anti_windup = AntiWindup::none,
+             .tracking_time = 0.5};
+  SECTION("none") {
+    auto law = law_of(ControlToolbox::current, g);
+    CHECK(output(law, 2, 0.1) == 1);
+    CHECK(law.integral()[0] == Approx(20).epsilon(1e-15));  // 0.1 s x 100 x 2
+  }
+  SECTION("back-calculation") {
+    g.anti_windup = AntiWindup::back_calculation;
+    auto law = law_of(ControlToolbox::current, g);
+    CHECK(output(law, 2, 0.1) == 1);
+    CHECK(law.integral()[0] == Approx(20 + 0.1 * (1 - 20) / 0.5).epsilon(1e-15));
+  }
+  SECTION("conditional integration") {
+    g.anti_windup = AntiWindup::conditional_integration;
+    auto law = law_of(ControlToolbox::current, g);
+    CHECK(output(law, 2, 0.1) == 1);
+    CHECK(law.integral()[0] == 0);
+    CHECK(output(law, 0.05, 0.1) == 0.5);  // not cut off: goes on
+    CHECK(law.integral()[0] == 0.5);
+  }
+  SECTION("within the dead-band nothing is added") {
+    g.error_deadband = 0.1;
+    auto law = law_of(ControlToolbox::current, g);
+    static_cast<void>(output(law, 0.1, 0.1));
+    CHECK(law.integral()[0] == 0);
+    static_cast<void>(output(law, 0.11, 0.1));
+    CHECK(law.integral()[0] > 0);
+  }
+  SECTION("no tracking time can be computed, and none is needed while nothing is cut off") {
+    PidGains i_only{.integral = 3, .anti_windup = AntiWindup::back_calculation};
+    auto law = law_of(ControlToolbox::current, i_only);
+    static_cast<void>(output(law, 1, 0.5));
+    CHECK(law.integral()[0] == 1.5);
+  }
+}
+
+TEST_CASE("the given derivative is used where it is asked for") {
+  PidGains g = course;
+  g.derivative_of = DerivativeOf::measured_velocity;
+  for (const auto version : {ControlToolbox::current, ControlToolbox::humble}) {
+    auto law = law_of(version, g);
+    JointReference<1> reference;
+    JointState<1> state;
+    state.velocity[0] = 2;
+    reference.velocity[0] = 3;
+    CHECK(law.effort(state, reference, 1e-3)[0] == 0.299);
+  }
+}
+
+TEST_CASE("what each does with a period of 0 and with an error that is no number") {
+  for (const double wrong : {support::not_a_number, support::infinity, -support::infinity}) {
+    CAPTURE(wrong);
+    auto current = law_of(ControlToolbox::current);
+    const double last = output(current, 0.01);
+    CHECK(output(current, 0.02, 0) == last);
+    CHECK(std::isnan(output(current, wrong)));
+    CHECK(is_finite(output(current, 0.01)));  // nothing is left of it
+
+    auto humble = law_of(ControlToolbox::humble);
+    static_cast<void>(output(humble, 0.01));
+    CHECK(output(humble, 0.02, 0) == 0);
+    CHECK(output(humble, wrong) == 0);
+    CHECK(humble.integral()[0] == Approx(0.0464).epsilon(1e-15));
+  }
+}
+
+TEST_CASE("start forgets the past") {
+  for (const auto version :
+       {ControlToolbox::current, ControlToolbox::humble_antiwindup, ControlToolbox::noetic}) {
+    auto law = law_of(version);
+    const double first = output(law, 0.01);
+    static_cast<void>(output(law, 0.01));
+    law.start({});
+    CHECK(output(law, 0.01) == first);
+  }
+}
+
+TEST_CASE("its gains are checked too") {
+  PidGains g = course;
+  g.integral = support::not_a_number;
+  CHECK_THROWS_WITH(law_of(ControlToolbox::current, g), Catch::Matchers::Contains("'shoulder'") &&
+                                                            Catch::Matchers::Contains("integral"));
+}

@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: Apache-2.0
+// Position and velocity commands within their limits: whatever is asked for, and with a way back.
+#include <articula/control/forward_position.hpp>
+#include <articula/control/forward_velocity.hpp>
+#include <articula/control/limited.hpp>
+#include <articula/control/position_by_velocity.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "numbers.hpp"
+#include "random.hpp"
+#include "test_robots.hpp"
+
+using namespace articula;
+using support::infinity;
+using support::not_a_number;
+
+namespace {
+
+constexpr double dt = 1e-3;
+
+using Slider = Model<1>;
+using Positions = Limited<Slider, ForwardPosition>;
+using Velocities = Limited<Slider, ForwardVelocity>;
+
+/// Limits of one joint, some of them infinite.
+CommandLimits<1> random_limits(support::Random& random) {
+  CommandLimits<1> limits;
+  limits.lower[0] = random.number(-2, -0.1);
+  limits.upper[0] = random.number(0.1, 2);
+  if (!random.one_in(4)) limits.velocity[0] = random.number(0.1, 5);
+  if (!random.one_in(4)) {
+    limits.acceleration[0] = std::pow(10, random.number(0, 3));
+    if (random.one_in(3)) limits.deceleration[0] = limits.acceleration[0] * random.number(0.3, 1);
+    if (random.one_in(2)) limits.jerk[0] = limits.acceleration[0] * random.number(3, 300);
+  }
+  return limits;
+}
+
+/// A wish that changes at random: steps, noise, ramps, and beyond all limits.
+class Wishes {
+ public:
+  Wishes(support::Random& random, double size) : random_(random), size_(size) {}
+
+  double next() {
+    if (random_.one_in(300)) mode_ = random_.integer(0, 2);
+    if (mode_ == 0 || random_.one_in(200)) wish_ = random_.number(-size_, size_);
+    if (mode_ == 1) wish_ += random_.number(-1, 1) * size_ * dt;
+    if (random_.one_in(5000)) return random_.number(-1, 1) * 1e12;
+    return wish_;
+  }
+
+ private:
+  support::Random& random_;
+  double size_, wish_ = 0;
+  int mode_ = 0;
+};
+
+/// Follows commands and checks each against the limits, by differences.
+struct Watch {
+  const CommandLimits<1>& limits;
+  double q = 0, v = 0, a = 0;
+
+  /// @return whether the limits are kept, up to what differences of rounded numbers tell
+  bool follow(double position) {
+    const double rounding = 1e-15 * (1 + std::abs(position));
+    const double v_new = (position - q) / dt, a_new = (v_new - v) / dt, j = (a_new - a) / dt;
+    const bool kept =
+        position >= limits.lower[0] && position <= limits.upper[0] &&
+        std::abs(v_new) <= limits.velocity[0] * (1 + 1e-9) + 4 * rounding / dt &&
+        std::abs(a_new) <= limits.acceleration[0] * (1 + 1e-8) + 8 * rounding / dt / dt &&
+        std::abs(j) <= limits.jerk[0] * (1 + 1e-6) + 16 * rounding / dt / dt / dt;
+    q = position;
+    v = v_new;
+    a = a_new;
+    return kept;
+  }
+};
+
+JointState<1> at(double position, double velocity = 0) {
+  JointState<1> state;
+  state.position[0] = position;
+  state.velocity[0] = velocity;
+  return state;
+}
+
+JointReference<1> to_position(double position) {
+  JointReference<1> reference;
+  reference.position[0] = position;
+  return reference;
+}
+
+JointReference<1> to_velocity(double velocity) {
+  JointReference<1> reference;
+  reference.velocity[0] = velocity;
+  return reference;
+}
+
+Positions positions_within(const CommandLimits<1>& limits) {
+  const Slider robot = support::slider();
+  return Positions(limits, ForwardPosition<Slider>(robot), robot);
+}
+
+Velocities velocities_within(const CommandLimits<1>& limits) {
+  const Slider robot = support::slider();
+  return Velocities(limits, ForwardVelocity<Slider>(robot), robot);
+}
+
+}  // namespace
+
+TEST_CASE("position commands keep all limits in every cycle, whatever is asked for") {
+  constexpr unsigned seed = 9;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 200; ++k) {
+    CAPTURE(k);
+    const CommandLimits<1> limits = random_limits(random);
+    Positions controller = positions_within(limits);
+    Wishes wishes(random, 3);
+    Watch watch{limits};
+    controller.start(at(0));
+    for (int cycle = 0; cycle < 3000; ++cycle) {
+      CAPTURE(cycle);
+      const double wish = wishes.next();
+      REQUIRE(watch.follow(controller.update(at(watch.q), to_position(wish), dt).position[0]));
+    }
+  }
+}
+
+TEST_CASE("velocity commands keep all limits of a drive that follows") {
+  constexpr unsigned seed = 10;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 200; ++k) {
+    CAPTURE(k);
+    const CommandLimits<1> limits = random_limits(random);
+    Velocities controller = velocities_within(limits);
+    Wishes wishes(random, 5);
+    double q = 0, v = 0, a = 0, furthest = 0;
+    controller.start(at(0));
+    for (int cycle = 0; cycle < 3000; ++cycle) {
+      CAPTURE(cycle);
+      const double given = controller.update(at(q, v), to_velocity(wishes.next()), dt).velocity[0];
+      const double a_new = (given - v) / dt;
+      REQUIRE(std::abs(given) <= limits.velocity[0]);
+      REQUIRE(std::abs(a_new) <= limits.acceleration[0] * (1 + 1e-8));
+      REQUIRE(std::abs(a_new - a) <= limits.jerk[0] * dt * (1 + 1e-6) + 1e-9);
+      q += given * dt;
+      v = given;
+      a = a_new;
+      furthest = std::max({furthest, limits.lower[0] - q, q - limits.upper[0]});
+    }
+    CHECK(furthest < 1e-12);  // rounding
+  }
+}
+
+TEST_CASE("a joint at its limit comes back as fast as its limits allow") {
+  constexpr unsigned seed = 11;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 200; ++k) {
+    CommandLimits<1> limits = random_limits(random);
+    limits.velocity[0] = random.number(0.5, 5);
+    limits.acceleration[0] = limits.deceleration[0] = random.number(5, 50);
+    CAPTURE(k, limits.upper[0], limits.velocity[0], limits.acceleration[0], limits.jerk[0]);
+    Positions controller = positions_within(limits);
+    controller.start(at(0));
+    double q = 0;
+    const auto run = [&](double wish, int cycles) {
+      for (int cycle = 0; cycle < cycles; ++cycle) {
+        q = controller.update(at(q), to_position(wish), dt).position[0];
+      }
+    };
+    run(1e6, 20000);
+    CHECK(q == Approx(limits.upper[0]).margin(1e-9));
+    CHECK(controller.report()[0].position);
+    // A quarter of a second from rest: a t^2/2, or what jerk and velocity leave of it.
+    const double a = limits.acceleration[0], j = limits.jerk[0], t = 0.25;
+    const double reached = std::min({a * t * t / 2, j * t * t * t / 6, limits.velocity[0] * t});
+    run(-1e6, 250);
+    CHECK(limits.upper[0] - q >=
+          std::min(0.3 * reached, 0.5 * (limits.upper[0] - limits.lower[0])));
+  }
+}
+
+TEST_CASE("what is within the limits passes to the last bit, and is not reported") {
+  CommandLimits<1> limits;
+  limits.lower[0] = -1;
+  limits.upper[0] = 1;
+  limits.velocity[0] = 10;
+  limits.acceleration[0] = 100;
+  limits.jerk[0] = 1e4;
+  Positions positions = positions_within(limits);
+  Velocities velocities = velocities_within(limits);
+  positions.start(at(0.5));
+  velocities.start(at(0.5));
+  for (int k = 0; k < 5000; ++k) {
+    const double t = k * dt;
+    const double q = 0.5 * std::cos(2 * t), v = -std::sin(2 * t);
+    REQUIRE(positions.update(at(q), to_position(q), dt).position[0] == q);
+    REQUIRE(velocities.update(at(q, v), to_velocity(v), dt).velocity[0] == v);
+    REQUIRE_FALSE(positions.report()[0].any());
+    REQUIRE_FALSE(velocities.report()[0].any());
+    CHECK(positions.report()[0].asked == q);
+    CHECK(positions.report()[0].given == q);
+  }
+}
+
+TEST_CASE("the report says which limit it was") {
+  CommandLimits<1> limits;
+  const auto report_of = [&](double wish) {
+    Positions controller = positions_within(limits);
+    controller.start(at(0));
+    static_cast<void>(controller.update(at(0), to_position(wish), dt));
+    return controller.report()[0];
+  };
+  CHECK_FALSE(report_of(1).any());
+  limits.velocity[0] = 1;
+  CHECK(report_of(1).velocity);
+  CHECK(report_of(1).given == Approx(1e-3));
+  CHECK(report_of(1).asked == 1);
+  limits = {};
+  limits.acceleration[0] = 1;
+  CHECK(report_of(1).acceleration);
+  limits = {};
+  limits.jerk[0] = 1;
+  CHECK(report_of(1).jerk);
+  limits = {};
+  limits.upper[0] = 0.5;
+  CHECK(report_of(1).position);
+  CHECK_FALSE(report_of(0.5).any());
+  limits = {};
+  limits.soft_upper[0] = 0.5;
+  limits.soft_rate[0] = 10;
+  CHECK(report_of(1).soft_position);
+  CHECK(report_of(not_a_number).non_finite);
+  CHECK_FALSE(report_of(not_a_number).position);
+}
+
+TEST_CASE("a soft limit is approached with a speed proportional to the distance") {
+  CommandLimits<1> limits;
+  limits.upper[0] = 1;
+  limits.soft_upper[0] = 0.5;
+  limits.soft_rate[0] = 10;
+  Positions controller = positions_within(limits);
+  controller.start(at(0));
+  double q = 0;
+  for (int k = 0; k < 500; ++k) {
+    const double expected = q + 10 * (0.5 - q) * dt;
+    q = controller.update(at(q), to_position(2), dt).position[0];
+    REQUIRE(q == Approx(expected).epsilon(1e-12));
+  }
+  CHECK(q == Approx(0.5).margin(0.5 * std::exp(-5)));
+  q = controller.update(at(q), to_position(-2), dt).position[0];  // and back without delay
+  CHECK(q == -2);
+}
+
+TEST_CASE("a joint that begins beyond its limits may come back, and go no further") {
+  constexpr unsigned seed = 12;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 200; ++k) {
+    CAPTURE(k);
+    const CommandLimits<1> limits = random_limits(random);
+    const double outside = limits.upper[0] + random.number(0.01, 1);
+    Positions controller = positions_within(limits);
+    controller.start(at(outside));
+    for (int cycle = 0; cycle < 100; ++cycle) {
+      REQUIRE(controller.update(at(outside), to_position(100), dt).position[0] == outside);
+    }
+    double q = outside;
+    for (int cycle = 0; cycle < 60000 && q > 0; ++cycle) {
+      const double next = controller.update(at(q), to_position(-100), dt).position[0];
+      REQUIRE(next <= q);
+      q = next;
+    }
+    CHECK(q <= 0);
+  }
+}
+
+TEST_CASE("a joint that moves when control begins is slowed down, not stopped dead") {
+  CommandLimits<1> limits;
+  limits.acceleration[0] = 10;
+  limits.velocity[0] = 1;
+  Positions controller = positions_within(limits);
+  controller.start(at(0, 2));  // twice as fast as it may be
+  double q = 0, v = 2;
+  for (int k = 0; k < 300; ++k) {
+    const double next = controller.update(at(q, v), to_position(0), dt).position[0];
+    REQUIRE(std::abs((next - q) / dt - v) <= 10 * dt * (1 + 1e-6));
+    v = (next - q) / dt;
+    q = next;
+  }
+  CHECK(v < 0);  // on its way back
+}
+
+TEST_CASE("a velocity drive that is pushed beyond its limit is not sent further") {
+  CommandLimits<1> limits;
+  limits.upper[0] = 1;
+  limits.acceleration[0] = 10;
+  Velocities controller = velocities_within(limits);
+  controller.start(at(1.2));
+  CHECK(controller.update(at(1.2), to_velocity(1), dt).velocity[0] == 0);
+  CHECK(controller.update(at(1.3), to_velocity(1), dt).velocity[0] == 0);
+  CHECK(controller.update(at(1.3), to_velocity(-1), dt).velocity[0] == Approx(-0.01));
+}
+
+TEST_CASE("the reserve between deceleration and acceleration is used when it is needed") {
+  CommandLimits<1> limits;
+  limits.upper[0] = 1;
+  limits.deceleration[0] = 5;
+  limits.acceleration[0] = 20;
+  Velocities controller = velocities_within(limits);
+  controller.start(at(0.5));
+  double q = 0.5, v = 0, hardest = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const double given = controller.update(at(q, v), to_velocity(2), dt).velocity[0];
+    hardest = std::max(hardest, (v - given) / dt);
+    v = given;
+    q += 1.02 * v * dt;  // the drive goes a little further than told
+  }
+  CHECK(hardest > 5);
+  CHECK(hardest <= 20 * (1 + 1e-9));
+  CHECK(q < 1 + 1e-4);
+}
+
+TEST_CASE("numbers that are none never pass, and the joint brakes within its limits") {
+  const double hostile[] = {not_a_number, infinity, -infinity};
+  for (const double wrong : hostile) {
+    CAPTURE(wrong);
+    CommandLimits<1> limits;
+    limits.acceleration[0] = 10;
+    limits.upper[0] = 1;
+    Positions positions = positions_within(limits);
+    Velocities velocities = velocities_within(limits);
+    positions.start(at(0, 0.5));
+    velocities.start(at(0, 0.5));
+    double q = 0, v = 0.5;
+    for (int k = 0; k < 100; ++k) {
+      const double next = positions.update(at(q, v), to_position(wrong), dt).position[0];
+      REQUIRE(is_finite(next));
+      CHECK(positions.report()[0].non_finite);
+      const double given = velocities.update(at(q, v), to_velocity(wrong), dt).velocity[0];
+      CHECK(velocities.report()[0].non_finite);
+      REQUIRE((next - q) / dt == Approx(given).margin(1e-12));
+      REQUIRE(v - given <= 10 * dt * (1 + 1e-9));
+      q = next;
+      v = given;
+    }
+    CHECK(v == 0);
+    // And a wrong measurement.
+    CHECK(is_finite(velocities.update(at(wrong), to_velocity(1), dt)));
+    CHECK(is_finite(positions.update(at(wrong), to_position(q), dt)));
+    CHECK(is_finite(velocities.update(at(q), to_velocity(1), wrong)));
+    CHECK(is_finite(positions.update(at(q), to_position(q), wrong)));
+  }
+}
+
+TEST_CASE("before any position is known there is no position to command") {
+  Positions positions = positions_within({});
+  positions.start(at(not_a_number));
+  CHECK_FALSE(is_finite(positions.update(at(not_a_number), to_position(1), dt)));
+  Velocities velocities = velocities_within({});
+  velocities.start(at(not_a_number));
+  CHECK(velocities.update(at(not_a_number), to_velocity(1), dt).velocity[0] == 0);
+}
+
+TEST_CASE("the controller is told what was cut off, and does not wind up") {
+  const Slider robot = support::slider();
+  CommandLimits<1> limits;
+  limits.velocity[0] = 1;
+  using Approach = Limited<Slider, PositionByVelocity>;
+  Approach controller(
+      limits, PositionByVelocity<Slider>({PidGains{.proportional = 5, .integral = 2}}, robot),
+      robot);
+  controller.start(at(0));
+  for (int k = 0; k < 100; ++k) static_cast<void>(controller.update(at(0), to_position(10), dt));
+  CHECK(controller.controller().part<PidLaw<1>>().integral()[0] == 0);
+}
+
+TEST_CASE("the period may change") {
+  CommandLimits<1> limits;
+  limits.upper[0] = 1;
+  limits.velocity[0] = 2;
+  limits.acceleration[0] = 10;
+  limits.jerk[0] = 100;
+  Positions controller = positions_within(limits);
+  controller.start(at(0));
+  double q = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const double period = k % 7 == 0 ? 2e-3 : 1e-3;
+    const double next = controller.update(at(q), to_position(5), period).position[0];
+    // Another grid, another stop: within a cycle's change.
+    REQUIRE(next <= 1 + 2 * 2e-3);
+    REQUIRE(std::abs(next - q) <= (2 + 100 * 2e-3 * 2e-3 * 10) * period);
+    q = next;
+  }
+  CHECK(q == Approx(1).margin(1e-3));
+}
+
+TEST_CASE("limits that make no sense are refused, naming joint, limit and value") {
+  struct Bad {
+    JointVector<1> CommandLimits<1>::*member;
+    double value;
+    const char* name;
+  };
+  Slider robot = support::slider();
+  robot.joints[0].limits = {.lower = -1, .upper = 1, .velocity = 2, .effort = 3};
+  const Bad all[] = {{&CommandLimits<1>::lower, -1.5, "lower -1.5"},
+                     {&CommandLimits<1>::upper, 1.5, "upper 1.5"},
+                     {&CommandLimits<1>::lower, 2, "lower 2"},
+                     {&CommandLimits<1>::upper, not_a_number, "upper nan"},
+                     {&CommandLimits<1>::velocity, 2.5, "velocity 2.5"},
+                     {&CommandLimits<1>::velocity, -1, "velocity -1"},
+                     {&CommandLimits<1>::acceleration, 0, "acceleration 0"},
+                     {&CommandLimits<1>::acceleration, not_a_number, "acceleration nan"},
+                     {&CommandLimits<1>::deceleration, -5, "deceleration -5"},
+                     {&CommandLimits<1>::jerk, 0, "jerk 0"},
+                     {&CommandLimits<1>::effort, 3.5, "effort 3.5"},
+                     {&CommandLimits<1>::effort_rate, not_a_number, "effort_rate nan"},
+                     {&CommandLimits<1>::soft_lower, infinity, "soft_lower inf"},
+                     {&CommandLimits<1>::soft_upper, not_a_number, "soft_upper nan"},
+                     {&CommandLimits<1>::soft_rate, 0, "soft_rate 0"}};
+  for (const Bad& bad : all) {
+    CAPTURE(bad.name);
+    CommandLimits<1> limits = command_limits(robot);
+    (limits.*bad.member)[0] = bad.value;
+    CHECK_THROWS_WITH(Positions(limits, ForwardPosition<Slider>(robot), robot),
+                      Catch::Matchers::Contains("'joint'") && Catch::Matchers::Contains(bad.name));
+  }
+  CommandLimits<1> limits = command_limits(robot);
+  limits.acceleration[0] = 1;
+  limits.deceleration[0] = 2;
+  CHECK_THROWS_WITH(Positions(limits, ForwardPosition<Slider>(robot), robot),
+                    Catch::Matchers::Contains("deceleration 2 is above the limit 1"));
+  CHECK_NOTHROW(Limited<Q2d, ForwardPosition>());  // the description's
+}

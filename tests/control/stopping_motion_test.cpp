@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <articula/control/stopping_motion.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "catch.hpp"
+#include "random.hpp"
+
+using namespace articula;
+
+namespace {
+
+struct Case {
+  CommandMotion from;
+  double deceleration, jerk, period;
+};
+
+Case random_case(support::Random& random) {
+  Case c;
+  c.period = std::pow(10, random.number(-4, -1.5));
+  c.deceleration = std::pow(10, random.number(-1, 3));
+  c.jerk = random.one_in(3) ? 1e30 : c.deceleration * std::pow(10, random.number(-0.5, 5));
+  // Within two thousand cycles or so.
+  const double speed = 2000 * c.deceleration * c.period;
+  c.from = {random.number(-1, 1), random.number(-1, 1) * std::min(speed, 10.0),
+            random.one_in(5) ? 0 : random.number(-1, 1) * c.deceleration};
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("at rest nothing happens") {
+  StoppingMotion stop({3, 0, 0}, 1, 10, 1e-3);
+  CHECK(stop.feasible());
+  stop.advance();
+  CHECK(stop.motion().position == 3);
+  CHECK(stop.motion().velocity == 0);
+  CHECK(stop.positions().lowest == 3);
+  CHECK(stop.positions().highest == 3);
+}
+
+TEST_CASE("without a limit of jerk the deceleration is constant, over whole cycles") {
+  StoppingMotion stop({0, 1, 0}, 1, 1e30, 0.3);  // 3.3 cycles, so four with less
+  const double expected[] = {0.75, 0.5, 0.25, 0};
+  for (const double velocity : expected) {
+    stop.advance();
+    CHECK(stop.motion().velocity == Approx(velocity).margin(1e-15));
+  }
+  CHECK(stop.motion().position == Approx(0.3 * 1.5).epsilon(1e-15));
+}
+
+TEST_CASE(
+    "stops keep their limits in every cycle, end at rest, and stay within the foretold range") {
+  constexpr unsigned seed = 7;
+  CAPTURE(seed);
+  support::Random random(seed);
+  int infeasible = 0;
+  for (int k = 0; k < 20000; ++k) {
+    CAPTURE(k);
+    const Case c = random_case(random);
+    StoppingMotion stop(c.from, c.deceleration, c.jerk, c.period);
+    const ValueRange q = stop.positions(), v = stop.velocities();
+    if (!stop.feasible()) ++infeasible;
+    CommandMotion last = c.from;
+    ValueRange seen_q{last.position, last.position}, seen_v{last.velocity, last.velocity};
+    int cycles = 0;
+    bool kept = true;
+    do {
+      stop.advance();
+      const CommandMotion& m = stop.motion();
+      seen_q = {std::min(seen_q.lowest, m.position), std::max(seen_q.highest, m.position)};
+      seen_v = {std::min(seen_v.lowest, m.velocity), std::max(seen_v.highest, m.velocity)};
+      const double a = c.deceleration;
+      kept =
+          kept && std::abs(m.acceleration) <= a * (1 + 1e-6) &&
+          std::abs(m.acceleration - last.acceleration) <= c.jerk * c.period * (1 + 1e-6) + 1e-9 * a;
+      last = m;
+    } while ((last.velocity != 0 || last.acceleration != 0) && ++cycles < 100000);
+    CHECK(cycles < 100000);
+    CHECK((kept || !StoppingMotion(c.from, c.deceleration, c.jerk, c.period).feasible()));
+    // Sums of thousands of cycles against closed forms.
+    const double way = 1 + q.highest - q.lowest, speed = 1e-3 + v.highest - v.lowest;
+    CHECK(seen_q.lowest == Approx(q.lowest).margin(1e-9 * way));
+    CHECK(seen_q.highest == Approx(q.highest).margin(1e-9 * way));
+    CHECK(seen_v.lowest == Approx(v.lowest).margin(1e-9 * speed));
+    CHECK(seen_v.highest == Approx(v.highest).margin(1e-9 * speed));
+  }
+  CHECK(infeasible < 20);  // of 20000
+}
+
+TEST_CASE("a stop is about as fast as in continuous time") {
+  constexpr unsigned seed = 8;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 2000; ++k) {
+    const double v = random.number(0.1, 5), b = random.number(1, 50), j = random.number(10, 1e4);
+    CAPTURE(v, b, j);
+    constexpr double dt = 1e-3;
+    // From a = 0: ramps of p/J each and a rest between them.
+    const double p = std::min(b, std::sqrt(j * v));
+    const double time = p / j + v / p;
+    StoppingMotion stop({0, v, 0}, b, j, dt);
+    int cycles = 0;
+    while (stop.motion().velocity != 0 || stop.motion().acceleration != 0) {
+      stop.advance();
+      ++cycles;
+    }
+    CHECK(cycles * dt <= time + 5 * dt);  // three roundings up, and the cycle that ends at rest
+    CHECK(stop.motion().position <= v * time / 2 + 5 * dt * v);
+  }
+}

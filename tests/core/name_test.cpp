@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "catch.hpp"
+
+#include <articula/core/name.hpp>
+
+#include <string>
+
+using namespace articula;
+
+namespace {
+
+/// A type per name: compiles only if a name can be a template argument.
+template <Name Text>
+struct Tag {
+  static constexpr Name name = Text;
+};
+
+// The compiler knows all of it.
+static_assert(Tag<"elbow">::name == Name("elbow"));
+static_assert(Name().empty() && !Name("a").empty());
+static_assert(Name("ab") < Name("b") && !(Name("b") < Name("ab")) && !(Name("a") < Name("a")));
+
+}  // namespace
+
+TEST_CASE("a name gives back its text") {
+  CHECK(Name().view().empty());
+  CHECK(Name("").view().empty());
+  CHECK(Name("elbow_active_joint").view() == "elbow_active_joint");
+  CHECK(std::string_view(Name(std::string("elbow"))) == "elbow");
+  CHECK(Name(std::string_view("elbow").substr(0, 3)).view() == "elb");
+}
+
+TEST_CASE("a name holds 63 characters and refuses more, saying which") {
+  const std::string longest(Name::capacity, 'x');
+  CHECK(Name::capacity == 63);
+  CHECK(Name(longest).view() == longest);
+  CHECK_THROWS_AS(Name(longest + 'x'), std::length_error);
+  CHECK_THROWS_WITH(Name(longest + 'x'), "a name has at most 63 characters: " + longest + 'x');
+  CHECK_THROWS_AS(Name(std::string(100'000, 'x')), std::length_error);
+}
+
+TEST_CASE("names are equal and ordered as their texts are") {
+  const std::string_view texts[] = {"", "A", "a", "a_b", "aa", "ab", "b", "b1", "b10", "b2"};
+  for (std::string_view a : texts) {
+    for (std::string_view b : texts) {
+      CAPTURE(a, b);
+      CHECK((Name(a) == Name(b)) == (a == b));
+      CHECK((Name(a) < Name(b)) == (a < b));
+    }
+  }
+}
+
+TEST_CASE("a name owns its text") {
+  std::string text = "shoulder";
+  const Name name(text);
+  text.assign(text.size(), '?');
+  CHECK(name.view() == "shoulder");
+  const Name copy = name;  // NOLINT: the copy is what is tested
+  CHECK(copy.view().data() != name.view().data());
+  CHECK(copy == name);
+}

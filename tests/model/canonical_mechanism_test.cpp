@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/model/canonical_mechanism.hpp"
+
+#include "articula/dynamics/body_placements.hpp"
+#include "articula/dynamics/gravity.hpp"
+#include "articula/dynamics/inverse_dynamics.hpp"
+#include "articula/dynamics/kinetic_energy.hpp"
+#include "articula/dynamics/mass_matrix.hpp"
+#include "articula/dynamics/potential_energy.hpp"
+#include "catch.hpp"
+#include "random_mechanism.hpp"
+
+#include <cmath>
+
+using namespace articula;  // NOLINT
+
+namespace {
+
+constexpr int n = 9;
+constexpr std::size_t size = n;
+
+// Some hundred operations on numbers up to about 1e4, each off by 1e-16 of its size.
+Approx same(double value) { return Approx(value).epsilon(1e-11).margin(1e-10); }
+
+struct State {
+  std::array<double, size> q, v, a;
+};
+
+State random_state(test::Randomness& random) {
+  return {random.numbers<size>(-3, 3), random.numbers<size>(-2, 2), random.numbers<size>(-5, 5)};
+}
+
+}  // namespace
+
+TEST_CASE("The canonical form of any tree moves as the tree itself") {
+  test::Randomness random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Mechanism<n> tree = random.mechanism<n>();
+    const CanonicalMechanism<n> canonical = canonical_form(tree);
+    const State state = random_state(random);
+    const auto configuration = configuration_of<double, n, n>(tree, state.q);
+    const auto other = configuration_of<double, n, n>(canonical.mechanism, state.q);
+
+    const auto effort = InverseDynamics::evaluate(tree, configuration, state.v, state.a);
+    const auto other_effort =
+        InverseDynamics::evaluate(canonical.mechanism, other, state.v, state.a);
+    const auto gravity = Gravity::evaluate(tree, configuration);
+    const auto other_gravity = Gravity::evaluate(canonical.mechanism, other);
+    const auto matrix = MassMatrix::evaluate(tree, configuration);
+    const auto other_matrix = MassMatrix::evaluate(canonical.mechanism, other);
+    for (std::size_t i = 0; i < size; ++i) {
+      CAPTURE(trial, i);
+      CHECK(other_effort[i] == same(effort[i]));
+      CHECK(other_gravity[i] == same(gravity[i]));
+      for (std::size_t j = 0; j < size; ++j) CHECK(other_matrix[i][j] == same(matrix[i][j]));
+    }
+    CHECK(KineticEnergy::evaluate(canonical.mechanism, other, state.v) ==
+          same(KineticEnergy::evaluate(tree, configuration, state.v)));
+    const double of_base = -dot(tree.gravity, canonical.base.first_moment);
+    CHECK(PotentialEnergy::evaluate(canonical.mechanism, other) + of_base ==
+          same(PotentialEnergy::evaluate(tree, configuration)));
+  }
+}
+
+TEST_CASE("The canonical form says where its frames are") {
+  test::Randomness random(2);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Mechanism<n> tree = random.mechanism<n>();
+    const CanonicalMechanism<n> canonical = canonical_form(tree);
+    const auto q = random.numbers<size>(-3, 3);
+    const auto old_frames = BodyPlacements::evaluate(tree, configuration_of<double, n, n>(tree, q));
+    const auto new_frames = BodyPlacements::evaluate(
+        canonical.mechanism, configuration_of<double, n, n>(canonical.mechanism, q));
+    for (std::size_t i = 0; i < size; ++i) {
+      const Placement<double> expected = old_frames[i] * canonical.frames[i];
+      const Vector3<double> difference = new_frames[i].translation - expected.translation;
+      CHECK(std::sqrt(dot(difference, difference)) < 1e-13);
+      for (int k = 0; k < 3; ++k) {
+        const Vector3<double> turn = new_frames[i].rotation.column(k) - expected.rotation.column(k);
+        CHECK(std::sqrt(dot(turn, turn)) < 1e-13);
+      }
+    }
+  }
+}
+
+TEST_CASE("What a joint cannot feel is gone from its body") {
+  test::Randomness random(3);
+  const CanonicalMechanism<n> canonical = canonical_form(random.mechanism<n>());
+  for (const Body& body : canonical.mechanism.bodies) {
+    const auto& [mass, h, i] = body.inertia;
+    if (body.prismatic) {
+      CHECK(mass > 0);
+      CHECK(i == Symmetric3<double>{});
+    } else {
+      CHECK(mass == 0);
+      CHECK(h.z == 0);
+      CHECK(i.zz == i.xx + i.yy);
+    }
+  }
+}
+
+TEST_CASE("Origins lie across the axis from the parent's origin") {
+  test::Randomness random(4);
+  const CanonicalMechanism<n> canonical = canonical_form(random.mechanism<n>());
+  for (const Body& body : canonical.mechanism.bodies) {
+    CHECK(std::abs(dot(body.placement.rotation.column(2), body.placement.translation)) < 1e-14);
+  }
+}
+
+TEST_CASE("Frames on parallel axes are not turned against each other") {
+  Mechanism<3> chain;
+  for (std::size_t i = 0; i < 3; ++i) {
+    chain.bodies[i].parent = static_cast<int>(i) - 1;
+    chain.bodies[i].placement = {rotation_from_rpy({0, 0, 0.3}), {1, 0, 0}};
+  }
+  chain.bodies[2].placement.rotation = rotation_from_rpy({3.141592653589793, 0, 0.7});
+  const auto bodies = canonical_form(chain).mechanism.bodies;
+  CHECK(bodies[1].placement.rotation == Matrix3<double>::identity());
+  CHECK(bodies[2].placement.rotation == Matrix3<double>{{{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}}});
+}
+
+TEST_CASE("Right angles written with few digits are recognised within the tolerance") {
+  Mechanism<1> arm;
+  const Matrix3<double> quarter_turn{{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}};
+  const auto rotation = [&](double angle, auto... tolerance) {
+    arm.bodies[0].placement.rotation = rotation_from_rpy({angle, 0, 0});
+    return canonical_form(arm, tolerance...).mechanism.bodies[0].placement.rotation;
+  };
+  CHECK(rotation(1.5707963) == quarter_turn);
+  CHECK(rotation(1.570796) == quarter_turn);
+  CHECK_FALSE(rotation(1.5708) == quarter_turn);
+  CHECK(rotation(1.5708, 1e-5) == quarter_turn);
+  CHECK(rotation(1.5707963, 0.0) == rotation_from_rpy({1.5707963, 0, 0}));
+  CHECK(rotation(0.3).rows[1].y == Approx(std::cos(0.3)).epsilon(1e-15));
+}
+
+TEST_CASE("The canonical form can be had at compile time") {
+  constexpr Mechanism<1> pendulum{
+      .bodies = {{{.parent = -1,
+                   .prismatic = false,
+                   .placement = {},
+                   .inertia = {2, {0.5, 0, 0.25}, {0.5, 0, 0, 1, 0, 0.75}}}}},
+      .couplings = {},
+      .gravity = {0, 0, -9.81}};
+  constexpr CanonicalMechanism<1> canonical = canonical_form(pendulum);
+  STATIC_REQUIRE(canonical.mechanism.bodies[0].inertia.mass == 0);
+  STATIC_REQUIRE(canonical.mechanism.bodies[0].inertia.moment.zz == 0.75);
+  STATIC_REQUIRE(canonical.base.mass == 2);
+}

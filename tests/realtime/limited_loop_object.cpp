@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <articula/articula.hpp>
+#include <articula/control/limited.hpp>
+#include <articula/robots/q2d.hpp>
+
+using namespace articula;
+
+template <class R>
+using CarefulPid = Limited<R, PidPlusGravity>;
+
+extern "C" bool cycle(Loop<Q2dSim, CarefulPid>& loop) noexcept {
+  return loop.update() == Status::ok;
+}

@@ -1,0 +1,507 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <articula/control/pid_plus_gravity.hpp>
+#include <articula/loop/loop.hpp>
+#include <articula/reference/reference_generator.hpp>
+#include <articula/reference/trajectory_follower.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include <numbers>
+#include <optional>
+
+#include "catch.hpp"
+#include "numbers.hpp"
+#include "random.hpp"
+#include "test_robots.hpp"
+
+using namespace articula;
+using Catch::Matchers::Contains;
+using support::infinity;
+using support::not_a_number;
+using enum TrajectoryOutcome;
+
+namespace {
+
+using Vector = JointVector<2>;
+using Follower = TrajectoryFollower<Q2d>;
+using Points = Trajectory<Q2d>;
+static_assert(ReferenceGenerator<Follower, 2>);
+
+const MotionLimits<2> limits{{2, 10}, {20, 50}, {400, 1000}};
+const Vector zero = Vector::Zero();
+constexpr double h = 1e-3;
+
+/// From (0, 0) to (-1, 1) in 2 s, by way of (-0.5, 0.5).
+const Points there({{.time_from_start = 1, .position = {-0.5, 0.5}, .velocity = Vector(-0.8, 0.8)},
+                    {.time_from_start = 2, .position = {-1, 1}, .velocity = zero}});
+/// The same way in straight lines.
+const Points straight({{.time_from_start = 1, .position = {-0.5, 0.5}},
+                       {.time_from_start = 2, .position = {-1, 1}}});
+
+/// The joints as they are asked to be.
+JointState<2> obedient(const Follower& follower) {
+  return {follower.reference().position, follower.reference().velocity};
+}
+
+/// Samples up to a time with joints that obey; returns the time.
+double run(Follower& follower, double from, double to) {
+  double t = from;
+  static_cast<void>(follower.sample(t));
+  for (long k = 1; t < to; ++k) {
+    t = from + static_cast<double>(k) * h;
+    static_cast<void>(follower.sample(t));
+    follower.check(obedient(follower));
+  }
+  return t;
+}
+
+/// Checks that position and velocity go on without a jump from one sample to the next.
+class JumpDetector {
+ public:
+  /// @param acceleration  the highest there is
+  JumpDetector(const JointReference<2>& start, double acceleration)
+      : last_(start), acceleration_(acceleration) {}
+
+  void check(const JointReference<2>& now) {
+    const Vector v_step = now.velocity - last_.velocity;
+    const Vector q_error = now.position - last_.position - h * (now.velocity + last_.velocity) / 2;
+    // the trapezoidal rule with a bounded acceleration
+    const bool smooth = v_step.cwiseAbs().maxCoeff() <= acceleration_ * h &&
+                        q_error.cwiseAbs().maxCoeff() <= acceleration_ * h * h / 2;
+    if (!smooth) {
+      FAIL("from " << last_.position.transpose() << " to " << now.position.transpose()
+                   << ", velocity from " << last_.velocity.transpose() << " to "
+                   << now.velocity.transpose());
+    }
+    last_ = now;
+  }
+
+ private:
+  JointReference<2> last_;
+  double acceleration_;
+};
+
+}  // namespace
+
+TEST_CASE("it rests where it was made, before and after the clock starts") {
+  Follower follower({0.1, 0.2}, limits);
+  CHECK(follower.outcome() == idle);
+  CHECK(follower.sample(5).position == Vector(0.1, 0.2));
+  CHECK(follower.sample(6).velocity.isZero(0));
+  follower.cancel();
+  CHECK(follower.check(obedient(follower)) == idle);
+}
+
+TEST_CASE("from rest it is what the interpolation says, and it ends in success") {
+  Follower follower(zero, limits);
+  REQUIRE(follower.start(there) == active);
+  CHECK(follower.sample(7).position == zero);  // the first sample sets the clock
+  const TrajectoryPoint<2> start{.velocity = zero};
+  for (int k = 1; k < 1000; ++k) {
+    const auto r = follower.sample(7 + k * h);
+    const auto expected = interpolate(start, there.points()[0], k * h);
+    REQUIRE((r.position - expected.position).norm() < 1e-12);
+    REQUIRE((r.velocity - expected.velocity).norm() < 1e-11);
+    REQUIRE(follower.check(obedient(follower)) == active);
+  }
+  run(follower, 8, 8.999);
+  CHECK(follower.outcome() == active);
+  run(follower, 8.999, 9.001);
+  CHECK(follower.outcome() == successful);
+  CHECK(follower.reference().position == Vector(-1, 1));
+  CHECK(follower.reference().velocity.isZero(0));
+  run(follower, 9.001, 10);
+  CHECK(follower.reference().position == Vector(-1, 1));
+}
+
+TEST_CASE("a trajectory that starts at rest does not care how long nobody has sampled") {
+  Follower follower(zero, limits);
+  static_cast<void>(follower.sample(0));
+  REQUIRE(follower.start(there) == active);
+  CHECK(follower.check(obedient(follower)) == active);
+  CHECK(follower.sample(100).position == zero);
+  CHECK(follower.sample(100 + h).position.norm() < 1e-5);
+  CHECK(follower.check(obedient(follower)) == active);
+}
+
+TEST_CASE("a joint that leaves its path tolerance ends it, and is not pushed on") {
+  for (const bool by_velocity : {false, true}) {
+    CAPTURE(by_velocity);
+    TrajectoryTolerances<2> tolerances;
+    (by_velocity ? tolerances.path_velocity : tolerances.path_position)[1] = 0.1;
+    Follower follower(zero, limits, {.tolerances = tolerances});
+    REQUIRE(follower.start(there) == active);
+    double t = run(follower, 0, 0.7);
+    JointState<2> state = obedient(follower);
+    state.position[0] += 9;  // no tolerance is set for it
+    state.velocity[0] += 9;
+    double& measured = (by_velocity ? state.velocity : state.position)[1];
+    measured -= 0.09;
+    CHECK(follower.check(state) == active);
+    measured -= 0.02;
+    state.position[0] = follower.reference().position[0];
+    JumpDetector detector(follower.reference(), 60);
+    CHECK(follower.check(state) == path_tolerance_violated);
+    const Vector held = state.position;
+    for (int k = 1; k < 1000; ++k) detector.check(follower.sample(t + k * h));
+    CHECK((follower.reference().position - held).norm() < 1e-12);
+    CHECK(follower.reference().velocity.isZero(0));
+    CHECK(follower.check(state) == path_tolerance_violated);
+  }
+}
+
+TEST_CASE("after an abort the way back is nobody's, and the next trajectory is free of it") {
+  Follower follower(zero, limits, {.tolerances = {.path_position = {0.1, 0.1}}});
+  REQUIRE(follower.start(there) == active);
+  run(follower, 0, 0.7);
+  JointState<2> state = obedient(follower);
+  state.position[1] -= 0.3;
+  CHECK(follower.check(state) == path_tolerance_violated);
+  REQUIRE(follower.start(there, {.path_position = {0.1, 0.1}}, 2) == active);
+  static_cast<void>(follower.sample(0.701));
+  CHECK(follower.check(state) == active);
+  run(follower, 0.701, 4.002);
+  CHECK(follower.outcome() == successful);
+}
+
+TEST_CASE("NaN is out of tolerance") {
+  Follower follower(zero, limits, {.tolerances = {.path_position = {0.1, 0.1}}});
+  REQUIRE(follower.start(there) == active);
+  run(follower, 0, 0.5);
+  JointState<2> state = obedient(follower);
+  state.position[1] = not_a_number;
+  CHECK(follower.check(state) == path_tolerance_violated);
+  run(follower, 0.5, 1.5);
+  CHECK(is_finite(follower.reference()));
+  CHECK(follower.reference().velocity.isZero(0));
+}
+
+TEST_CASE("the goal waits for the joints, for goal_time at most") {
+  for (const double goal_time : {0.0, 0.5}) {
+    CAPTURE(goal_time);
+    TrajectoryTolerances<2> tolerances{.goal_position = {0.01, 0.01}, .goal_time = goal_time};
+    Follower follower(zero, limits, {.tolerances = tolerances});
+    REQUIRE(follower.start(there) == active);
+    static_cast<void>(follower.sample(0));
+    JointState<2> state{{-1, 0.98}, zero};
+    int k = 1;
+    for (; k <= 2499; ++k) {
+      static_cast<void>(follower.sample(k * h));
+      REQUIRE(follower.check(state) == active);
+    }
+    SECTION("arrives") {
+      state.position[1] = 0.991;
+      state.velocity[1] = 0.02;  // still moves
+      CHECK(follower.check(state) == active);
+      state.velocity[1] = 0.009;
+      CHECK(follower.check(state) == successful);
+    }
+    SECTION("does not arrive") {
+      for (; k <= 4000; ++k) {
+        static_cast<void>(follower.sample(k * h));
+        follower.check(state);
+      }
+      CHECK(follower.outcome() == (goal_time > 0 ? goal_tolerance_violated : active));
+      // where it was measured, or still asked to go where it should be
+      CHECK(follower.reference().position[1] == Approx(goal_time > 0 ? 0.98 : 1).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("canceled, it stops from the command within the limits and holds") {
+  for (const auto& trajectory : {there, straight}) {
+    Follower follower(zero, limits);
+    REQUIRE(follower.start(trajectory) == active);
+    run(follower, 0, 1.3);
+    const auto before = follower.reference();
+    JumpDetector detector(before, 51);
+    follower.cancel();
+    CHECK(follower.outcome() == canceled);
+    for (int k = 1; k < 500; ++k) {
+      const auto r = follower.sample(1.3 + k * h);
+      detector.check(r);
+      REQUIRE(std::abs(r.acceleration[0]) <= 20);
+      REQUIRE(std::abs(r.acceleration[1]) <= 50);
+      REQUIRE((r.position - before.position).norm() < 0.2);
+    }
+    CHECK(follower.reference().velocity.isZero(0));
+    follower.cancel();
+    CHECK(follower.outcome() == canceled);
+  }
+}
+
+TEST_CASE("the effort of the points goes on through stops, ways back and replacement") {
+  const Vector weight(3, 4);
+  const Points loaded({{.time_from_start = 2, .position = {-1, 1}, .effort = weight}});
+  Follower follower(zero, limits, {.tolerances = {.path_position = {0.1, 0.1}}});
+  REQUIRE(follower.start(loaded) == active);
+  run(follower, 0, 1);
+  CHECK((follower.reference().effort - weight / 2).norm() < 1e-9);
+  JointState<2> blocked = obedient(follower);
+  blocked.position[0] += 0.2;
+  CHECK(follower.check(blocked) == path_tolerance_violated);
+  run(follower, 1, 2);
+  CHECK((follower.reference().effort - weight / 2).norm() < 1e-9);
+  REQUIRE(follower.start(Points({{.time_from_start = 1, .position = zero}})) == active);
+  run(follower, 2, 2.5);
+  CHECK((follower.reference().effort - weight / 4).norm() < 1e-3);
+}
+
+TEST_CASE("a replacement leads on from what is asked for at the time") {
+  for (const auto& first : {there, straight}) {
+    Follower follower(zero, limits);
+    REQUIRE(follower.start(first) == active);
+    run(follower, 0, 0.8);
+    JumpDetector detector(follower.reference(), 21);
+    const Points back({{.time_from_start = 0.5, .position = {-0.3, 0.3}},
+                       {.time_from_start = 1, .position = {0, 0}}});
+    REQUIRE(follower.start(back) == active);
+    for (int k = 1; k <= 999; ++k) detector.check(follower.sample(0.8 + k * h));
+    // from the first point on it is the new trajectory
+    CHECK((follower.reference().position - back.sample(0.999).position).norm() < 1e-12);
+    run(follower, 1.799, 1.802);
+    CHECK(follower.outcome() == successful);
+  }
+}
+
+TEST_CASE("one that starts later lets what is followed go on until then") {
+  Follower follower(zero, limits), undisturbed(zero, limits);
+  REQUIRE(follower.start(there) == active);
+  REQUIRE(undisturbed.start(there) == active);
+  run(follower, 0, 0.5);
+  run(undisturbed, 0, 0.5);
+  const Points back({{.time_from_start = 1, .position = {0, 0}, .velocity = zero}});
+  REQUIRE(follower.start(back, {}, 0.9005) == active);
+  for (int k = 501; k <= 900; ++k) {
+    REQUIRE(follower.sample(k * h).position == undisturbed.sample(k * h).position);
+  }
+  run(follower, 0.9, 1.9);
+  CHECK(follower.outcome() == active);
+  run(follower, 1.9, 1.902);
+  CHECK(follower.outcome() == successful);
+  CHECK(follower.reference().position == zero);
+}
+
+TEST_CASE("one that waits while nothing is followed starts on time") {
+  Follower follower(zero, limits);
+  REQUIRE(follower.start(there, {}, 3) == active);
+  run(follower, 0, 2.999);
+  CHECK(follower.outcome() == active);
+  CHECK(follower.reference().position == zero);
+  run(follower, 2.999, 5.002);
+  CHECK(follower.outcome() == successful);
+}
+
+TEST_CASE("points in the past are left out, and a trajectory of none but these is refused") {
+  Follower follower(zero, limits);
+  run(follower, 0, 10);
+  REQUIRE(follower.start(there, {}, 8.9) == active);  // the first point was at 9.9
+  run(follower, 10, 10.899);
+  CHECK(follower.outcome() == active);
+  run(follower, 10.899, 10.902);
+  CHECK(follower.outcome() == successful);
+
+  REQUIRE(follower.start(Points({{.time_from_start = 1, .position = zero}})) == active);
+  run(follower, 10.902, 11.2);
+  const auto before = follower.reference();
+  CHECK(follower.start(there, {}, 8.9) == old_header_timestamp);
+  CHECK(follower.start(Points({{.position = {0.5, 0.5}}})) == old_header_timestamp);
+  CHECK(follower.outcome() == active);  // nothing has changed
+  CHECK(follower.sample(11.2).position == before.position);
+}
+
+TEST_CASE("points that cannot be reached in time are left out, or refused") {
+  Follower follower({-1, -1}, limits);
+  CHECK(follower.start(Points({{.time_from_start = 0.1, .position = {1, 1}}})) == invalid_goal);
+  CHECK(follower.outcome() == idle);
+  REQUIRE(follower.start(Points({{.time_from_start = 0.1, .position = {0.9, 0.9}},
+                                 {.time_from_start = 3, .position = {1, 1}}})) == active);
+  static_cast<void>(follower.sample(0));
+  CHECK(follower.sample(1.5).position.norm() < 1e-9);  // half way, in a straight line
+}
+
+TEST_CASE("start times and tolerances that are no numbers are refused") {
+  Follower follower(zero, limits);
+  CHECK(follower.start(there, {}, not_a_number) == invalid_goal);
+  CHECK(follower.start(there, {}, infinity) == invalid_goal);
+  for (const double bad : {-0.1, infinity, not_a_number}) {
+    CHECK(follower.start(there, {.path_position = {0, bad}}) == invalid_goal);
+    CHECK(follower.start(there, {.goal_time = bad}) == invalid_goal);
+    CHECK_THROWS_WITH(Follower(zero, limits, {.tolerances = {.goal_position = {0, bad}}}),
+                      Contains("goal_position") && Contains("'elbow_active_joint'"));
+  }
+  CHECK_THROWS_WITH(Follower({0, not_a_number}, limits), Contains("'elbow_active_joint'"));
+  CHECK_THROWS_WITH(Follower(zero, {}), Contains("'shoulder_active_joint'"));
+  CHECK(follower.outcome() == idle);
+}
+
+TEST_CASE("a clock that fails stands still") {
+  Follower follower(zero, limits);
+  REQUIRE(follower.start(there) == active);
+  const double t = run(follower, 0, 0.5);
+  const Vector before = follower.reference().position;
+  for (const double bad : {not_a_number, infinity, -infinity, t - 0.2}) {
+    CHECK(follower.sample(bad).position == before);
+  }
+  CHECK((follower.sample(t - 0.2 + h).position - before).norm() < 0.002);  // goes on from there
+}
+
+TEST_CASE("tolerances of a goal override those that are set, as in ROS") {
+  const TrajectoryTolerances<2> set{.path_position = {1, 2}, .goal_time = 3};
+  const auto t = overridden(set, {.path_position = {0, -1}, .goal_position = {4, 0}});
+  CHECK(t.path_position == Vector(1, 0));
+  CHECK(t.goal_position == Vector(4, 0));
+  CHECK(t.goal_time == 3);
+  CHECK(!is_valid(overridden(set, {.path_position = {-2, 0}})));
+}
+
+TEST_CASE("a last point that moves is followed by a stop") {
+  const Points moving({{.time_from_start = 1, .position = {-0.5, 0.5}, .velocity = Vector(-1, 1)}},
+                      {.allow_motion_at_end = true});
+  Follower follower(zero, limits);
+  REQUIRE(follower.start(moving) == active);
+  run(follower, 0, 0.99);
+  JumpDetector detector(follower.reference(), 51);
+  for (int k = 991; k < 1500; ++k) {
+    detector.check(follower.sample(k * h));
+    follower.check(obedient(follower));
+  }
+  CHECK(follower.outcome() == successful);
+  CHECK(follower.reference().position[0] < -0.51);
+}
+
+TEST_CASE("a paused trajectory stands still and goes on where it was") {
+  Follower follower(zero, limits, {.speed_rate = 5});
+  REQUIRE(follower.start(there) == active);
+  run(follower, 0, 0.8);
+  JumpDetector detector(follower.reference(), 20);
+  follower.set_speed(0);
+  for (int k = 801; k <= 1500; ++k) {
+    detector.check(follower.sample(k * h));
+    REQUIRE(follower.check(obedient(follower)) == active);
+  }
+  CHECK(follower.speed() == 0);
+  CHECK(follower.reference().velocity.isZero(0));
+  const Vector held = follower.reference().position;
+  CHECK(follower.sample(1.6).position == held);
+  follower.set_speed(1);
+  JumpDetector again(follower.reference(), 20);
+  for (int k = 1601; k <= 4000; ++k) {
+    again.check(follower.sample(k * h));
+    follower.check(obedient(follower));
+  }
+  CHECK(follower.outcome() == successful);
+  CHECK(follower.reference().position == Vector(-1, 1));
+}
+
+TEST_CASE("at half speed it takes twice as long, at half the velocity") {
+  Follower follower(zero, limits, {.speed_rate = 1e9});
+  follower.set_speed(0.5);
+  static_cast<void>(follower.sample(0));
+  static_cast<void>(follower.sample(h));
+  REQUIRE(follower.start(there) == active);
+  static_cast<void>(follower.sample(h));
+  const auto r = follower.sample(h + 1.4);
+  Follower full(zero, limits);
+  REQUIRE(full.start(there) == active);
+  static_cast<void>(full.sample(0));
+  const auto f = full.sample(0.7);
+  CHECK((r.position - f.position).norm() < 1e-12);
+  CHECK((r.velocity - f.velocity / 2).norm() < 1e-12);
+  CHECK((r.acceleration - f.acceleration / 4).norm() < 1e-12);
+}
+
+TEST_CASE("continuous joints take the short way round") {
+  constexpr double pi = std::numbers::pi;
+  const auto knob = support::single_joint(JointType::continuous);
+  using Knob = Model<1>;
+  const auto one = [](double x) { return JointVector<1>(x); };
+  TrajectoryFollower<Knob> follower(one(20 * pi + 3), {one(5), one(10), one(100)},
+                                    {.tolerances = {.path_position = one(0.1)}}, knob);
+  const Trajectory<Knob> trajectory({{.time_from_start = 1, .position = one(-3)}}, {}, knob);
+  REQUIRE(follower.start(trajectory) == active);
+  static_cast<void>(follower.sample(0));
+  CHECK(follower.check({one(3), one(0)}) == active);  // whole turns are no error
+  static_cast<void>(follower.sample(0.5));
+  CHECK(follower.reference().position[0] == Approx(21 * pi).epsilon(1e-12));
+  CHECK(follower.check({one(-pi), one(0)}) == active);
+  static_cast<void>(follower.sample(1));
+  CHECK(follower.reference().position[0] == Approx(22 * pi - 3).epsilon(1e-12));
+  CHECK(follower.check({one(-3), one(0)}) == successful);
+}
+
+TEST_CASE("whatever is done to it at random, nothing jumps") {
+  constexpr unsigned seed = 8;
+  CAPTURE(seed);
+  support::Random random(seed);
+  Follower follower(zero, limits, {.tolerances = {.path_position = {0.2, 0.2}}});
+  double t = 0;
+  JumpDetector detector(follower.sample(t), 80);
+  CHECK(is_finite(follower.reference()));
+  int refused = 0, started = 0, violated = 0, succeeded = 0;
+  for (int k = 1; k < 300'000; ++k) {
+    if (random.one_in(1500)) {
+      std::vector<TrajectoryPoint<2>> p(static_cast<std::size_t>(random.integer(1, 4)));
+      double time = random.number(0, 0.5);
+      const bool velocities = random.one_in(2), accelerations = random.one_in(2);
+      for (auto& point : p) {
+        point.time_from_start = time += random.number(0.6, 1);
+        point.position = random.vector<2>(0.3);
+        point.velocity = random.vector<2>(velocities ? 0.3 : 0);
+        if (accelerations) point.acceleration = random.vector<2>(1);
+      }
+      p.back().velocity = zero;
+      const double when = random.one_in(2) ? Follower::now : t + random.number(-1, 1);
+      const auto answer = follower.start(Points(p), {.path_position = {0.2, 0.2}}, when);
+      ++(answer == active ? started : refused);
+    }
+    if (random.one_in(3000)) follower.cancel();
+    if (random.one_in(1000)) follower.set_speed(random.one_in(3) ? 0 : random.number(0, 1.2));
+    t += h;
+    detector.check(follower.sample(t));
+    JointState<2> state = obedient(follower);
+    if (random.one_in(5000)) state.position += random.vector<2>(0.4);
+    const bool was_active = follower.outcome() == active;
+    const auto outcome = follower.check(state);
+    if (was_active && outcome == path_tolerance_violated) ++violated;
+    if (was_active && outcome == successful) ++succeeded;
+  }
+  CAPTURE(started, refused, violated, succeeded);
+  CHECK(started > 100);
+  CHECK(refused > 0);
+  CHECK(violated > 3);
+  CHECK(succeeded > 3);
+}
+
+TEST_CASE("gravity is compensated on after an abort") {
+  Loop<Simulator<support::TiltedQ2d>, PidPlusGravity> loop;
+  TrajectoryFollower<support::TiltedQ2d> follower(
+      loop.state().position, limits,
+      {.tolerances = {.path_position = {1e-4, 1e-4}}});  // tighter than the PID can
+  const Trajectory<support::TiltedQ2d> trajectory(
+      {{.time_from_start = 1, .position = {-0.5, 0.5}, .velocity = zero}});
+  REQUIRE(follower.start(trajectory) == active);
+  std::optional<Vector> where;
+  for (int k = 0; k < 3000; ++k) {
+    loop.reference() = follower.sample(loop.next_time());
+    REQUIRE(loop.update() == Status::ok);
+    if (!where && follower.check(loop.state()) == path_tolerance_violated) {
+      where = loop.state().position;
+    }
+    if (where) REQUIRE((loop.state().position - *where).norm() < 0.05);
+  }
+  REQUIRE(where);
+  CHECK((loop.state().position - *where).norm() < 1e-3);
+  CHECK(loop.state().velocity.norm() < 1e-3);
+}
+
+TEST_CASE("outcomes have the codes of ROS's action, and words") {
+  CHECK(static_cast<int>(successful) == 0);
+  CHECK(static_cast<int>(invalid_goal) == -1);
+  CHECK(static_cast<int>(invalid_joints) == -2);
+  CHECK(static_cast<int>(old_header_timestamp) == -3);
+  CHECK(static_cast<int>(path_tolerance_violated) == -4);
+  CHECK(static_cast<int>(goal_tolerance_violated) == -5);
+  for (int code = -5; code <= 3; ++code) {
+    CHECK(to_string(static_cast<TrajectoryOutcome>(code)) != "unknown outcome");
+  }
+}

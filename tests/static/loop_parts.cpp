@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a loop is made of has to fit.
+#include <articula/loop/loop.hpp>
+#include <articula/robots/q2d.hpp>
+
+using namespace articula;
+
+#ifdef UPDATE_MAY_THROW
+#define UPDATE_NOEXCEPT
+#else
+#define UPDATE_NOEXCEPT noexcept
+#endif
+#ifdef START_MAY_THROW
+#define START_NOEXCEPT
+#else
+#define START_NOEXCEPT noexcept
+#endif
+#ifdef WRITE_MAY_THROW
+#define WRITE_NOEXCEPT
+#else
+#define WRITE_NOEXCEPT noexcept
+#endif
+#ifdef POSITION_CONTROLLER
+template <int N>
+using Command = PositionCommand<N>;
+#elif defined(CONTROLLER_OF_ANOTHER_SIZE)
+template <int N>
+using Command = EffortCommand<N + 1>;
+#else
+template <int N>
+using Command = EffortCommand<N>;
+#endif
+
+template <Robot R>
+struct Limp {
+  static constexpr int N = joint_count<R>;
+  void start(const JointState<N>&) START_NOEXCEPT {}
+  Command<N> update(const JointState<N>&, const JointReference<N>&, double) UPDATE_NOEXCEPT {
+    return {};
+  }
+};
+
+struct Drives {
+  using RobotType = Q2d;
+  static constexpr int joint_count = 2;
+  [[nodiscard]] const Q2d& robot() const noexcept { return robot_; }
+  Status activate() { return Status::ok; }
+  Status deactivate() { return Status::ok; }
+#ifndef HARDWARE_WITHOUT_READ
+  Status read(JointState<2>&) noexcept { return Status::ok; }
+#endif
+  Status write(const EffortCommand<2>&) WRITE_NOEXCEPT { return Status::ok; }
+
+  Q2d robot_;
+};
+
+int main() {
+  Loop<Drives, Limp> loop;
+#ifdef STATUS_IGNORED
+#pragma GCC diagnostic error "-Wunused-result"
+  loop.update();
+#else
+  return loop.update() == Status::ok ? 0 : 1;
+#endif
+}

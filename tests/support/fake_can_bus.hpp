@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A CAN bus in memory, with simulated drives at its other end and a test in between.
+#pragma once
+
+#include <articula/hardware/can_transport.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace support {
+
+/// A bus in memory. Time passes only where someone waits. Shared by a transport and its test.
+template <class Drives>
+struct FakeCanBus {
+  explicit FakeCanBus(Drives the_drives) : drives(std::move(the_drives)) {}
+
+  Drives drives;
+  std::chrono::nanoseconds time{};
+  articula::CanLink link = articula::CanLink::up;
+  articula::CanSending sending = articula::CanSending::sent;  ///< what the next sends come to
+  bool can_open = true;                                       ///< and opening brings the link up
+  int opened = 0;
+  std::vector<articula::CanFrame> to_drives{};  ///< all that was on the wire
+  std::deque<articula::CanFrame> to_host{};     ///< not received yet
+  /// What is done to each frame of the drives: false keeps it from arriving.
+  std::function<bool(articula::CanFrame&)> on_feedback = [](articula::CanFrame&) { return true; };
+  /// What is done to each frame of the host.
+  std::function<bool(articula::CanFrame&)> on_command = [](articula::CanFrame&) { return true; };
+
+  void deliver(const articula::CanBatch& answers) {
+    for (articula::CanFrame frame : answers) {
+      if (on_feedback(frame)) to_host.push_back(frame);
+    }
+  }
+  /// A period without SYNC.
+  void silent_period() {
+    articula::CanBatch answers;
+    drives.pass_silent_period(answers);
+    deliver(answers);
+  }
+};
+
+/// The host's end of the bus.
+template <class Drives>
+class FakeCanTransport {
+ public:
+  explicit FakeCanTransport(std::shared_ptr<FakeCanBus<Drives>> bus) : bus_(std::move(bus)) {}
+
+  [[nodiscard]] articula::Status open(const articula::CanSubscription&) noexcept {
+    ++bus_->opened;
+    bus_->to_host.clear();
+    if (bus_->can_open) bus_->link = articula::CanLink::up;
+    return bus_->can_open ? articula::Status::ok : articula::Status::hardware_fault;
+  }
+  [[nodiscard]] std::size_t receive(std::span<articula::ReceivedCanFrame> frames) noexcept {
+    std::size_t count = 0;
+    while (count < frames.size() && !bus_->to_host.empty()) {
+      frames[count++] = {bus_->to_host.front(), bus_->time};
+      bus_->to_host.pop_front();
+    }
+    return count;
+  }
+  [[nodiscard]] articula::CanSending send(const articula::CanBatch& batch) noexcept {
+    const bool taken = bus_->sending == articula::CanSending::sent ||
+                       bus_->sending == articula::CanSending::unconfirmed;
+    if (!taken) return bus_->sending;
+    for (articula::CanFrame frame : batch) {
+      if (!bus_->on_command(frame)) continue;
+      bus_->to_drives.push_back(frame);
+      articula::CanBatch answers;
+      bus_->drives.receive(frame, answers);
+      bus_->deliver(answers);
+    }
+    return bus_->sending;
+  }
+  void wait(std::chrono::nanoseconds time) noexcept {
+    if (!bus_->to_host.empty()) return;
+    bus_->time += time;
+    bus_->silent_period();
+  }
+  [[nodiscard]] std::chrono::nanoseconds now() const noexcept { return bus_->time; }
+  [[nodiscard]] articula::CanLink link() const noexcept { return bus_->link; }
+
+ private:
+  std::shared_ptr<FakeCanBus<Drives>> bus_;
+};
+
+}  // namespace support

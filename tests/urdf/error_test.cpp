@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What is wrong with a URDF is said in one line with file, element, reason and figures.
+#include <articula/model/urdf.hpp>
+
+#include <console_bridge/console.h>
+
+#include "catch.hpp"
+#include "urdf_text.hpp"
+
+#include <fstream>
+
+using namespace articula;
+using support::joint;
+using support::pendulum;
+using support::robot;
+using support::solid;
+
+namespace {
+
+const std::string base = "<link name=\"base\"/>";
+
+/// The message of the exception, empty if none is thrown.
+std::string refusal(const std::string& source, const UrdfOptions& options = {}) {
+  try {
+    static_cast<void>(load_urdf<1>(source, options));
+  } catch (const UrdfError& error) {
+    const std::string message = error.what();
+    CHECK(message.find('\n') == std::string::npos);
+    return message;
+  }
+  return "";
+}
+
+/// A pendulum whose joint has that inside.
+std::string with_joint(const std::string& inside, const std::string& type = "continuous") {
+  return pendulum(solid("rod"), joint("pivot", type, "base", "rod", inside));
+}
+
+/// A pendulum whose rod has that <inertial>.
+std::string with_inertial(const std::string& inside) {
+  return pendulum("<link name=\"rod\"><inertial>" + inside + "</inertial></link>");
+}
+
+std::string inertial(const std::string& mass, const std::string& ixx = "1",
+                     const std::string& ixy = "0") {
+  return with_inertial("<mass value=\"" + mass + "\"/><inertia ixx=\"" + ixx + "\" ixy=\"" + ixy +
+                       "\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/>");
+}
+
+}  // namespace
+
+TEST_CASE("A good URDF is accepted") {
+  CHECK(refusal(pendulum()).empty());
+  CHECK(refusal(inertial("2")).empty());
+}
+
+TEST_CASE("Files that cannot be read") {
+  CHECK(refusal("no/such.urdf") == "no/such.urdf: the file cannot be read");
+  CHECK(refusal("/") == "/: the file cannot be read");
+  CHECK(refusal("") == ": the file cannot be read");
+  CHECK(refusal(std::string("<robot>\0</robot>", 16)) == "URDF: it is no text: it holds NUL");
+}
+
+TEST_CASE("The file is named") {
+  const std::string file = "urdf_error_test.urdf";
+  std::ofstream(file) << inertial("-0.3");
+  CHECK(refusal(file) == "urdf_error_test.urdf: link 'rod': the mass is negative (-0.3 kg)");
+}
+
+TEST_CASE("Text that is not XML") {
+  CHECK(refusal("<") == "URDF: line 1: a tag has no name");
+  CHECK(refusal("<robot name=r>") == "URDF: line 1: an attribute's value is not between quotes");
+  CHECK(refusal("<robot\n name=\"r") == "URDF: line 2: an attribute's value is not between quotes");
+  CHECK(refusal("<robot a>") == "URDF: line 1: an attribute has no value");
+  CHECK(refusal("<robot name='r'>\n\n<link name='a'/>") ==
+        "URDF: line 3: an element is not closed");
+  CHECK(refusal("<robot name='r'></robot></link>") ==
+        "URDF: line 1: an element is closed that was not opened");
+  CHECK(refusal("<robot name='r'><link></robot></link>").starts_with("URDF: line 1: Error"));
+  CHECK(refusal("<!-- <robot>") == "URDF: line 1: a comment is not closed");
+  CHECK(refusal("<![CDATA[ <robot>") == "URDF: line 1: a CDATA part is not closed");
+  CHECK(refusal("<?xml version='1.0'>") == "URDF: line 1: a <? is not closed by ?>");
+  CHECK(refusal("<!DOCTYPE robot [<!ENTITY a 'aaaa'>]><robot/>") ==
+        "URDF: line 1: a document type or entity, which URDF has not");
+}
+
+TEST_CASE("Elements nested without end") {
+  std::string deep;
+  for (int i = 0; i < 1000000; ++i) deep += "<a>";
+  CHECK(refusal(deep) == "URDF: line 1: elements are nested more than 100 deep");
+}
+
+TEST_CASE("XML that is no robot") {
+  CHECK(refusal("<link name='a'/>") == "URDF: there is no <robot>");
+  CHECK(refusal("<robot/>") == "URDF: No name given for the robot.");
+  CHECK(refusal(robot("")) == "URDF: No link elements found in urdf file");
+  CHECK(refusal(robot(base)) == "URDF: robot 'r': no joint moves");
+}
+
+TEST_CASE("Inertias that cannot be") {
+  CHECK(
+      refusal(inertial("0")) ==
+      "URDF: link 'rod': the link has inertia but no mass (mass 0 kg, principal moments of inertia "
+      "1, 1, 1 kg m^2); allow_unphysical accepts it");
+  CHECK(
+      refusal(inertial("1", "2.5")) ==
+      "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
+      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical accepts it");
+  CHECK(refusal(inertial("1", "1", "-1.5")) ==
+        "URDF: link 'rod': the inertia is not positive definite (mass 1 kg, principal moments of "
+        "inertia -0.5, 1, 2.5 kg m^2); allow_unphysical accepts it");
+  CHECK(refusal(inertial("-1"), {.allow_unphysical = true}) ==
+        "URDF: link 'rod': the mass is negative (-1 kg)");
+  CHECK(refusal(pendulum("<link name='rod'/>")) ==
+        "URDF: joint 'pivot': the joint moves no link that has mass (lock it, or give rod a mass)");
+}
+
+TEST_CASE("Numbers that are none") {
+  for (const char* number : {"nan", "inf", "-inf", "1e999", "1,5", "0x10", "2 kg", "", "--1"}) {
+    CAPTURE(number);
+    CHECK(refusal(inertial(number)).find("rod") != std::string::npos);
+    CHECK(refusal(with_joint("<limit effort=\"" + std::string(number) + "\" velocity=\"1\"/>"))
+              .find("pivot") != std::string::npos);
+    CHECK(refusal(with_joint("<origin xyz=\"0 0 " + std::string(number) + "\"/>")).find("pivot") !=
+          std::string::npos);
+    CHECK(refusal(with_joint("<origin rpy=\"0 0 " + std::string(number) + "\"/>")).find("pivot") !=
+          std::string::npos);
+  }
+  CHECK(refusal(with_joint("<origin xyz=\"1e200 0 0\"/>")).empty());
+  CHECK(refusal(with_inertial("<origin xyz=\"1e200 0 0\"/><mass value=\"2\"/><inertia ixx=\"1\" "
+                              "ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/>")) ==
+        "URDF: its figures overflow");
+  CHECK(refusal(with_joint("<axis xyz=\"1e200 0 0\"/>")).empty());  // a direction like any other
+}
+
+TEST_CASE("An inertia that urdfdom cannot read is not left out") {
+  CHECK(refusal(with_inertial("<mass value=\"1\"/>")).find("[rod]") != std::string::npos);
+  CHECK(refusal(with_inertial("<mass/>")).find("[rod]") != std::string::npos);
+}
+
+TEST_CASE("Joints that cannot be") {
+  CHECK(refusal(with_joint("<axis xyz=\"0 0 0\"/>")) ==
+        "URDF: joint 'pivot': the axis has length 0 (0 0 0)");
+  CHECK(refusal(with_joint("<limit lower=\"1\" upper=\"-0.5\" effort=\"1\" velocity=\"1\"/>",
+                           "revolute")) ==
+        "URDF: joint 'pivot': the lower limit is above the upper limit (lower 1, upper -0.5)");
+  CHECK(refusal(with_joint("<limit effort=\"-2\" velocity=\"1\"/>")) ==
+        "URDF: joint 'pivot': the effort limit is negative (-2)");
+  CHECK(refusal(with_joint("<limit effort=\"2\" velocity=\"-1\"/>")) ==
+        "URDF: joint 'pivot': the velocity limit is negative (-1)");
+  CHECK(refusal(with_joint("<dynamics damping=\"-0.1\"/>")) ==
+        "URDF: joint 'pivot': the damping is negative (-0.1)");
+  CHECK(refusal(with_joint("<dynamics friction=\"-0.1\"/>")) ==
+        "URDF: joint 'pivot': the friction is negative (-0.1)");
+  CHECK(refusal(with_joint("", "revolute")).find("[pivot]") != std::string::npos);  // no limits
+  CHECK(refusal(with_joint("<limit lower=\"0\"/>", "revolute")).find("[pivot]") !=
+        std::string::npos);
+  CHECK(refusal(with_joint("", "ball")).find("[ball]") != std::string::npos);
+  for (const char* type : {"planar", "floating"}) {
+    CHECK(refusal(with_joint("", type)) ==
+          "URDF: joint 'pivot': it is " + std::string(type) +
+              "; joints with one degree of freedom are supported (lock it, or choose a root beyond "
+              "it)");
+  }
+}
+
+TEST_CASE("Floating joints can be locked or left behind") {
+  const std::string text =
+      robot(base + solid("body") + solid("rod") + joint("float", "floating", "base", "body") +
+            joint("pivot", "continuous", "body", "rod"));
+  CHECK(refusal(text).find("floating") != std::string::npos);
+  CHECK(refusal(text, {.locked = {"float"}}).empty());
+  CHECK(refusal(text, {.root = "body"}).empty());
+  CHECK(refusal(text, {.locked = {{"float", 1}}}).find("floating") != std::string::npos);
+}
+
+TEST_CASE("Links that are no tree") {
+  const std::string a = solid("a"), b = solid("b"), c = solid("c");
+  CHECK(refusal(robot(a + b + joint("i", "continuous", "a", "b") +
+                      joint("j", "continuous", "a", "b"))) ==
+        "URDF: link 'b': it is the child of two joints, 'i' and 'j'");
+  CHECK(refusal(robot(a + b + joint("i", "continuous", "a", "b") +
+                      joint("j", "continuous", "b", "a"))) ==
+        "URDF: link 'a': it is part of a loop");
+  CHECK(refusal(robot(a + b + c + joint("i", "continuous", "b", "c") +
+                      joint("j", "continuous", "c", "b"))) ==
+        "URDF: link 'b': it is part of a loop");
+  CHECK(refusal(robot(a + joint("i", "continuous", "a", "a"))) ==
+        "URDF: link 'a': it is part of a loop");
+  CHECK(refusal(robot(a + b)) ==
+        "URDF: Failed to find root link: Two root links found: [a] and [b]");
+  CHECK(refusal(robot(a + joint("i", "continuous", "a", "x"))).find("[x]") != std::string::npos);
+  CHECK(refusal(robot(a + joint("i", "continuous", "x", "a"))).find("[x]") != std::string::npos);
+  CHECK(refusal(robot(a + "<joint name='i' type='fixed'/>")) ==
+        "URDF: joint 'i': it has no child link");
+}
+
+TEST_CASE("Names that cannot be") {
+  const std::string a = solid("a"), long_name(64, 'x'), longest(63, 'x');
+  CHECK(refusal(robot(a + a)) == "URDF: link 'a' is not unique.");
+  CHECK(refusal(robot(a + solid("b") + solid("c") + joint("i", "continuous", "a", "b") +
+                      joint("i", "continuous", "b", "c"))) == "URDF: joint 'i' is not unique.");
+  CHECK(!refusal(robot(solid("") + a + joint("i", "continuous", "", "a"))).empty());
+  CHECK(refusal(robot(base + a + joint("", "continuous", "base", "a"))) ==
+        "URDF: joint '': the name is missing");
+  CHECK(refusal(robot(base + solid(longest) + joint("i", "continuous", "base", longest))).empty());
+  CHECK(refusal(robot(base + solid(long_name) + joint("i", "continuous", "base", long_name))) ==
+        "URDF: '" + long_name + "': the name has 64 characters; 63 are accepted");
+}
+
+TEST_CASE("Names of odd characters") {
+  // TinyXML reads bytes that are not UTF-8, and control characters, otherwise than it writes them.
+  for (const char* name : {"a\xC7\x33\xC7\x1F", "\xFF", "&#x1F;", "&#0;", "a&lt;b", "\xC3\xA4"}) {
+    CAPTURE(name);
+    CHECK_NOTHROW(refusal(pendulum(solid(name), joint(name, "continuous", "base", name))));
+  }
+}
+
+TEST_CASE("Joints that mimic nobody") {
+  const auto mimics = [](const std::string& other, const UrdfOptions& options = {}) {
+    return refusal(robot(base + solid("a") + solid("b") + solid("c") +
+                         joint("i", "continuous", "base", "a") + joint("j", "fixed", "base", "c") +
+                         joint("k", "continuous", "a", "b", "<mimic joint=\"" + other + "\"/>")),
+                   options);
+  };
+  CHECK(mimics("x") == "URDF: joint 'k': the joint that is to be mimicked does not exist (x)");
+  CHECK(mimics("j") ==
+        "URDF: joint 'k': the joint that is to be mimicked is fixed or a mimic itself (j)");
+  CHECK(mimics("k") == "URDF: joint 'k': it mimics itself");
+  CHECK(mimics("i", {.root = "a"}) ==
+        "URDF: joint 'k': it mimics 'i', which is not between root and tip");
+}
+
+TEST_CASE("Options that name nothing") {
+  CHECK(refusal(pendulum(), {.root = "x"}) ==
+        "URDF: link 'x': it is to be the root, but does not exist");
+  CHECK(refusal(pendulum(), {.tip = "x"}) ==
+        "URDF: link 'x': it is to be the tip, but does not exist");
+  CHECK(refusal(pendulum(), {.root = "rod", .tip = "base"}) ==
+        "URDF: link 'base': it is not beyond 'rod'");
+  CHECK(refusal(pendulum(), {.locked = {"x"}}) ==
+        "URDF: joint 'x': it is to be locked, but does not exist");
+}
+
+TEST_CASE("Limits in ros2_control that cannot be") {
+  const auto control = [](const std::string& inside) {
+    std::string text = pendulum();
+    return refusal(text.insert(text.rfind("</robot>"),
+                               "<ros2_control><joint name=\"pivot\">"
+                               "<command_interface name=\"effort\">" +
+                                   inside +
+                                   "</command_interface></joint>"
+                                   "</ros2_control>"));
+  };
+  CHECK(control("<param name=\"max\">3</param>").empty());
+  CHECK(control("<param name=\"max\">much</param>") ==
+        "URDF: <ros2_control>: joint 'pivot': effort max: 'much' is not a finite number");
+  CHECK(control("<param name=\"min\">1e999</param>") ==
+        "URDF: <ros2_control>: joint 'pivot': effort min: '1e999' is not a finite number");
+}
+
+TEST_CASE("A robot of another size is refused with the sizes and names") {
+  const std::string arm = URDF_FILES "/arm.urdf", gripper = URDF_FILES "/gripper.urdf";
+  CHECK_THROWS_WITH(load_urdf<4>(arm),
+                    arm +
+                        ": robot 'arm': it has 3 joints: turn, shoulder, lift; <4> was asked for, "
+                        "<3> is right");
+  CHECK_THROWS_WITH(load_urdf<2>(gripper),
+                    gripper +
+                        ": robot 'gripper': it has 2 joints: wrist, left_knuckle; and joints "
+                        "that mimic one of them: left_slide, right_knuckle, right_curl; <2> "
+                        "was asked for, <2, 5> is right");
+  CHECK_NOTHROW(load_urdf<2, 5>(gripper));
+}
+
+TEST_CASE("urdfdom's messages do not reach the program's receiver") {
+  struct Receiver final : console_bridge::OutputHandler {
+    void log(const std::string&, console_bridge::LogLevel, const char*, int) override { ++count; }
+    int count = 0;
+  } receiver;
+  console_bridge::useOutputHandler(&receiver);
+  const auto level = console_bridge::getLogLevel();
+  CHECK(!refusal(robot("")).empty());
+  CHECK(console_bridge::getOutputHandler() == &receiver);
+  CHECK(console_bridge::getLogLevel() == level);
+  console_bridge::restorePreviousOutputHandler();
+  CHECK(receiver.count == 0);
+
+  console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_NONE);
+  CHECK(refusal(robot("")) == "URDF: No link elements found in urdf file");
+  console_bridge::setLogLevel(level);
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The C++ that is made of a description.
+#include "header_text.hpp"
+
+#include "catch.hpp"
+#include "urdf_text.hpp"
+
+#include <cmath>
+#include <limits>
+
+using namespace articula;
+using Catch::Contains;
+
+namespace {
+
+UrdfDescription pendulum() { return read_urdf(support::pendulum()); }
+
+}  // namespace
+
+TEST_CASE("A header is C++ that people can read") {
+  UrdfDescription description = pendulum();
+  description.file = "somewhere/pendulum.urdf";
+  CHECK(header_text(description, {"Pendulum", "lab::robots"}) ==
+        R"(// Made by articula_add_robot from pendulum.urdf. Changes go there.
+#pragma once
+
+#include <articula/model/description.hpp>
+
+#include <array>
+
+namespace lab::robots {
+
+/// The robot 'r'.
+struct Pendulum {
+  static constexpr articula::RobotDescription description{
+      .name = "r",
+      .gravity = {0, 0, -9.81},
+      .links = std::to_array<articula::Link>({
+          {.name = "base"},
+          {.name = "rod",
+           .mass = 2,
+           .inertia = {.xx = 1,
+                       .yy = 1,
+                       .zz = 1}},
+      }),
+      .joints = std::to_array<articula::Joint>({
+          {.name = "pivot",
+           .type = articula::JointType::continuous,
+           .parent = "base",
+           .child = "rod"},
+      })};
+};
+
+}  // namespace lab::robots
+)");
+}
+
+TEST_CASE("Numbers keep all their digits and their sign") {
+  UrdfDescription description = pendulum();
+  description.gravity = {0.1, -0.0, 1.0 / 3};
+  description.links[1].mass = std::nextafter(2.0, 3.0);
+  description.links[1].center_of_mass = {1e300, 5e-324, -1.7976931348623157e308};
+  const std::string text = header_text(description, {"R", ""});
+  CHECK_THAT(text, Contains("{0.1, -0.0, 0.3333333333333333}"));
+  CHECK_THAT(text, Contains(".mass = 2.0000000000000004"));
+  CHECK_THAT(text, Contains("{1e+300, 5e-324, -1.7976931348623157e+308}"));
+}
+
+TEST_CASE("Names cannot break out of their quotes") {
+  UrdfDescription description = pendulum();
+  description.name = "a\"b\\c\nd\x7F";
+  description.file = "dir/evil\\\n.urdf\\";
+  const std::string text = header_text(description, {"R", ""});
+  CHECK_THAT(text, Contains(R"(.name = "a\"b\\c\012d\177")"));
+  CHECK_THAT(text, Contains("from evil\\\\\\012.urdf\\\\. Changes"));
+}
+
+TEST_CASE("Notices become comments, unphysical robots say so") {
+  const UrdfDescription robot =
+      read_urdf(URDF_FILES "/unphysical.urdf", {.allow_unphysical = true});
+  const std::string text = header_text(robot, {"R", ""});
+  CHECK_THAT(text, Contains("/// - link 'flat': the inertia breaks the triangle inequality"));
+  CHECK_THAT(text, Contains(",\n      .allow_unphysical = true};"));
+}
+
+TEST_CASE("What C++ does not accept as a name is refused") {
+  for (const char* name : {"", "1st", "my-robot", "a b", "x;", "a::b"}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS(header_text(pendulum(), {name, ""}), std::invalid_argument);
+  }
+  for (const char* name : {"::", "a::", "1", "a-b", "a b"}) {
+    CAPTURE(name);
+    CHECK_THROWS_AS(header_text(pendulum(), {"R", name}), std::invalid_argument);
+  }
+}
