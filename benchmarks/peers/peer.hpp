@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The same work, done by another library.
+#pragma once
+
+#include <articula/model/mechanism.hpp>
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace peers {
+
+/// What is measured.
+enum class Operation { inverse_dynamics, gravity, mass_matrix, forward_dynamics, step };
+
+inline constexpr std::array<std::string_view, 5> operation_names{
+    "inverse_dynamics", "gravity", "mass_matrix", "forward_dynamics", "step"};
+
+inline constexpr double step_time = 1e-3;  ///< of a Runge-Kutta step [s]
+
+using Numbers = std::vector<double>;
+
+/// A robot in motion. Joints are in articula's order, which is that of the bodies.
+struct State {
+  Numbers q, v, a, effort;
+};
+
+/// A robot in another library. States are handed over before anything is measured, so that each
+/// library reads them in a form of its own.
+class Peer {
+ public:
+  virtual ~Peer() = default;
+  /// True if the library offers the operation for this robot.
+  [[nodiscard]] virtual bool offers(Operation operation) const = 0;
+  /// Does the work on one of the states.
+  virtual void run(Operation operation, std::size_t state) = 0;
+  /// What the last run of an operation gave, in the order of articula's joints: efforts, rows of the
+  /// mass matrix, accelerations, or positions and velocities after a step.
+  [[nodiscard]] virtual Numbers result(Operation operation) const = 0;
+};
+
+/// Orocos KDL: its solvers for chains where the robot is one, else its solver for trees, which has
+/// inverse dynamics only.
+[[nodiscard]] std::unique_ptr<Peer> kdl(std::span<const articula::Body> bodies,
+                                        const articula::Vector3<double>& gravity,
+                                        const std::vector<State>& states);
+
+/// How MuJoCo's functions are called.
+enum class Pipeline {
+  whole,     ///< mj_inverse, mj_forward, mj_step
+  shortest,  ///< only those of their stages that the result needs
+};
+
+[[nodiscard]] std::unique_ptr<Peer> mujoco(std::span<const articula::Body> bodies,
+                                           const articula::Vector3<double>& gravity,
+                                           const std::vector<State>& states, Pipeline pipeline);
+
+}  // namespace peers

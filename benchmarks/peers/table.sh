@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Makes results/peers.md and results/peers.svg of results/peers.json, or of another file's figures:
+#
+#   benchmarks/run.sh peers --benchmark_enable_random_interleaving=true && benchmarks/peers/table.sh
+#   benchmarks/peers/table.sh <figures.json> <folder for table and plot>
+set -euo pipefail
+cd "$(dirname "$0")/.."
+json=${1:-results/peers.json}
+folder=${2:-results}
+
+# <operation> <robot> <library> <median in ns>, one case a line.
+cases=$(awk -F '"' '
+  $2 == "run_name" { name = $4 }
+  $2 == "aggregate_name" { aggregate = $4 }
+  $2 == "cpu_time" && aggregate == "median" {
+    split(name, part, "/")
+    sub(/^: /, "", $3); sub(/,$/, "", $3)
+    print part[1], part[2], part[3], $3
+  }' "$json")
+cases=$(
+  for robot in q2d ur10 panda pr2; do
+    for operation in inverse_dynamics gravity mass_matrix forward_dynamics step; do
+      grep "^$operation $robot " <<<"$cases" || true
+    done
+  done
+)
+context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; }
+
+{
+  echo "# articula beside KDL and MuJoCo"
+  echo
+  echo "$(context cpu); $(context compiler)."
+  echo "Flags: \`$(context flags)\`, ours with \`-march=native\` besides; KDL and MuJoCo as Debian packages them."
+  echo "Made by \`$(context command)\`, revision $(context revision)."
+  echo
+  echo "Nanoseconds of one call, median of five repetitions; in brackets how many times as long as ours, the"
+  echo "described type. \"Shortest\" are MuJoCo's stages that the result needs, without the rest of the"
+  echo "public function. PR2: thirty joints, all free."
+  echo
+  echo "| robot | operation | described type | \`Model<N>\` | KDL | MuJoCo | MuJoCo, shortest |"
+  echo "|---|---|---:|---:|---:|---:|---:|"
+  awk '
+    function cell(library, time) {
+      time = t[$0, library]
+      return time == "" ? "-" : sprintf("%.*f (%.1f)", time < 100, time, time / t[$0, "described"])
+    }
+    { key = $2 " | " $1; if (!(key in seen)) { seen[key] = 1; order[++n] = key } t[key, $3] = $4 }
+    END {
+      for (i = 1; i <= n; ++i) {
+        $0 = order[i]
+        ours = t[$0, "described"]
+        line = $0; gsub("_", " ", line)
+        printf "| %s | %.*f | %s | %s | %s | %s |\n", line, ours < 100, ours, cell("model"),
+          cell("kdl"), cell("mujoco"), cell("mujoco_shortest")
+      }
+    }' <<<"$cases"
+} >"$folder/peers.md"
+
+# Ratios to ours, a group for each robot and operation.
+data=$(mktemp)
+trap 'rm -f "$data"' EXIT
+awk '
+  { key = $2 " " $1; if (!(key in seen)) { seen[key] = 1; order[++n] = key } t[key, $3] = $4 }
+  function ratio(key, library) {
+    return t[key, library] == "" ? "NaN" : t[key, library] / t[key, "described"]
+  }
+  END {
+    for (i = 1; i <= n; ++i) {
+      key = order[i]; label = key; gsub("_", " ", label)
+      printf "\"%s\" %s %s %s\n", label, ratio(key, "model"), ratio(key, "kdl"),
+        ratio(key, t[key, "mujoco"] == "" ? "mujoco_shortest" : "mujoco")
+    }
+  }' <<<"$cases" >"$data"
+gnuplot <<PLOT
+set terminal svg size 900,480 font "sans-serif,12" background "white"
+set output "$folder/peers.svg"
+set style data histograms
+set style fill solid
+set boxwidth 0.9
+set logscale y
+set ylabel "time / time of articula's described type"
+set xtics rotate by -45
+set grid ytics
+set key top right
+plot "$data" using 2:xtic(1) title "articula, Model<N>" linecolor "#7fb2d9", \
+     "" using 3 title "KDL" linecolor "#e0a040", "" using 4 title "MuJoCo" linecolor "#a05050"
+PLOT
+echo "written: $folder/peers.md, $folder/peers.svg"

@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds and runs the benchmarks; results go to benchmarks/results/<subject>.json.
+#
+#   benchmarks/run.sh [<subject>...] [--benchmark_filter=... and other options of Google Benchmark]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+subjects=()
+options=()
+for argument in "$@"; do
+  case $argument in
+    --*) options+=("$argument") ;;
+    *) subjects+=("$argument") ;;
+  esac
+done
+
+peers=OFF # takes other libraries and minutes to compile, so it is built when it is asked for
+for subject in ${subjects[@]+"${subjects[@]}"}; do [[ $subject != peers ]] || peers=ON; done
+cmake --preset bench -DARTICULA_BENCHMARK_PEERS=$peers
+cmake --build --preset bench
+programs=build/bench/benchmarks
+
+if ((${#subjects[@]} == 0)); then
+  for file in benchmarks/*_benchmark.cpp; do
+    [[ -e $file ]] && subjects+=("$(basename "$file" _benchmark.cpp)")
+  done
+fi
+
+# What a result is worth without: where it comes from.
+cached() { sed -n "s/^$1:[A-Z]*=//p" build/bench/CMakeCache.txt; }
+cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
+compiler=$("$(cached CMAKE_CXX_COMPILER)" --version | head -n 1)
+flags="-std=c++20 $(cached CMAKE_CXX_FLAGS) $(cached CMAKE_CXX_FLAGS_RELEASE)"
+revision=$(git describe --always --dirty 2>/dev/null || echo unknown)
+command="benchmarks/run.sh${*:+ $*}"
+context=$(
+  for key in cpu compiler flags revision command; do
+    printf '    "%s": "%s",\n' "$key" "$(tr -s ' ' <<<"${!key//\"/\'}")"
+  done
+)
+
+mkdir -p benchmarks/results
+for subject in ${subjects[@]+"${subjects[@]}"}; do
+  result=benchmarks/results/$subject.json
+  "$programs/${subject}_benchmark" \
+    --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
+    --benchmark_out_format=json --benchmark_out="$result" \
+    ${options[@]+"${options[@]}"}
+  # In place of the machine's name, which is nobody's business.
+  sed -i -e '/"host_name"/{r /dev/stdin' -e 'd}' "$result" <<<"$context"
+  echo "written: $result"
+done
