@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+# A robot of articula_add_robot follows its URDF: a file that changes is read again by the next build,
+# and one with a fault stops it, with the file, the element and the reason.
+#   cmake -DPROJECT=<folder of this file> -DWORK=<scratch folder> -DSOURCE=<articula>
+#         -DGENERATOR=<generator> -DCOMPILER=<C++ compiler> [-DLAUNCHER=<compiler cache>] -P rebuild.cmake
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+
+# A file system that keeps whole seconds must see that the file is newer.
+function(write_robot mass)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E sleep 1.1)
+  configure_file(${PROJECT}/pendulum.urdf.in ${WORK}/pendulum.urdf @ONLY)
+endfunction()
+
+function(build)
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK} --target print_mass RESULT_VARIABLE status
+                  OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  set(status ${status} PARENT_SCOPE)
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+function(expect_mass_matrix expected)
+  build()
+  if(status)
+    message(FATAL_ERROR "the build failed:\n${output}")
+  endif()
+  execute_process(COMMAND ${WORK}/print_mass OUTPUT_VARIABLE printed COMMAND_ERROR_IS_FATAL ANY)
+  string(STRIP "${printed}" printed)
+  if(NOT printed STREQUAL expected)
+    message(FATAL_ERROR "the mass matrix is ${printed}, not ${expected}")
+  endif()
+endfunction()
+
+write_robot(2)
+execute_process(
+  COMMAND
+    ${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK} -G ${GENERATOR} -DSOURCE=${SOURCE} -DCMAKE_BUILD_TYPE=Debug
+    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
+    -DARTICULA_BUILD_TESTS=OFF -DARTICULA_BUILD_BENCHMARKS=OFF -DARTICULA_BUILD_EXAMPLES=OFF
+  COMMAND_ERROR_IS_FATAL ANY)
+expect_mass_matrix(2.25)
+
+write_robot(3)
+expect_mass_matrix(3.25)
+
+write_robot(-3)
+build()
+if(NOT status)
+  message(FATAL_ERROR "a negative mass was accepted:\n${output}")
+endif()
+foreach(word pendulum.urdf rod mass -3)
+  if(NOT output MATCHES "error: [^\n]*${word}")
+    message(FATAL_ERROR "the error does not name '${word}':\n${output}")
+  endif()
+endforeach()
