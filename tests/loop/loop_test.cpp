@@ -266,6 +266,13 @@ TEST_CASE("hardware that cannot be activated is refused") {
 }
 
 TEST_CASE("a simulator dictates the period") {
-  Loop<Q2dSim, Pid> loop(Q2dSim(SimulatorOptions<2>{.period = 5e-4}), Pid<Q2d>(), 1);
-  CHECK(loop.period() == 5e-4);
+  using SimulatedLoop = Loop<Q2dSim, Pid>;
+  const Q2dSim simulator(SimulatorOptions<2>{.period = 5e-4});
+  CHECK(SimulatedLoop(simulator).period() == 5e-4);
+  CHECK(SimulatedLoop(simulator, {}, 5e-4).period() == 5e-4);
+  for (const double other : {1.0, 1e-3, 0.0, -5e-4, support::not_a_number, support::infinity}) {
+    CAPTURE(other);
+    CHECK_THROWS_AS(SimulatedLoop(simulator, {}, other), std::invalid_argument);
+    CHECK_THROWS_WITH(SimulatedLoop(simulator, {}, other), Contains("hardware has 0.0005 s"));
+  }
 }

@@ -75,7 +75,8 @@ class SumController {
                laws_);
     JointVector<joint_count> command;
     for (int j = 0; j < joint_count; ++j) {
-      // A NaN stays one, for whoever looks for it, and does not turn into a limit.
+      // A NaN stays one, for whoever looks for it, and does not turn into a limit. A sum that
+      // overflows has a direction, as any that is too large.
       command[j] = std::clamp(total[j], range_.lowest[j], range_.highest[j]);
     }
     limited(total - command);

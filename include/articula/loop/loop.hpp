@@ -11,6 +11,7 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -57,35 +58,27 @@ class Loop {
   explicit Loop(HardwareType hardware) requires std::default_initializable<ControllerType>
       : Loop(std::move(hardware), ControllerType()) {}
 
-  /// Activates the hardware, reads where the joints are and makes that the reference.
+  /// Activates the hardware, reads where the joints are and makes that the reference. The period is
+  /// the hardware's own, 1 ms if it has none.
   /// @param hardware    the joints
   /// @param controller  with its gains
-  /// @param period      time between two updates [s]; hardware that has a period of its own
-  ///                    dictates it
-  /// @throws std::invalid_argument if the period is not a positive number
+  /// @throws std::invalid_argument if the hardware's period is not a positive number
   /// @throws std::runtime_error if the hardware cannot be activated
-  Loop(HardwareType hardware, ControllerType controller, double period = 1e-3)
-      : hardware_(std::move(hardware)), controller_(std::move(controller)), period_(period) {
-    if constexpr (requires { hardware_.period(); }) period_ = hardware_.period();
-    if (!is_finite(period_) || period_ <= 0) {
-      std::ostringstream message;
-      message << "loop: period " << period_ << " s is not a positive number";
-      throw std::invalid_argument(message.str());
-    }
-    if (hardware_.activate() != Status::ok)
-      throw std::runtime_error("loop: hardware cannot be activated");
-    const bool known = hardware_.read(state_) == Status::ok && is_finite(state_.position);
-    initial_position_ =
-        known ? state_.position
-              : JointVector<joint_count>::Constant(std::numeric_limits<double>::quiet_NaN());
-    reference_.position = initial_position_;
-    if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
-      command_.position = initial_position_;
-    }
-  }
+  Loop(HardwareType hardware, ControllerType controller)
+      : Loop(std::move(hardware), std::move(controller), std::optional<double>()) {}
+
+  /// Likewise, with a given period.
+  /// @param hardware    the joints
+  /// @param controller  with its gains
+  /// @param period      time between two updates [s]
+  /// @throws std::invalid_argument if the period is not a positive number, or not that which the
+  ///         hardware dictates
+  /// @throws std::runtime_error if the hardware cannot be activated
+  Loop(HardwareType hardware, ControllerType controller, double period)
+      : Loop(std::move(hardware), std::move(controller), std::optional<double>(period)) {}
 
   /// One cycle: read, control, limit, write. The first good cycle starts the controller; joints
-  /// whose reference position the user has not set by then are to stay where they are measured.
+  /// whose reference position is still that of construction are to stay where they are measured.
   /// @return Status::ok, or the first thing that went wrong; the command that was written is safe
   ///         either way
   /// Real-time: yes, if the hardware's read and write are.
@@ -133,6 +126,36 @@ class Loop {
   [[nodiscard]] const HardwareType& hardware() const noexcept { return hardware_; }
 
  private:
+  Loop(HardwareType hardware, ControllerType controller, std::optional<double> period)
+      : hardware_(std::move(hardware)),
+        controller_(std::move(controller)),
+        period_(checked_period(hardware_, period)) {
+    if (hardware_.activate() != Status::ok)
+      throw std::runtime_error("loop: hardware cannot be activated");
+    const bool known = hardware_.read(state_) == Status::ok && is_finite(state_.position);
+    initial_position_ =
+        known ? state_.position
+              : JointVector<joint_count>::Constant(std::numeric_limits<double>::quiet_NaN());
+    reference_.position = initial_position_;
+    if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
+      command_.position = initial_position_;
+    }
+  }
+
+  [[nodiscard]] static double checked_period(const HardwareType& hardware,
+                                             std::optional<double> asked) {
+    double period = asked.value_or(1e-3);
+    if constexpr (requires { hardware.period(); }) period = hardware.period();
+    std::ostringstream message;
+    if (!is_finite(period) || period <= 0) {
+      message << "loop: period " << period << " s is not a positive number";
+    } else if (asked && *asked != period) {
+      message << "loop: period " << *asked << " s, but the hardware has " << period << " s";
+    }
+    if (!message.str().empty()) throw std::invalid_argument(message.str());
+    return period;
+  }
+
   void start() noexcept {
     for (int j = 0; j < joint_count; ++j) {
       const bool untouched = is_finite(initial_position_[j])

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "articula/core/joint_state.hpp"
+#include "articula/sim/normal_noise.hpp"
 #include "articula/sim/simulator_options.hpp"
 
 #include <cmath>
-#include <random>
 
 namespace articula {
 
@@ -23,7 +23,7 @@ class JointSensors {
         effort_noise_(options.effort_noise),
         has_noise_(
             !(position_noise_.isZero(0) && velocity_noise_.isZero(0) && effort_noise_.isZero(0))),
-        generator_(options.seed) {}
+        noise_(options.seed) {}
 
   /// The measurement of a state, one period after the one before.
   /// Real-time: yes. O(N).
@@ -31,9 +31,9 @@ class JointSensors {
     JointState<N> measured = truth;
     if (has_noise_) {
       for (int j = 0; j < N; ++j) {
-        measured.position[j] += position_noise_[j] * normal_(generator_);
-        measured.velocity[j] += velocity_noise_[j] * normal_(generator_);
-        measured.effort[j] += effort_noise_[j] * normal_(generator_);
+        measured.position[j] += position_noise_[j] * noise_.next();
+        measured.velocity[j] += velocity_noise_[j] * noise_.next();
+        measured.effort[j] += effort_noise_[j] * noise_.next();
       }
     }
     for (int j = 0; j < N; ++j) {
@@ -56,8 +56,7 @@ class JointSensors {
   bool has_noise_;
   bool measured_before_ = false;
   JointVector<N> last_position_ = JointVector<N>::Zero();
-  std::mt19937_64 generator_;
-  std::normal_distribution<double> normal_;
+  NormalNoise noise_;
 };
 
 }  // namespace articula
