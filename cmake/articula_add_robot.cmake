@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # articula_add_robot(<Name> URDF <file> [ROOT <link>] [TIP <link>] [NAMESPACE <namespace>]
-#                    [LOCK <joint>[=<position>]...] [GRAVITY <x> <y> <z>] [ALLOW_UNPHYSICAL])
+#                    [LOCK <joint>[=<position>]...] [GRAVITY <x> <y> <z>]
+#                    [RIGHT_ANGLE_TOLERANCE <number>] [ALLOW_UNPHYSICAL])
 #
 # Makes an INTERFACE target <Name>. Who links it can include <name>.hpp (the name in snake case:
 # LbrIiwa is in lbr_iiwa.hpp), which defines `struct <Name>`, in the namespace if one is given, with
@@ -12,12 +13,16 @@
 #   TIP               link at which a chain from the root ends; the rest is left out
 #   LOCK              joints to be held in place, at 0 or at a position [rad or m]
 #   GRAVITY           acceleration of free fall in the root link's frame, 0 0 -9.81 [m/s^2] if not given
+#   RIGHT_ANGLE_TOLERANCE  how far from 0, 1 and -1 the elements of rotations may be that dynamics
+#                     takes for those of right angles written with few digits, 1e-6 if not given; 0
+#                     takes every angle as it is written
 #   ALLOW_UNPHYSICAL  accept inertias that no real body has, with a warning for each
 #
 # The program that reads the URDF is built along, for the machine that builds. When cross-compiling,
 # set ARTICULA_URDF_TO_ROBOT to one that was built before.
 function(articula_add_robot name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALLOW_UNPHYSICAL" "URDF;ROOT;TIP;NAMESPACE" "LOCK;GRAVITY")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALLOW_UNPHYSICAL"
+                        "URDF;ROOT;TIP;NAMESPACE;RIGHT_ANGLE_TOLERANCE" "LOCK;GRAVITY")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "articula_add_robot(${name}): unknown or without value: "
                         "${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
@@ -44,9 +49,10 @@ function(articula_add_robot name)
   file(MAKE_DIRECTORY ${directory})
 
   set(options --urdf ${urdf} --output ${header} --type ${name})
-  foreach(option ROOT TIP NAMESPACE)
+  foreach(option ROOT TIP NAMESPACE RIGHT_ANGLE_TOLERANCE)
     if(DEFINED arg_${option})
       string(TOLOWER ${option} word)
+      string(REPLACE _ - word ${word})
       list(APPEND options --${word} ${arg_${option}})
     endif()
   endforeach()

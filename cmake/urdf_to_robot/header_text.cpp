@@ -39,7 +39,8 @@ std::string escaped(std::string_view text) {
 std::string quoted(std::string_view text) { return '"' + escaped(text) + '"'; }
 
 std::string vector_text(const Vector3<double>& a) {
-  return "{" + constant_text(a.x) + ", " + constant_text(a.y) + ", " + constant_text(a.z) + "}";
+  return std::string("{") + constant_text(a.x) + ", " + constant_text(a.y) + ", " +
+         constant_text(a.z) + "}";
 }
 
 /// The members of an aggregate that are not as by default, with designators.
@@ -133,6 +134,7 @@ std::string joint_text(const Joint& joint) {
   }
   members.add("damping", joint.damping, bare.damping);
   members.add("friction", joint.friction, bare.friction);
+  members.add("reflected_inertia", joint.reflected_inertia, bare.reflected_inertia);
   if (!joint.mimic.joint.empty()) {
     Members mimic;
     mimic.add("joint", quoted(joint.mimic.joint));
@@ -190,7 +192,14 @@ std::string header_text(const UrdfDescription& description, const HeaderNames& n
           "      .gravity = " + vector_text(description.gravity) + ",\n" +
           "      .links = " + array_text("Link", description.links, link_text) + ",\n" +
           "      .joints = " + array_text("Joint", description.joints, joint_text);
+  const bool own_tolerance = description.right_angle_tolerance != default_right_angle_tolerance;
   if (description.allow_unphysical) text += ",\n      .allow_unphysical = true";
+  if (own_tolerance) {
+    // Compilers that deduce the description's type want no member left out before this one.
+    if (!description.allow_unphysical) text += ",\n      .allow_unphysical = false";
+    text += ",\n      .right_angle_tolerance = ";
+    text += constant_text(description.right_angle_tolerance);
+  }
   text += "};\n};\n";
   if (!space.empty()) text += "\n}  // namespace " + space + "\n";
   return text;

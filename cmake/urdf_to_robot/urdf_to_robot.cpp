@@ -16,7 +16,7 @@ namespace {
 constexpr const char* usage =
     "usage: urdf_to_robot --urdf FILE --output FILE --type NAME [--namespace NAME] [--root LINK]\n"
     "                     [--tip LINK] [--lock JOINT[=POSITION]]... [--gravity X Y Z]\n"
-    "                     [--allow-unphysical]";
+    "                     [--right-angle-tolerance NUMBER] [--allow-unphysical]";
 
 struct Arguments {
   std::string urdf{};
@@ -64,6 +64,10 @@ Arguments parse(const std::vector<std::string>& words) {
     } else if (word == "--gravity") {
       const double x = number(value()), y = number(value());
       arguments.options.gravity = {x, y, number(value())};
+    } else if (word == "--right-angle-tolerance") {
+      const double tolerance = number(value());
+      if (tolerance < 0) throw std::invalid_argument(word + " " + words[at] + ": it must be >= 0");
+      arguments.options.right_angle_tolerance = tolerance;
     } else if (word == "--allow-unphysical") {
       arguments.options.allow_unphysical = true;
     } else {

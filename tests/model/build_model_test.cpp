@@ -236,6 +236,20 @@ TEST_CASE("a joint answers for those that mimic it") {
   CHECK(joint.friction == Approx(0.2 + 2 * 0.02));
 }
 
+TEST_CASE("a joint that mimics with multiplier 0 stands still and limits nothing") {
+  Blueprint robot{
+      .links = {ball("palm"), ball("left"), ball("right")},
+      .joints = {turning("left_joint", "palm", "left"), turning("right_joint", "palm", "right")}};
+  robot.joints[0].limits = {.lower = -1, .upper = 1, .velocity = 3, .effort = 7};
+  robot.joints[1].limits = {.lower = -2, .upper = 1, .velocity = 0};
+  robot.joints[1].mimic = {.joint = "left_joint", .multiplier = 0, .offset = 0.5};
+  REQUIRE(robot.fault().rule == Rule::none);
+  const JointLimits limits = robot.model<1, 2>().joints[0].limits;
+  CHECK(limits.lower == -1);
+  CHECK(limits.upper == 1);
+  CHECK(limits.velocity == 3);
+}
+
 TEST_CASE("joints and links are found by name, and what is missing is named") {
   Blueprint robot{
       .name = "arm",

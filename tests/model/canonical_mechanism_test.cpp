@@ -7,7 +7,9 @@
 #include "articula/dynamics/kinetic_energy.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/potential_energy.hpp"
+#include "articula/robots/q2d.hpp"
 #include "catch.hpp"
+#include "numbers.hpp"
 #include "random_mechanism.hpp"
 
 #include <cmath>
@@ -146,4 +148,14 @@ TEST_CASE("The canonical form can be had at compile time") {
   STATIC_REQUIRE(canonical.mechanism.bodies[0].inertia.mass == 0);
   STATIC_REQUIRE(canonical.mechanism.bodies[0].inertia.moment.zz == 0.75);
   STATIC_REQUIRE(canonical.base.mass == 2);
+}
+
+TEST_CASE("A tolerance of right angles that is none is refused") {
+  const auto& mechanism = model_of(Q2d()).mechanism;
+  for (const double tolerance : {-1e-9, 0.11, 10.0, support::infinity, support::not_a_number}) {
+    CAPTURE(tolerance);
+    CHECK_THROWS_AS(canonical_form(mechanism, tolerance), std::invalid_argument);
+  }
+  CHECK_NOTHROW(canonical_form(mechanism, 0));
+  CHECK_NOTHROW(canonical_form(mechanism, 0.1));
 }

@@ -80,7 +80,7 @@ TEST_CASE("a number that is not finite is found wherever it stands") {
            LinkChange([](Link&l, double x) { l.inertia.zz = x; }),
            LinkChange([](Link&l, double x) { l.inertia_orientation.y = x; }),
        }) {
-    for (double x : {infinity, -infinity, not_a_number}) {
+    for (double x : {infinity, -infinity, not_a_number, 1.01e50, -1e51, support::largest}) {
       Blueprint robot = double_pendulum();
       change(robot.links[1], x);
       CHECK(robot.fault().rule == Rule::number_is_not_finite);
@@ -94,23 +94,31 @@ TEST_CASE("a number that is not finite is found wherever it stands") {
            JointChange([](Joint&j, double x) { j.origin.z = x; }),
            JointChange([](Joint&j, double x) { j.orientation.x = x; }),
            JointChange([](Joint&j, double x) { j.orientation.z = x; }),
-           JointChange([](Joint&j, double x) { j.axis.x = x; }),
            JointChange([](Joint&j, double x) { j.damping = x; }),
            JointChange([](Joint&j, double x) { j.friction = x; }),
+           JointChange([](Joint&j, double x) { j.reflected_inertia = x; }),
            JointChange([](Joint&j, double x) { j.mimic.multiplier = x; }),
            JointChange([](Joint&j, double x) { j.mimic.offset = x; }),
        }) {
-    for (double x : {infinity, -infinity, not_a_number}) {
+    for (double x : {infinity, -infinity, not_a_number, 1.01e50, -1e51, support::largest}) {
       Blueprint robot = double_pendulum();
       change(robot.joints[1], x);
       CHECK(robot.fault().rule == Rule::number_is_not_finite);
       CHECK(robot.fault().element.view() == "knee");
     }
   }
-  Blueprint robot = double_pendulum();
-  robot.gravity.y = not_a_number;
-  CHECK(robot.fault().rule == Rule::number_is_not_finite);
-  CHECK(robot.fault().element.view() == "swing");
+  for (double x : {infinity, not_a_number, support::largest}) {
+    Blueprint robot = double_pendulum();
+    robot.gravity.y = x;
+    CHECK(robot.fault().rule == Rule::number_is_not_finite);
+    CHECK(robot.fault().element.view() == "swing");
+  }
+  for (double x : {infinity, -infinity, not_a_number}) {  // an axis of any length has a direction
+    Blueprint robot = double_pendulum();
+    robot.joints[1].axis.x = x;
+    CHECK(robot.fault().rule == Rule::number_is_not_finite);
+    CHECK(robot.fault().element.view() == "knee");
+  }
 }
 
 TEST_CASE("limits that are NaN, or leave no position, are faults") {

@@ -76,6 +76,7 @@ inline constexpr articula::RobotDescription pendulum_and_table{
     case Rule::effort_limit_is_negative:
     case Rule::damping_is_negative:
     case Rule::friction_is_negative:
+    case Rule::reflected_inertia_is_negative:
     case Rule::joint_moves_no_mass:
     case Rule::mimicked_joint_does_not_exist:
     case Rule::mimicked_joint_is_not_free:
@@ -153,6 +154,9 @@ template <articula::Rule rule>
         break;
       case Rule::friction_is_negative:
         knee.friction = -0.1;
+        break;
+      case Rule::reflected_inertia_is_negative:
+        knee.reflected_inertia = -0.1;
         break;
       case Rule::joint_moves_no_mass:
         bob = {.name = "bob"};

@@ -126,10 +126,13 @@ TEST_CASE("Numbers that are none") {
     CHECK(refusal(with_joint("<origin rpy=\"0 0 " + std::string(number) + "\"/>")).find("pivot") !=
           std::string::npos);
   }
-  CHECK(refusal(with_joint("<origin xyz=\"1e200 0 0\"/>")).empty());
+  const std::string useless =
+      "a number is NaN, infinite or beyond all use (1e50; an angle earlier)";
+  CHECK(refusal(with_joint("<origin xyz=\"1e50 0 0\"/>")).empty());
+  CHECK(refusal(with_joint("<origin xyz=\"1e51 0 0\"/>")) == "URDF: joint 'pivot': " + useless);
   CHECK(refusal(with_inertial("<origin xyz=\"1e200 0 0\"/><mass value=\"2\"/><inertia ixx=\"1\" "
                               "ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/>")) ==
-        "URDF: its figures overflow");
+        "URDF: link 'rod': " + useless);
   CHECK(refusal(with_joint("<axis xyz=\"1e200 0 0\"/>")).empty());  // a direction like any other
 }
 

@@ -60,7 +60,9 @@ TEST_CASE("Numbers keep all their digits and their sign") {
   description.gravity = {0.1, -0.0, 1.0 / 3};
   description.links[1].mass = std::nextafter(2.0, 3.0);
   description.links[1].center_of_mass = {1e300, 5e-324, -1.7976931348623157e308};
+  description.joints[0].reflected_inertia = 0.125;
   const std::string text = header_text(description, {"R", ""});
+  CHECK_THAT(text, Contains(".reflected_inertia = 0.125"));
   CHECK_THAT(text, Contains("{0.1, -0.0, 0.3333333333333333}"));
   CHECK_THAT(text, Contains(".mass = 2.0000000000000004"));
   CHECK_THAT(text, Contains("{1e+300, 5e-324, -1.7976931348623157e+308}"));
@@ -92,4 +94,12 @@ TEST_CASE("What C++ does not accept as a name is refused") {
     CAPTURE(name);
     CHECK_THROWS_AS(header_text(pendulum(), {"R", name}), std::invalid_argument);
   }
+}
+
+TEST_CASE("A tolerance for right angles is written if it is not the usual one") {
+  UrdfDescription description = pendulum();
+  CHECK_THAT(header_text(description, {"R", ""}), !Contains("right_angle_tolerance"));
+  description.right_angle_tolerance = 0.5e-8;
+  CHECK_THAT(header_text(description, {"R", ""}),
+             Contains(".allow_unphysical = false,\n      .right_angle_tolerance = 5e-09};"));
 }

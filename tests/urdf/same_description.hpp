@@ -38,7 +38,7 @@ class Bits {
   const auto bits = [](const articula::Joint& j) {
     return Bits{} << j.origin << j.orientation << j.axis << j.limits.lower << j.limits.upper
                   << j.limits.velocity << j.limits.effort << j.damping << j.friction
-                  << j.mimic.multiplier << j.mimic.offset;
+                  << j.reflected_inertia << j.mimic.multiplier << j.mimic.offset;
   };
   return a.name == b.name && a.type == b.type && a.parent == b.parent && a.child == b.child &&
          a.mimic.joint == b.mimic.joint && bits(a) == bits(b);
@@ -48,7 +48,8 @@ class Bits {
 template <class Description>
 [[nodiscard]] bool same(const Description& a, const articula::UrdfDescription& b) {
   if (!(a.name == b.name) || !((Bits{} << a.gravity) == (Bits{} << b.gravity)) ||
-      a.allow_unphysical != b.allow_unphysical || a.links.size() != b.links.size() ||
+      a.allow_unphysical != b.allow_unphysical ||
+      a.right_angle_tolerance != b.right_angle_tolerance || a.links.size() != b.links.size() ||
       a.joints.size() != b.joints.size()) {
     return false;
   }

@@ -69,8 +69,10 @@ struct ModelBuilder {
     model.mechanism.bodies[index] = {.parent = parent,
                                      .prismatic = joint.type == JointType::prismatic,
                                      .placement = frame * Placement<double>{turn, {}},
-                                     .inertia = {}};
+                                     .inertia = {},
+                                     .reflected_inertia = joint.reflected_inertia};
     carriers[index] = &joint;
+    model.moving_joints[index] = joint.name;
     if (joint.mimic.joint.empty()) {
       model.mechanism.couplings[index] = {joint_count, 1, 0};
       model.joints[static_cast<std::size_t>(joint_count++)] = properties_of(joints, joint);
@@ -122,8 +124,12 @@ template <int N, int Bodies = N, class LinkFrames>
     const Name& name, const Vector3<double>& gravity, std::span<const Link> links,
     std::span<const Joint> joints, LinkFrames frames,
     double right_angle_tolerance = default_right_angle_tolerance) {
-  Model<N, Bodies, LinkFrames> model{
-      .name = name, .mechanism = {}, .canonical = {}, .joints = {}, .links = frames};
+  Model<N, Bodies, LinkFrames> model{.name = name,
+                                     .mechanism = {},
+                                     .canonical = {},
+                                     .joints = {},
+                                     .moving_joints = {},
+                                     .links = frames};
   model.mechanism.gravity = gravity;
   detail::ModelBuilder<Model<N, Bodies, LinkFrames>> builder{links, joints, model};
   for (const Link& link : links) {

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
 
 namespace articula {
 
@@ -151,7 +152,8 @@ constexpr void move_frame(CanonicalMechanism<N, Bodies>& canonical, std::size_t 
 ///
 /// Steps 2 to 4 change kinetic energy and efforts by no more than rounding.
 /// @param mechanism              bodies in frames whose z axis is the joint's axis
-/// @param right_angle_tolerance  dimensionless
+/// @param right_angle_tolerance  dimensionless; 0 leaves matrices as they are written
+/// @throws std::invalid_argument if the tolerance is not within 0 .. 0.1
 /// Real-time: no (set-up or compile time). O(N^2).
 template <int N, int Bodies>
 [[nodiscard]] constexpr CanonicalMechanism<N, Bodies> canonical_form(
@@ -159,6 +161,9 @@ template <int N, int Bodies>
     double right_angle_tolerance = default_right_angle_tolerance) {
   CanonicalMechanism<N, Bodies> canonical{.mechanism = mechanism, .frames = {}, .base = {}};
   auto& bodies = canonical.mechanism.bodies;
+  if (!(right_angle_tolerance >= 0 && right_angle_tolerance <= 0.1)) {
+    throw std::invalid_argument("right_angle_tolerance is not within 0 .. 0.1");
+  }
   if (right_angle_tolerance > 0) {
     for (Body& body : bodies) {
       body.placement.rotation =

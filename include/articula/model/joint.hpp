@@ -46,6 +46,9 @@ struct Joint {
   JointLimits limits{};
   double damping = 0;   ///< viscous friction [N m s/rad or N s/m]
   double friction = 0;  ///< Coulomb friction [N m or N]
+  /// Of what turns in the drive, as the joint feels it: n^2 J for a rotor with the inertia J that turns
+  /// n times as fast as the joint [kg m^2 or kg]
+  double reflected_inertia = 0;
   Mimic mimic{};
 };
 

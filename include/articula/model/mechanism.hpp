@@ -17,6 +17,7 @@ struct Body {
   bool prismatic = false;  ///< slides along z instead of turning about it
   Placement<double> placement{};  ///< this body's frame in the parent's, at q = 0
   Inertia<double> inertia{};      ///< about the origin of this body's frame
+  double reflected_inertia = 0;   ///< of the joint's drive, see Joint [kg m^2 or kg]
 };
 
 /// Which joint moves a body, and how: q_body = multiplier q_joint + offset. A body on a mimic joint

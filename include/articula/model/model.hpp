@@ -32,6 +32,8 @@ struct Model {
   Mechanism<N, Bodies> mechanism{};  ///< the bodies as described; link frames refer to it
   Mechanism<N, Bodies> canonical{};  ///< an equivalent one with shorter equations of motion
   std::array<JointProperties, static_cast<std::size_t>(N)> joints{};
+  /// Names of the joints that carry the bodies, those that mimic others included
+  std::array<Name, static_cast<std::size_t>(Bodies)> moving_joints{};
   LinkFrames links{};  ///< all links of the description, those welded to others included
 };
 

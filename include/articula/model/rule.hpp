@@ -29,6 +29,7 @@ enum class Rule {
   effort_limit_is_negative,
   damping_is_negative,
   friction_is_negative,
+  reflected_inertia_is_negative,
   joint_moves_no_mass,
   mimicked_joint_does_not_exist,
   mimicked_joint_is_not_free,
@@ -53,7 +54,7 @@ enum class Rule {
     case Rule::name_is_used_twice:
       return "the name is used twice";
     case Rule::number_is_not_finite:
-      return "a number is NaN, infinite, or an angle beyond all use";
+      return "a number is NaN, infinite or beyond all use (1e50; an angle earlier)";
     case Rule::link_has_negative_mass:
       return "the mass is negative";
     case Rule::link_has_inertia_but_no_mass:
@@ -86,6 +87,8 @@ enum class Rule {
       return "the damping is negative";
     case Rule::friction_is_negative:
       return "the friction is negative";
+    case Rule::reflected_inertia_is_negative:
+      return "the reflected inertia is negative";
     case Rule::joint_moves_no_mass:
       return "the joint moves no link that has mass";
     case Rule::mimicked_joint_does_not_exist:

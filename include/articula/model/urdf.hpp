@@ -31,20 +31,12 @@ namespace detail {
          "> is right";
 }
 
-[[nodiscard]] inline bool all_finite(const Body& body) {
-  const auto& [parent, prismatic, placement, inertia] = body;
-  bool finite = all_finite(placement.translation) && is_finite(inertia.mass) &&
-                all_finite(inertia.first_moment) && all_finite(inertia.moment);
-  for (const Vector3<double>& row : placement.rotation.rows) finite = finite && all_finite(row);
-  return finite;
-}
-
 }  // namespace detail
 
 /// The model of a description read from URDF.
 /// @tparam N       number of joints that can be commanded
 /// @tparam Bodies  number of moving bodies: N and one for each mimic joint
-/// @throws UrdfError if the robot is of another size (it says which), or its figures overflow
+/// @throws UrdfError if the robot is of another size (it says which)
 /// Real-time: no (allocates, throws).
 template <int N, int Bodies = N>
 [[nodiscard]] Model<N, Bodies> model_of_urdf(const UrdfDescription& description) {
@@ -52,13 +44,9 @@ template <int N, int Bodies = N>
   if (size.joints != N || size.bodies != Bodies) {
     throw UrdfError(description.file, detail::size_text(description, N, Bodies));
   }
-  Model<N, Bodies> model = build_model<N, Bodies>(
+  return build_model<N, Bodies>(
       description.name, description.gravity, description.links, description.joints,
       std::vector<LinkFrame>(description.links.size()), description.right_angle_tolerance);
-  for (const Body& body : model.mechanism.bodies) {
-    if (!detail::all_finite(body)) throw UrdfError(description.file, "its figures overflow");
-  }
-  return model;
 }
 
 /// Loads a robot:

@@ -24,9 +24,14 @@ constexpr bool all_finite(const Vector3<double>& a) {
   return is_finite(a.x) && is_finite(a.y) && is_finite(a.z);
 }
 
-constexpr bool all_finite(const Symmetric3<double>& m) {
-  return is_finite(m.xx) && is_finite(m.xy) && is_finite(m.xz) && is_finite(m.yy) &&
-         is_finite(m.yz) && is_finite(m.zz);
+/// Numbers whose products, as those of masses, lengths and accelerations, cannot overflow.
+constexpr bool are_usable(auto... numbers) {
+  constexpr double most = 1e50;
+  return ((numbers >= -most && numbers <= most) && ...);
+}
+constexpr bool are_usable(const Vector3<double>& a) { return are_usable(a.x, a.y, a.z); }
+constexpr bool are_usable(const Symmetric3<double>& m) {
+  return are_usable(m.xx, m.xy, m.xz, m.yy, m.yz, m.zz);
 }
 
 /// Angles that are finite and whose sines mean something.
@@ -55,7 +60,7 @@ constexpr bool obeys_triangle_inequality(const Symmetric3<double>& i) {
 
 constexpr Rule broken_rule(const Link& link) {
   if (link.name.empty()) return Rule::name_is_missing;
-  if (!is_finite(link.mass) || !all_finite(link.center_of_mass) || !all_finite(link.inertia) ||
+  if (!are_usable(link.mass) || !are_usable(link.center_of_mass) || !are_usable(link.inertia) ||
       !are_angles(link.inertia_orientation)) {
     return Rule::number_is_not_finite;
   }
@@ -71,9 +76,9 @@ constexpr Rule broken_rule(const Link& link) {
 constexpr Rule broken_rule(const Joint& joint) {
   const JointLimits& limits = joint.limits;
   if (joint.name.empty()) return Rule::name_is_missing;
-  if (!all_finite(joint.origin) || !are_angles(joint.orientation) || !all_finite(joint.axis) ||
-      !is_finite(joint.damping) || !is_finite(joint.friction) ||
-      !is_finite(joint.mimic.multiplier) || !is_finite(joint.mimic.offset)) {
+  if (!are_usable(joint.origin) || !are_angles(joint.orientation) || !all_finite(joint.axis) ||
+      !are_usable(joint.damping, joint.friction, joint.reflected_inertia, joint.mimic.multiplier,
+                  joint.mimic.offset)) {
     return Rule::number_is_not_finite;
   }
   if (joint.type == JointType::fixed) return Rule::none;
@@ -86,6 +91,7 @@ constexpr Rule broken_rule(const Joint& joint) {
   if (!(limits.effort >= 0)) return Rule::effort_limit_is_negative;
   if (joint.damping < 0) return Rule::damping_is_negative;
   if (joint.friction < 0) return Rule::friction_is_negative;
+  if (joint.reflected_inertia < 0) return Rule::reflected_inertia_is_negative;
   return Rule::none;
 }
 
@@ -196,7 +202,7 @@ constexpr DescriptionFault element_fault(std::span<const Element> elements, bool
                                                     std::span<const Link> links,
                                                     std::span<const Joint> joints,
                                                     bool allow_unphysical = false) {
-  if (!detail::all_finite(gravity)) return {name, Rule::number_is_not_finite};
+  if (!detail::are_usable(gravity)) return {name, Rule::number_is_not_finite};
   DescriptionFault fault = detail::element_fault(links, allow_unphysical);
   if (fault.rule == Rule::none) fault = detail::element_fault(joints, allow_unphysical);
   detail::TreeIndex tree;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,18 @@ namespace articula {
 struct UrdfTransmissionEnd {
   std::string name{};
   double mechanical_reduction = 1;  ///< turns of the actuator per turn of the joint
+  std::string role{};               ///< such as "joint1", "actuator2"
+  double offset = 0;  ///< of a joint: where it is when the actuators are at 0 [rad or m]
+};
+
+/// Where a joint starts in a simulation, as far as it is told.
+struct UrdfInitialValues {
+  std::optional<double> position{};  ///< [rad or m]
+  std::optional<double> velocity{};  ///< [rad/s or m/s]
 };
 
 /// How actuators drive joints. articula's efforts and positions are those of the joints; this is
-/// for drivers.
+/// for drivers, see gearing_of.
 struct UrdfTransmission {
   std::string name{};
   std::string type{};  ///< such as "transmission_interface/SimpleTransmission"
@@ -39,12 +48,16 @@ class ControlReader {
   void read(const XmlElement& robot) {
     for_each_child(robot, "transmission", [this](const auto& e) { add_transmission(e); });
     for_each_child(robot, "ros2_control", [this](const XmlElement& control) {
-      for_each_child(control, "joint", [this](const auto& e) { add_limits(e); });
+      for_each_child(control, "joint", [this](const auto& e) {
+        add_limits(e);
+        add_initial_values(e);
+      });
       for_each_child(control, "transmission", [this](const auto& e) { add_transmission(e); });
     });
   }
 
-  std::map<std::string, JointLimits> limits{};  ///< of the commands, by joint
+  std::map<std::string, JointLimits> limits{};                ///< of the commands, by joint
+  std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint
   std::vector<UrdfTransmission> transmissions{};
 
  private:
@@ -86,15 +99,46 @@ class ControlReader {
     });
   }
 
-  /// The reduction that an element states as an attribute or in a child element.
+  /// <param name="initial_value"> of the joint's <state_interface>s.
+  void add_initial_values(const XmlElement& joint) {
+    const std::string name = attribute(joint, "name");
+    for_each_child(joint, "state_interface", [&](const XmlElement& state) {
+      const std::string kind = attribute(state, "name");
+      for_each_child(state, "param", [&](const XmlElement& param) {
+        if (attribute(param, "name") != "initial_value") return;
+        if (kind != "position" && kind != "velocity") return;
+        const double value = number(
+            text_of(param), "<ros2_control>: joint '" + name + "': initial_value of " + kind);
+        UrdfInitialValues& values = initial_values[name];
+        (kind == "position" ? values.position : values.velocity) = value;
+      });
+    });
+  }
+
+  /// The text that an element states as an attribute or in a child element.
+  [[nodiscard]] static std::optional<std::string> statement(const XmlElement& element,
+                                                            const char* name) {
+    if (const char* text = element.Attribute(name)) return text;
+    const XmlElement* child = element.FirstChildElement(name);
+    return child ? std::optional(text_of(*child)) : std::nullopt;
+  }
+
   [[nodiscard]] double reduction(const XmlElement& element, const std::string& where,
                                  double otherwise) const {
     for (const char* name : {"mechanicalReduction", "mechanical_reduction"}) {
-      if (const char* text = element.Attribute(name)) return number(text, where + ": " + name);
-      const XmlElement* child = element.FirstChildElement(name);
-      if (child) return number(text_of(*child), where + ": " + name);
+      if (const auto text = statement(element, name)) return number(*text, where + ": " + name);
     }
     return otherwise;
+  }
+
+  /// @param otherwise  reduction of an end that states none
+  [[nodiscard]] UrdfTransmissionEnd end_of(const XmlElement& element, const std::string& where,
+                                           double otherwise) const {
+    const auto offset = statement(element, "offset");
+    return {.name = attribute(element, "name"),
+            .mechanical_reduction = reduction(element, where, otherwise),
+            .role = statement(element, "role").value_or(""),
+            .offset = offset ? number(*offset, where + ": offset") : 0};
   }
 
   /// All dialects: the ends are <joint> and <actuator>, or such as <flexJoint>, <leftActuator>. A
@@ -107,12 +151,11 @@ class ControlReader {
     for_each_child(element, nullptr, [&](const XmlElement& child) {
       const std::string_view kind = child.Value();
       if (kind == "type" || kind == "plugin") transmission.type = text_of(child);
-      const std::string name = attribute(child, "name");
-      if (name.empty()) return;
+      if (attribute(child, "name").empty()) return;
       if (kind.ends_with("ctuator")) {
-        transmission.actuators.push_back({name, reduction(child, where, whole)});
+        transmission.actuators.push_back(end_of(child, where, whole));
       } else if (kind.ends_with("oint")) {
-        transmission.joints.push_back({name, reduction(child, where, 1)});
+        transmission.joints.push_back(end_of(child, where, 1));
       }
     });
     transmissions.push_back(std::move(transmission));

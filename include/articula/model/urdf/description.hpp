@@ -27,10 +27,11 @@ struct UrdfDescription {
   std::vector<Joint> joints{};    ///< likewise, locked ones as fixed; the limits are those of
                                   ///< <limit>, narrowed by <ros2_control>
   bool allow_unphysical = false;  ///< as asked for
-  std::vector<UrdfTransmission> transmissions{};  ///< all of the file
-  std::vector<std::string> notices{};             ///< what the user should know, a line each:
-                                                  ///< inertias that no real body has, limits of 0
-                                                  ///< and names that lead nowhere
+  std::vector<UrdfTransmission> transmissions{};              ///< all of the file
+  std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint, from <ros2_control>
+  std::vector<std::string> notices{};  ///< what the user should know, a line each:
+                                       ///< inertias that no real body has, limits of 0
+                                       ///< and names that lead nowhere
 };
 
 namespace detail {
@@ -47,7 +48,8 @@ class UrdfReader {
                .gravity = options_.gravity,
                .right_angle_tolerance = options_.right_angle_tolerance,
                .allow_unphysical = options_.allow_unphysical,
-               .transmissions = document_.transmissions};
+               .transmissions = document_.transmissions,
+               .initial_values = document_.initial_values};
     select();
     lock();
     for (const urdf::Joint* joint : selected_) add(*joint);

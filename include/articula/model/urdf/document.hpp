@@ -26,6 +26,7 @@ struct UrdfDocument {
       joint_orientations{};  ///< roll, pitch, yaw [rad] by joint; urdfdom keeps quaternions only
   std::map<std::string, Vector3<double>> inertia_orientations{};  ///< likewise by link
   std::map<std::string, JointLimits> command_limits{};            ///< from <ros2_control>, by joint
+  std::map<std::string, UrdfInitialValues> initial_values{};      ///< likewise
   std::vector<UrdfTransmission> transmissions{};
 };
 
@@ -98,6 +99,7 @@ inline void check_tree(const std::string& file, const XmlElement& robot) {
   detail::ControlReader control(result.file);
   control.read(robot);
   result.command_limits = std::move(control.limits);
+  result.initial_values = std::move(control.initial_values);
   result.transmissions = std::move(control.transmissions);
 
   // TinyXML may read odd characters otherwise than it has written them, so from here on everybody

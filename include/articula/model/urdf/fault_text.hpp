@@ -47,6 +47,8 @@ namespace articula::detail {
       return rounded_text(joint.damping);
     case Rule::friction_is_negative:
       return rounded_text(joint.friction);
+    case Rule::reflected_inertia_is_negative:
+      return rounded_text(joint.reflected_inertia);
     case Rule::joint_moves_no_mass:
       return "lock it, or give " + std::string(joint.child.view()) + " a mass";
     case Rule::mimicked_joint_does_not_exist:

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a URDF tells of drives: transmissions, and where a simulation starts.
+#include <articula/hardware/urdf_gearing.hpp>
+#include <articula/model/urdf.hpp>
+#include <articula/model/urdf/initial_values.hpp>
+
+#include "catch.hpp"
+#include "urdf_text.hpp"
+
+using namespace articula;
+using Catch::Matchers::Contains;
+
+namespace {
+
+UrdfDescription described_with(const std::string& drives) {
+  std::string text = support::pendulum();
+  text.insert(text.rfind("</robot>"), drives);
+  return read_urdf(text);
+}
+
+}  // namespace
+
+TEST_CASE("A simple transmission has the reduction of its actuator, or of its joint") {
+  const UrdfDescription old = read_urdf(URDF_FILES "/arm.urdf");
+  const auto shoulder = gearing_of<SimpleTransmission>(old, "shoulder_transmission");
+  CHECK(shoulder.joints[0] == Name("shoulder"));
+  CHECK(shoulder.actuators[0] == Name("shoulder_motor"));
+  CHECK(shoulder.transmission.reduction == 100.5);
+  CHECK(shoulder.transmission.joint_offset == 0);
+
+  const UrdfDescription fresh = described_with(
+      "<ros2_control name=\"c\"><transmission name=\"t\"><plugin>p</plugin>"
+      "<actuator name=\"motor\" role=\"actuator1\"/><joint name=\"pivot\" role=\"joint1\">"
+      "<mechanical_reduction>-325.949</mechanical_reduction><offset>0.25</offset></joint>"
+      "</transmission></ros2_control>");
+  const auto pivot = gearing_of<SimpleTransmission>(fresh, "t");
+  CHECK(pivot.transmission.reduction == -325.949);
+  CHECK(pivot.transmission.joint_offset == 0.25);
+}
+
+TEST_CASE("Joints and actuators of a differential stand by their roles") {
+  const UrdfDescription description = described_with(
+      "<transmission name=\"wrist\"><actuator name=\"b\"><role>actuator2</role>"
+      "<mechanicalReduction>20</mechanicalReduction></actuator><actuator name=\"a\">"
+      "<role>actuator1</role><mechanicalReduction>-10</mechanicalReduction></actuator>"
+      "<joint name=\"roll\"><role>joint2</role><offset>0.5</offset></joint><joint name=\"pivot\">"
+      "<role>joint1</role><mechanicalReduction>3</mechanicalReduction></joint></transmission>");
+  const auto wrist = gearing_of<DifferentialTransmission>(description, "wrist");
+  CHECK(wrist.actuators == std::array<Name, 2>{"a", "b"});
+  CHECK(wrist.joints == std::array<Name, 2>{"pivot", "roll"});
+  CHECK(wrist.transmission.actuator_reduction == std::array{-10.0, 20.0});
+  CHECK(wrist.transmission.joint_reduction == std::array{3.0, 1.0});
+  CHECK(wrist.transmission.joint_offset == std::array{0.0, 0.5});
+  CHECK(gearing_of<FourBarTransmission>(description, "wrist").transmission.joint_offset[1] == 0.5);
+  CHECK_THROWS_WITH(gearing_of<SimpleTransmission>(description, "wrist"),
+                    Contains("'wrist' has 2 joints instead of 1"));
+}
+
+TEST_CASE("Transmissions that are missing or make no sense are refused, and named") {
+  const UrdfDescription description = described_with(
+      "<transmission name=\"stuck\"><actuator name=\"a\"/><joint name=\"pivot\"/>"
+      "<mechanicalReduction>0</mechanicalReduction></transmission>");
+  CHECK_THROWS_WITH(gearing_of<SimpleTransmission>(description, "shoulder"),
+                    Contains("'shoulder' does not exist"));
+  CHECK_THROWS_WITH(gearing_of<SimpleTransmission>(description, "stuck"),
+                    Contains("'stuck'") && Contains("reduction 0"));
+  CHECK_THROWS_WITH(described_with("<transmission name=\"t\"><actuator name=\"a\"/>"
+                                   "<joint name=\"pivot\"><offset>much</offset></joint>"
+                                   "</transmission>"),
+                    Contains("transmission 't': offset: 'much'"));
+}
+
+TEST_CASE("A simulation starts at the initial values of ros2_control") {
+  const UrdfDescription description = described_with(
+      "<ros2_control name=\"c\"><joint name=\"pivot\"><state_interface name=\"position\">"
+      "<param name=\"initial_value\">0.375</param></state_interface>"
+      "<state_interface name=\"velocity\"><param name=\"initial_value\">-2</param>"
+      "</state_interface><state_interface name=\"effort\">"
+      "<param name=\"initial_value\">7</param></state_interface></joint></ros2_control>");
+  const auto pendulum = model_of_urdf<1>(description);
+  CHECK(initial_positions(description, pendulum)[0] == 0.375);
+  CHECK(initial_velocities(description, pendulum)[0] == -2);
+
+  UrdfDescription silent = description;
+  silent.initial_values.clear();
+  silent.joints[0].type = JointType::revolute;
+  silent.joints[0].limits = {.lower = 0.5, .upper = 1};
+  const auto raised = model_of_urdf<1>(silent);
+  CHECK(initial_positions(silent, raised)[0] == 0.5);
+  CHECK(initial_velocities(silent, raised)[0] == 0);
+  CHECK_THROWS_WITH(
+      described_with("<ros2_control name=\"c\"><joint name=\"pivot\"><state_interface "
+                     "name=\"position\"><param name=\"initial_value\">nan</param>"
+                     "</state_interface></joint></ros2_control>"),
+      Contains("joint 'pivot': initial_value of position: 'nan'"));
+}
