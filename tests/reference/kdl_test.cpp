@@ -9,10 +9,12 @@
 #include <articula/robots/q2d.hpp>
 
 #include <kdl/chaindynparam.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
 #include <kdl/treefksolverpos_recursive.hpp>
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
 
 #include <string>
+#include <vector>
 
 using namespace articula;
 using support::distance;
@@ -54,7 +56,27 @@ struct Order {
   }
 };
 
-/// Inverse dynamics and link placements of any tree.
+/// The Jacobian of a link, which KDL has for the chain from the root to it.
+template <int N>
+void check_jacobian(const Model<N>& robot, const JointVector<N>& q, const KDL::Tree& tree,
+                    const Name& root, const Name& link) {
+  KDL::Chain chain;
+  REQUIRE(tree.getChain(std::string(root.view()), std::string(link.view()), chain));
+  std::vector<int> moving;  // the joints of the chain
+  for (const KDL::Segment& segment : chain.segments) {
+    if (segment.getJoint().getType() == KDL::Joint::None) continue;
+    moving.push_back(joint_index(robot, segment.getJoint().getName()));
+  }
+  KDL::JntArray chain_q(chain.getNrOfJoints());
+  for (unsigned i = 0; i < chain_q.rows(); ++i) chain_q(i) = q[moving[i]];
+  KDL::Jacobian theirs(chain.getNrOfJoints());
+  if (!moving.empty()) REQUIRE(KDL::ChainJntToJacSolver(chain).JntToJac(chain_q, theirs) == 0);
+  LinkJacobian<N> expected = LinkJacobian<N>::Zero();
+  for (unsigned i = 0; i < chain_q.rows(); ++i) expected.col(moving[i]) = theirs.data.col(i);
+  check_close(jacobian(robot, q, link), expected);
+}
+
+/// Inverse dynamics, placements and Jacobians of the links of any tree.
 template <int N>
 void check_tree(const support::Blueprint& blueprint, const Name& root, support::Random& random) {
   const Model<N> robot = blueprint.model<N>();
@@ -78,6 +100,7 @@ void check_tree(const support::Blueprint& blueprint, const Name& root, support::
       check_close(ours.translation(), Eigen::Map<const Eigen::Vector3d>(frame.p.data));
       check_close(ours.linear(),
                   Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(frame.M.data));
+      check_jacobian(robot, q, tree, root, link.name);
     }
   }
 }

@@ -35,6 +35,7 @@ class AnyRobot {
   [[nodiscard]] virtual double potential_energy(const Vector& q) const = 0;
   [[nodiscard]] virtual Eigen::Isometry3d forward_kinematics(const Vector& q,
                                                              std::string_view link) const = 0;
+  [[nodiscard]] virtual Matrix jacobian(const Vector& q, std::string_view link) const = 0;
   [[nodiscard]] virtual std::vector<std::string_view> joint_names() const = 0;
   [[nodiscard]] virtual const articula::Body& first_body() const = 0;
 };
@@ -67,6 +68,9 @@ class SizedRobot final : public AnyRobot {
   }
   Eigen::Isometry3d forward_kinematics(const Vector& q, std::string_view link) const override {
     return articula::forward_kinematics(model_, Sized(q), link);
+  }
+  Matrix jacobian(const Vector& q, std::string_view link) const override {
+    return articula::jacobian(model_, Sized(q), link);
   }
   std::vector<std::string_view> joint_names() const override {
     const auto names = articula::joint_names(model_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Telling numbers from NaN and infinity, at compile time and under any optimisation flag.
+/// @file Telling numbers from NaN and infinity, at compile time and at run time.
 #pragma once
 
 #include "articula/core/joint_command.hpp"
@@ -12,15 +12,16 @@
 
 namespace articula {
 
-/// True unless x is NaN or infinite.
-/// Looks at the exponent bits (IEEE 754-2019, section 3.4), because a comparison such as `x == x`
-/// is optimised away under -ffast-math, and a safety check must survive the flags of the program it
-/// is in.
-/// (By reference, because clang takes a double passed by value for finite under that flag. What a
-/// program's own functions take by value is beyond our reach.)
+// A compiler that was told that there is no NaN removes the checks that keep NaN from the drives.
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "articula checks for NaN: add -fno-finite-math-only after -ffast-math or -Ofast"
+#endif
+
+/// True unless x is NaN or infinite: by the exponent's bits (IEEE 754-2019, section 3.4), for
+/// std::isfinite is not constexpr before C++23.
 /// @param x  any number
 /// Real-time: yes.
-[[nodiscard]] constexpr bool is_finite(const double& x) noexcept {
+[[nodiscard]] constexpr bool is_finite(double x) noexcept {
   constexpr std::uint64_t exponent = 0x7ff0'0000'0000'0000U;
   return (std::bit_cast<std::uint64_t>(x) & exponent) != exponent;
 }

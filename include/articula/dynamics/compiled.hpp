@@ -136,21 +136,21 @@ inline constexpr const auto& program =
 /// @param inputs  the algorithm's other inputs
 /// Real-time: yes.
 template <class Algorithm, DescribedRobot R, class S, std::size_t N, class... Inputs>
-[[nodiscard]] inline auto run(const std::array<S, N>& q, const Inputs&... inputs) noexcept {
+[[nodiscard, gnu::always_inline]] inline auto run(const std::array<S, N>& q,
+                                                  const Inputs&... inputs) noexcept {
   std::array<S, (1 + sizeof...(Inputs)) * N> input;
   std::size_t next = 0;
-  const auto append = [&](const std::array<S, N>& values) noexcept {
-    for (const S& value : values) input[next++] = value;
-  };
-  append(q);
-  (append(inputs), ...);
+  const auto append = [&](const S& value) __attribute__((always_inline)) { input[next++] = value; };
+  symbolic::for_each_scalar<S>(q, append);
+  (symbolic::for_each_scalar<S>(inputs, append), ...);
   const auto output = symbolic::run_program<program<Algorithm, R>>(input);
 
   constexpr int n = static_cast<int>(N), b = detail::ModelOf<R>::body_count;
   decltype(Algorithm::template evaluate<S, n, b>(
       std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(), inputs...)) result;
   next = 0;
-  symbolic::for_each_scalar<S>(result, [&](S& value) noexcept { value = output[next++]; });
+  symbolic::for_each_scalar<S>(
+      result, [&](S & value) __attribute__((always_inline)) { value = output[next++]; });
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include "articula/core/constant_math.hpp"
 #include "articula/dynamics/coupling.hpp"
 #include "articula/model/mechanism.hpp"
+#include "articula/symbolic/sine_cosine.hpp"
 
 #include <array>
 #include <cmath>
@@ -137,8 +138,30 @@ template <class S>
       return {sine, cosine};
     }
   }
-  using std::cos, std::sin;
-  return {sin(angle), cos(angle)};
+  if constexpr (requires { sincos(angle); }) {
+    const auto [sine, cosine] = sincos(angle);
+    return {sine, cosine};
+  } else {
+    using std::cos, std::sin;
+    return {sin(angle), cos(angle)};
+  }
+}
+
+/// The same for all bodies. At run time it pays to take all sines and cosines together.
+template <class S, std::size_t B>
+[[nodiscard]] constexpr std::array<AxialTurn<S>, B> turns_by(
+    const std::array<S, B>& angle) noexcept {
+  std::array<AxialTurn<S>, B> turns;
+  if constexpr (std::same_as<S, double>) {
+    if (!std::is_constant_evaluated()) {
+      std::array<double, B> sine, cosine;
+      symbolic::sine_cosine(angle, sine, cosine);
+      for (std::size_t i = 0; i < B; ++i) turns[i] = {sine[i], cosine[i]};
+      return turns;
+    }
+  }
+  for (std::size_t i = 0; i < B; ++i) turns[i] = turn_by(angle[i]);
+  return turns;
 }
 
 }  // namespace detail
@@ -154,6 +177,8 @@ template <class S, int N, int B>
     Frames frames = Frames::moving) noexcept {
   const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
   Configuration<S, B> configuration;
+  JointArray<AxialTurn<S>, B> joint_turns;
+  if (frames == Frames::moving) joint_turns = detail::turns_by(position);
   JointArray<S, B> angle{};              // by which a body has turned in the frame it is seen in
   JointArray<AxialTurn<S>, B> own_turn;  // by that angle
   own_turn.fill({S(0.0), S(1.0)});       // g++ 12 leaves elements of large arrays uninitialised
@@ -176,7 +201,7 @@ template <class S, int N, int B>
       angle[i] = angle[i] + position[i];
     }
     if (body.prismatic && frames == Frames::moving) continue;
-    const AxialTurn<S> turn = detail::turn_by(angle[i]);
+    const AxialTurn<S> turn = frames == Frames::moving ? joint_turns[i] : detail::turn_by(angle[i]);
     if (frames == Frames::resting && detail::carries_parallel_axes(mechanism, i)) {
       own_turn[i] = turn;
       joint.moments = turn(joint.moments);

@@ -6,24 +6,34 @@
 #include "articula/dynamics/compiled.hpp"
 #include "articula/dynamics/configuration.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/symbolic/pack.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace articula::detail {
 
+// By folds and not by loops: compilers leave arrays in memory that are filled by loops.
+
 template <int N>
-[[nodiscard]] JointArray<double, N> to_array(const JointVector<N>& vector) noexcept {
-  JointArray<double, N> array;
-  for (std::size_t i = 0; i < array.size(); ++i) array[i] = vector[static_cast<Eigen::Index>(i)];
-  return array;
+[[nodiscard, gnu::always_inline]] inline JointArray<double, N> to_array(
+    const JointVector<N>& vector) noexcept {
+  return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+    return JointArray<double, N>{vector.coeff(I)...};
+  }
+  (std::make_integer_sequence<int, N>{});
 }
 
 template <std::size_t N>
-[[nodiscard]] JointVector<static_cast<int>(N)> to_vector(
+[[nodiscard, gnu::always_inline]] inline JointVector<static_cast<int>(N)> to_vector(
     const std::array<double, N>& array) noexcept {
   JointVector<static_cast<int>(N)> vector;
-  for (std::size_t i = 0; i < N; ++i) vector[static_cast<Eigen::Index>(i)] = array[i];
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    ((vector.coeffRef(static_cast<Eigen::Index>(I)) = array[I]), ...);
+  }
+  (std::make_index_sequence<N>{});
   return vector;
 }
 
@@ -39,32 +49,70 @@ template <int N>
 }
 
 template <std::size_t N>
-[[nodiscard]] JointMatrix<static_cast<int>(N)> to_matrix(
+[[nodiscard, gnu::always_inline]] inline JointMatrix<static_cast<int>(N)> to_matrix(
     const std::array<std::array<double, N>, N>& rows) noexcept {
   JointMatrix<static_cast<int>(N)> matrix;
-  for (std::size_t i = 0; i < N; ++i) {
-    for (std::size_t j = 0; j < N; ++j) {
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
-    }
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    ((matrix.coeffRef(static_cast<Eigen::Index>(I / N), static_cast<Eigen::Index>(I % N)) =
+          rows[I / N][I % N]),
+     ...);
   }
+  (std::make_index_sequence<N * N>{});
   return matrix;
 }
 
 /// Runs an algorithm on a robot at positions q: the one place that knows how. For a described robot
 /// that is the program which the compiler made of `Algorithm::evaluate`; for a model the function
 /// itself is called with the mechanism, the configuration at q and the other inputs as arrays.
-template <class Algorithm, Robot R, class... Inputs>
-[[nodiscard]] auto evaluate(const R& robot, const JointVector<joint_count<R>>& q,
-                            const Inputs&... inputs) noexcept {
+/// @tparam S  double or a pack
+template <class Algorithm, Robot R, class S, std::size_t N, class... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto evaluate_arrays(const R& robot,
+                                                              const std::array<S, N>& q,
+                                                              const Inputs&... inputs) noexcept {
   if constexpr (DescribedRobot<R>) {
-    return compiled::run<Algorithm, R>(to_array(q), to_array(inputs)...);
+    return compiled::run<Algorithm, R>(q, inputs...);
   } else {
     constexpr int n = R::joint_count, b = R::body_count;
     const Mechanism<n, b>& mechanism = compiled::mechanism_for<Algorithm>(robot);
-    const auto configuration = configuration_of<double, n, b>(mechanism, to_array(q));
-    return Algorithm::template evaluate<double, n, b>(mechanism, configuration,
-                                                      to_array(inputs)...);
+    const auto configuration = configuration_of<S, n, b>(mechanism, q);
+    return Algorithm::template evaluate<S, n, b>(mechanism, configuration, inputs...);
   }
+}
+
+/// The same for Eigen's vectors.
+template <class Algorithm, Robot R, class... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto evaluate(const R& robot,
+                                                       const JointVector<joint_count<R>>& q,
+                                                       const Inputs&... inputs) noexcept {
+  return evaluate_arrays<Algorithm>(robot, to_array(q), to_array(inputs)...);
+}
+
+/// The same for K robots at once, as many as fit into a register at a time. If K is no multiple of
+/// that, the last ones are those that end at column K: some are computed twice.
+template <class Algorithm, Robot R, int K, class... Inputs>
+[[nodiscard]] JointVectors<joint_count<R>, K> evaluate_columns(
+    const R& robot, const JointVectors<joint_count<R>, K>& q, const Inputs&... inputs) noexcept {
+  static_assert(K >= 2, "articula: a single robot has a JointVector");
+  constexpr int n = joint_count<R>;
+  constexpr int lanes = K < 4   ? 2
+                        : K < 8 ? std::min(4, symbolic::lanes_of_a_register)
+                                : symbolic::lanes_of_a_register;
+  using Pack = symbolic::Pack<lanes>;
+  JointVectors<n, K> result;
+  for (int column = 0; column < K; column += lanes) {
+    const int first = std::min(column, K - lanes);
+    const auto load = [&](const JointVectors<n, K>& vectors) __attribute__((always_inline)) {
+      return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+        return JointArray<Pack, n>{Pack::load(&vectors.coeffRef(I, first))...};
+      }
+      (std::make_integer_sequence<int, n>{});
+    };
+    const JointArray<Pack, n> packed = evaluate_arrays<Algorithm>(robot, load(q), load(inputs)...);
+    for (int i = 0; i < n; ++i) {
+      packed[static_cast<std::size_t>(i)].store(&result.coeffRef(i, first));
+    }
+  }
+  return result;
 }
 
 }  // namespace articula::detail

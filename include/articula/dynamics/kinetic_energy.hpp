@@ -31,12 +31,15 @@ struct KineticEnergy {
       const auto& [mass, h, j] = configuration[i].moments;
       const Symmetric3<S> inertia{j.yy + j.zz, -j.xy, -j.xz, j.xx + j.zz, -j.yz, j.xx + j.yy};
       energy = energy + S(0.5) * (mass * dot(u, u) + dot(w, inertia * w)) + dot(u, cross(w, h));
+      if (body.reflected_inertia != 0) {
+        energy = energy + S(0.5 * body.reflected_inertia) * (velocity[i] * velocity[i]);
+      }
     }
     return energy;
   }
 };
 
-/// The kinetic energy of the moving bodies, v^T M(q) v / 2.
+/// The kinetic energy of the moving bodies and of the drives' rotors, v^T M(q) v / 2.
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @param v      joint velocities [rad/s or m/s], N x 1

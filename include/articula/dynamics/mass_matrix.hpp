@@ -22,6 +22,8 @@ struct MassMatrix {
     for (std::size_t i = composite.size(); i-- > 0;) {
       Wrench<S> wrench = unit_acceleration_wrench(composite[i], mechanism.bodies[i].prismatic);
       matrix[i][i] = felt_by(mechanism.bodies[i], wrench);
+      const double reflected = mechanism.bodies[i].reflected_inertia;
+      if (reflected != 0) matrix[i][i] = matrix[i][i] + S(reflected);
       std::size_t j = i;
       while (mechanism.bodies[j].parent >= 0) {
         const Vector3<S> force = configuration[j].to_parent(wrench.force);
@@ -55,7 +57,7 @@ struct MassMatrix {
 };
 
 /// The matrix M(q) of the equations of motion M(q) a + h(q, v) = effort: symmetric, positive
-/// definite, and kinetic energy is v^T M v / 2.
+/// definite, and kinetic energy is v^T M v / 2. The reflected inertia of the drives is in it.
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @return       M [kg m^2, kg m or kg], N x N, both triangles filled

@@ -67,6 +67,11 @@ constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion, const VelocityProduc
 /// Velocities and accelerations run from the base to the leaves, forces back from the leaves to the
 /// base. Source: [Luh, Walker, Paul 1980]; with the matrix U of [Balafoutis, Patel, Misra 1988]; in
 /// link frames as [Khalil, Dombre 2002, section 9.5].
+///
+/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M. That takes a
+/// rotor to have no more than its own spin, n v, about its axis: what it feels of the motion of the
+/// link that carries it, gyroscopic moments included, is smaller by a factor n and left out [Spong
+/// 1987]; [Featherstone 2008, section 9.6]. The rotor's mass is part of that link.
 /// @param mechanism      the robot's bodies
 /// @param configuration  where they stand
 /// @param v              joint velocities [rad/s or m/s]
@@ -113,6 +118,9 @@ template <class S, int N, int B>
   for (std::size_t i = velocity.size(); i-- > 0;) {
     const Body& body = mechanism.bodies[i];
     effort[i] = body.prismatic ? wrenches[i].force.z : wrenches[i].moment.z;
+    if (body.reflected_inertia != 0) {
+      effort[i] = effort[i] + S(body.reflected_inertia) * acceleration[i];
+    }
     if (body.parent < 0) continue;
     Wrench<S>& parent = wrenches[static_cast<std::size_t>(body.parent)];
     const Vector3<S> force = configuration[i].to_parent(wrenches[i].force);

@@ -57,7 +57,8 @@ struct Term {
   }
 
   friend constexpr Term operator-(const Term& x) noexcept {
-    return x.is_constant() ? Term{.constant = -x.constant} : Term{0, x.node, !x.negative};
+    return x.is_constant() ? Term{.constant = 0 - x.constant}  // not -0
+                           : Term{0, x.node, !x.negative};
   }
 };
 

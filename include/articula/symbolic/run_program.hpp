@@ -54,10 +54,7 @@ template <const auto& program, class S, std::size_t... K>
     const std::array<S, sizeof...(K)> angle{value[program.instructions[begin + 2 * K].left]...};
     std::array<S, sizeof...(K)> sine, cosine;
     sine_cosine(angle, sine, cosine);
-    for (std::size_t k = 0; k < sizeof...(K); ++k) {
-      value[begin + 2 * k] = sine[k];
-      value[begin + 2 * k + 1] = cosine[k];
-    }
+    ((value[begin + 2 * K] = sine[K], value[begin + 2 * K + 1] = cosine[K]), ...);
   }
 }
 
@@ -78,7 +75,8 @@ template <const auto& program, class S, std::size_t... I>
 /// @return          the results
 /// Real-time: yes, if the operations of S are.
 template <const auto& program, class S, std::size_t Inputs>
-[[nodiscard]] inline auto run_program(const std::array<S, Inputs>& input) noexcept {
+[[nodiscard, gnu::always_inline]] inline auto run_program(
+    const std::array<S, Inputs>& input) noexcept {
   static_assert(program.is_whole());
   constexpr std::size_t begin = program.angles_begin, end = program.angles_end,
                         count = program.size.instructions;

@@ -5,7 +5,11 @@
 #include "articula/model/placement.hpp"
 #include "articula/model/vector3.hpp"
 
+#include <array>
 #include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
 
 namespace articula::symbolic {
 
@@ -13,23 +17,28 @@ namespace articula::symbolic {
 /// @tparam S      the scalar
 /// @param result  a scalar, Vector3, Matrix3 or Placement of scalars, or arrays of those, nested as
 ///                they like
-/// @param visit   takes an S&
+/// @param visit   takes an S&, or a const S& if the result is const
 /// Real-time: yes, if `visit` is.
 template <class S, class Result, class Visit>
-constexpr void for_each_scalar(Result& result, const Visit& visit) noexcept {
-  if constexpr (std::same_as<Result, S>) {
+[[gnu::always_inline]] constexpr void for_each_scalar(Result& result, const Visit& visit) noexcept {
+  using Shape = std::remove_const_t<Result>;
+  if constexpr (std::same_as<Shape, S>) {
     visit(result);
-  } else if constexpr (std::same_as<Result, Vector3<S>>) {
+  } else if constexpr (std::same_as<Shape, Vector3<S>>) {
     visit(result.x);
     visit(result.y);
     visit(result.z);
-  } else if constexpr (std::same_as<Result, Matrix3<S>>) {
+  } else if constexpr (std::same_as<Shape, Matrix3<S>>) {
     for_each_scalar<S>(result.rows, visit);
-  } else if constexpr (std::same_as<Result, Placement<S>>) {
+  } else if constexpr (std::same_as<Shape, Placement<S>>) {
     for_each_scalar<S>(result.rotation, visit);
     for_each_scalar<S>(result.translation, visit);
   } else {
-    for (auto& element : result) for_each_scalar<S>(element, visit);
+    // No loop: compilers leave arrays that loops have filled in memory.
+    [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+      (for_each_scalar<S>(result[I], visit), ...);
+    }
+    (std::make_index_sequence<std::tuple_size_v<Shape>>{});
   }
 }
 

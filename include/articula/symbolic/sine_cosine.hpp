@@ -2,63 +2,111 @@
 /// @file Sines and cosines of several angles at once.
 #pragma once
 
+#include "articula/symbolic/pack.hpp"
+
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
-
-// Packs of four doubles and more pay off; ARTICULA_WITHOUT_XSIMD keeps to <cmath>.
-#if defined(__AVX2__) && __has_include(<xsimd/xsimd.hpp>) && !defined(ARTICULA_WITHOUT_XSIMD)
-#define ARTICULA_HAS_WIDE_PACKS
-#include <xsimd/xsimd.hpp>
-#endif
+#include <utility>
 
 namespace articula::symbolic {
 
-#ifdef ARTICULA_HAS_WIDE_PACKS
 namespace detail {
 
-/// Sines and cosines of K angles [rad] in packs, the last of which is filled up with zeros.
-template <std::size_t K>
-[[gnu::always_inline]] inline void packed_sine_cosine(const std::array<double, K>& angle,
-                                                      std::array<double, K>& sine,
-                                                      std::array<double, K>& cosine) noexcept {
-  using Pack = xsimd::batch<double>;
-  constexpr std::size_t padded = (K + Pack::size - 1) / Pack::size * Pack::size;
-  alignas(Pack) std::array<double, padded> angles{}, sines, cosines;
-  for (std::size_t i = 0; i < K; ++i) angles[i] = angle[i];
-  for (std::size_t i = 0; i < padded; i += Pack::size) {
-    const auto [s, c] = xsimd::sincos(Pack::load_aligned(&angles[i]));
-    s.store_aligned(&sines[i]);
-    c.store_aligned(&cosines[i]);
+/// Calls f with 0 to Count - 1. (Compilers leave arrays in memory that are filled by loops.)
+template <std::size_t Count, class Function>
+[[gnu::always_inline]] inline void for_each_index(const Function& f) noexcept {
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) { (f(I), ...); }
+  (std::make_index_sequence<Count>{});
+}
+
+/// The lanes for a number of angles: few are left empty.
+[[nodiscard]] constexpr int lanes_for(std::size_t angles) noexcept {
+  int lanes = 2;
+  while (lanes < lanes_of_a_register && static_cast<std::size_t>(lanes) < angles) lanes *= 2;
+  return lanes;
+}
+
+/// Some of the angles, each in as many lanes as said, and zeros in the lanes that are left. Put
+/// together in registers: what goes through memory in parts and comes back as one waits long.
+template <int Lanes, std::size_t Begin, std::size_t Times, std::size_t K>
+[[gnu::always_inline]] inline Reals<Lanes> in_lanes(const std::array<double, K>& angle) noexcept {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    return Reals<Lanes>{(Begin + I / Times < K ? angle[(Begin + I / Times) % K] : 0.0)...};
   }
+  (std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
+}
+
+/// Sines and cosines of the angles from one on.
+/// @pre the angles are no larger than largest_reduced_angle
+template <std::size_t Begin, std::size_t K>
+[[gnu::always_inline]] inline void sine_cosine_in_lanes(const std::array<double, K>& angle,
+                                                        std::array<double, K>& sine,
+                                                        std::array<double, K>& cosine) noexcept {
+  constexpr std::size_t rest = K - Begin;
+  if constexpr (rest > 0 && 2 * rest <= lanes_of_a_register) {
+    constexpr int lanes = lanes_for(2 * rest);
+    const auto both = sine_cosine_side_by_side<lanes>(in_lanes<lanes, Begin, 2>(angle));
+    for_each_index<rest>([&](std::size_t i) __attribute__((always_inline)) {
+      sine[Begin + i] = both[2 * i];
+      cosine[Begin + i] = both[2 * i + 1];
+    });
+  } else if constexpr (rest > 0) {
+    constexpr int lanes = lanes_for(rest);
+    constexpr std::size_t taken = rest < lanes ? rest : lanes;
+    Reals<lanes> s, c;
+    sine_cosine_by_lane<lanes>(in_lanes<lanes, Begin, 1>(angle), s, c);
+    for_each_index<taken>([&](std::size_t i) __attribute__((always_inline)) {
+      sine[Begin + i] = s[i];
+      cosine[Begin + i] = c[i];
+    });
+    sine_cosine_in_lanes<Begin + taken>(angle, sine, cosine);
+  }
+}
+
+template <std::size_t K>
+[[gnu::noinline, gnu::cold]] inline void sine_cosine_of_large(
+    const std::array<double, K>& angle, std::array<double, K>& sine,
+    std::array<double, K>& cosine) noexcept {
   for (std::size_t i = 0; i < K; ++i) {
-    sine[i] = sines[i];
-    cosine[i] = cosines[i];
+    sine[i] = std::sin(angle[i]);
+    cosine[i] = std::cos(angle[i]);
   }
 }
 
 }  // namespace detail
-#endif
 
-/// Sines and cosines of K angles [rad], found by argument-dependent lookup or in namespace std;
-/// those of three doubles and more by xsimd where the compiler may use AVX2 or wider and xsimd is
-/// there, within two units in the last place. Programs take those of all joints by one call of
-/// this function.
+/// Sines and cosines of K angles [rad]: of doubles side by side, within three units in the last place,
+/// and by <cmath> if they are large, infinite or NaN; of other types by a function sincos that returns both, found by argument-dependent lookup, or by sin
+/// and cos, found so or in namespace std. Programs take those of all joints by one call of this
+/// function.
 /// Real-time: yes, if those of S are.
 template <class S, std::size_t K>
 [[gnu::always_inline]] inline void sine_cosine(const std::array<S, K>& angle,
                                                std::array<S, K>& sine,
                                                std::array<S, K>& cosine) noexcept {
-#ifdef ARTICULA_HAS_WIDE_PACKS
-  if constexpr (std::same_as<S, double> && K >= 3) {
-    return detail::packed_sine_cosine(angle, sine, cosine);
-  }
-#endif
-  using std::cos, std::sin;
-  for (std::size_t i = 0; i < K; ++i) {
-    sine[i] = sin(angle[i]);
-    cosine[i] = cos(angle[i]);
+  if constexpr (std::same_as<S, double>) {
+    double size = 0;
+    detail::for_each_index<K>([&](auto i)
+                                  __attribute__((always_inline)) { size += std::abs(angle[i]); });
+    if (size <= detail::largest_reduced_angle) [[likely]] {
+      detail::sine_cosine_in_lanes<0>(angle, sine, cosine);
+    } else {
+      detail::sine_cosine_of_large(angle, sine, cosine);
+    }
+  } else if constexpr (requires { sincos(angle[0]); }) {
+    detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
+      const auto [s, c] = sincos(angle[i]);
+      sine[i] = s;
+      cosine[i] = c;
+    });
+  } else {
+    using std::cos, std::sin;
+    for (std::size_t i = 0; i < K; ++i) {
+      sine[i] = sin(angle[i]);
+      cosine[i] = cos(angle[i]);
+    }
   }
 }
 

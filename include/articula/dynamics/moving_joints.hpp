@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file All joints that move: those that can be commanded and those that mimic them.
+#pragma once
+
+#include "articula/dynamics/coupling.hpp"
+#include "articula/dynamics/evaluate.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace articula {
+
+/// The number of joints that move, those that mimic others included.
+template <Robot R>
+inline constexpr int moving_joint_count =
+    std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::body_count;
+
+/// The names of all joints that move, depth first, siblings by joint name.
+/// Real-time: yes.
+template <Robot R>
+[[nodiscard]] constexpr auto moving_joint_names(const R& robot) noexcept {
+  std::array<std::string_view, static_cast<std::size_t>(moving_joint_count<R>)> names;
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] = model_of(robot).moving_joints[i].view();
+  return names;
+}
+
+/// Names live in their model: one that is about to vanish has none to give.
+template <Robot R>
+requires(!DescribedRobot<R>) auto moving_joint_names(const R&& robot) = delete;
+
+/// Where all joints that move are: a joint that mimics another one is at
+/// q = multiplier q_of_the_other + offset.
+/// @param robot  a described robot or a model
+/// @param q      positions of the joints that can be commanded [rad or m], N x 1
+/// @return       in the order of moving_joint_names [rad or m], moving_joint_count x 1
+/// Real-time: yes.
+template <Robot R>
+[[nodiscard]] JointVector<moving_joint_count<R>> moving_joint_positions(
+    const R& robot, const JointVector<joint_count<R>>& q) noexcept {
+  return detail::to_vector(body_positions<double, joint_count<R>, moving_joint_count<R>>(
+      model_of(robot).mechanism, detail::to_array(q)));
+}
+
+/// How fast all joints that move are, or their accelerations likewise: a joint that mimics another
+/// one has v = multiplier v_of_the_other.
+/// @param robot  a described robot or a model
+/// @param v      velocities of the joints that can be commanded [rad/s or m/s], N x 1
+/// @return       in the order of moving_joint_names [rad/s or m/s], moving_joint_count x 1
+/// Real-time: yes.
+template <Robot R>
+[[nodiscard]] JointVector<moving_joint_count<R>> moving_joint_velocities(
+    const R& robot, const JointVector<joint_count<R>>& v) noexcept {
+  return detail::to_vector(body_rates<double, joint_count<R>, moving_joint_count<R>>(
+      model_of(robot).mechanism, detail::to_array(v)));
+}
+
+}  // namespace articula

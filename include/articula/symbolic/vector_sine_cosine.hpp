@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Sines and cosines of the lanes of compilers' vectors, without branches.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace articula::symbolic::detail {
+
+/// The vectors of g++ and clang++: they have the operators of numbers, lane by lane.
+template <int Lanes>
+struct Vectors {
+  typedef double Reals __attribute__((vector_size(Lanes * sizeof(double))));           // NOLINT
+  typedef std::int64_t Integers __attribute__((vector_size(Lanes * sizeof(double))));  // NOLINT
+};
+
+template <int Lanes>
+using Reals = typename Vectors<Lanes>::Reals;
+template <int Lanes>
+using Integers = typename Vectors<Lanes>::Integers;
+
+/// Keeps -ffast-math from rearranging what is rounded on purpose. (clang++ has a pragma for that.)
+template <class Vector>
+[[gnu::always_inline]] inline Vector as_written(const Vector& x) noexcept {
+#if defined(__clang__)
+  return x;
+#else
+  return __builtin_assoc_barrier(x);
+#endif
+}
+
+/// Numbers of even lanes and of odd lanes.
+template <class Vector, class T>
+[[gnu::always_inline]] inline Vector alternating(T even, T odd) noexcept {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    return Vector{(I % 2 == 0 ? even : odd)...};
+  }
+  (std::make_index_sequence<sizeof(Vector) / sizeof(T)>{});
+}
+
+/// Lanes 0 and 1, 2 and 3, ... in each other's place.
+template <int Lanes>
+[[gnu::always_inline]] inline Reals<Lanes> with_swapped_lanes(const Reals<Lanes>& x) noexcept {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    return Reals<Lanes>{x[I ^ 1U]...};
+  }
+  (std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
+}
+
+/// The largest angle that is reduced right [rad].
+inline constexpr double largest_reduced_angle = 1e6;
+
+/// An angle as right angles and the rest.
+template <int Lanes>
+struct ReducedAngle {
+  Reals<Lanes> rest;             ///< in [-pi/4, pi/4] [rad]
+  Integers<Lanes> right_angles;  ///< their number in the last bits
+};
+
+/// Pi/2 is subtracted in three parts, of which the first two have so few bits that up to 2^20 times
+/// them are exact [Cody, Waite 1980, chapter 8]. Adding 1.5 * 2^52 rounds to an integer and leaves
+/// it in the last bits.
+/// @pre the angle is no larger than largest_reduced_angle
+template <int Lanes>
+[[gnu::always_inline]] inline ReducedAngle<Lanes> reduce(const Reals<Lanes>& angle) noexcept {
+#if defined(__clang__)
+#pragma clang fp reassociate(off)
+#endif
+  constexpr double rounder = 0x1.8p52, right_angles_in_a_radian = 0x1.45f306dc9c883p-1;
+  constexpr double head = 0x1.921fb544p0, middle = 0x1.0b4611a6p-34, tail = 0x1.3198a2e037073p-69;
+  const Reals<Lanes> shifted = as_written(angle * right_angles_in_a_radian + rounder);
+  const Reals<Lanes> count = as_written(shifted - rounder);
+  const Reals<Lanes> near = as_written(as_written(angle - count * head) - count * middle);
+  return {near - count * tail, reinterpret_cast<Integers<Lanes>>(shifted)};
+}
+
+// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 - z/2 + z^2 q(z). The polynomials go
+// through the true values at Chebyshev's nodes, which keeps p z and q z^2 within 2e-17 in between. They
+// are summed in pairs, so that little waits for anything. Signs by the number of right angles are
+// + + - - for the sine, + - - + for the cosine; an odd number has them change places.
+
+/// @param[out] sine, cosine  of the angle in each lane
+/// @pre the angles are no larger than largest_reduced_angle
+template <int Lanes>
+[[gnu::always_inline]] inline void sine_cosine_by_lane(const Reals<Lanes>& angle,
+                                                       Reals<Lanes>& sine,
+                                                       Reals<Lanes>& cosine) noexcept {
+  const auto [x, turns] = reduce<Lanes>(angle);
+  const Reals<Lanes> z = x * x, z2 = z * z, z4 = z2 * z2;
+  const Reals<Lanes> p = (-0x1.5555555555555p-3 + z * 0x1.1111111110bb2p-7) +
+                         z2 * (-0x1.a01a019e83816p-13 + z * 0x1.71de379654304p-19) +
+                         z4 * (-0x1.ae600aca92c64p-26 + z * 0x1.5e0b05bff20f2p-33);
+  const Reals<Lanes> q = (0x1.5555555555555p-5 + z * -0x1.6c16c16c16967p-10) +
+                         z2 * (0x1.a01a019f4e9b4p-16 + z * -0x1.27e4fa17bf139p-22) +
+                         z4 * (0x1.1eeb68cd22f56p-29 + z * -0x1.907d8f29fe831p-37);
+  const auto s = reinterpret_cast<Integers<Lanes>>(x + (x * z) * p);
+  const auto c = reinterpret_cast<Integers<Lanes>>((1.0 - 0.5 * z) + z2 * q);
+  const Integers<Lanes> swap = (s ^ c) & -(turns & 1);
+  sine = reinterpret_cast<Reals<Lanes>>(s ^ swap ^ ((turns & 2) << 62));
+  cosine = reinterpret_cast<Reals<Lanes>>(c ^ swap ^ (((turns + 1) & 2) << 62));
+}
+
+/// The same for few angles, with half the work: the sine in one lane, the cosine in the next.
+/// @param angle  each in two lanes
+/// @return       sines in even lanes, cosines in odd ones
+/// @pre the angles are no larger than largest_reduced_angle
+template <int Lanes>
+[[gnu::always_inline]] inline Reals<Lanes> sine_cosine_side_by_side(
+    const Reals<Lanes>& angle) noexcept {
+  const auto both = [](double of_sine, double of_cosine) __attribute__((always_inline)) {
+    return alternating<Reals<Lanes>>(of_sine, of_cosine);
+  };
+  const auto [x, turns] = reduce<Lanes>(angle);
+  const Reals<Lanes> z = x * x, z2 = z * z, z4 = z2 * z2;
+  // p(z), and -1/2 + z q(z): what is multiplied with x z or z and added to x or 1.
+  const Reals<Lanes> r =
+      (both(-0x1.5555555555555p-3, -0.5) + z * both(0x1.1111111110bb2p-7, 0x1.5555555555555p-5)) +
+      z2 * (both(-0x1.a01a019e83816p-13, -0x1.6c16c16c16967p-10) +
+            z * both(0x1.71de379654304p-19, 0x1.a01a019f4e9b4p-16)) +
+      z4 * ((both(-0x1.ae600aca92c64p-26, -0x1.27e4fa17bf139p-22) +
+             z * both(0x1.5e0b05bff20f2p-33, 0x1.1eeb68cd22f56p-29)) +
+            z2 * both(0, -0x1.907d8f29fe831p-37));
+  const auto odd = alternating<Integers<Lanes>, std::int64_t>(0, 1);
+  const Reals<Lanes> first = odd != 0 ? both(1, 1) : x;
+  const Reals<Lanes> values = first + (first * z) * r;
+  const Reals<Lanes> placed = (turns << 63) < 0 ? with_swapped_lanes<Lanes>(values) : values;
+  return reinterpret_cast<Reals<Lanes>>(reinterpret_cast<Integers<Lanes>>(placed) ^
+                                        (((turns + odd) & 2) << 62));
+}
+
+}  // namespace articula::symbolic::detail
