@@ -71,6 +71,11 @@ TEST_CASE("bad options are refused, naming option, joint, value and limit") {
       {[](Options& o) { o.initial_velocity[1] = -infinity; }, {"initial_velocity", "-inf", elbow}},
       {[](Options& o) { o.initial_velocity[0] = not_a_number; },
        {"initial_velocity", "nan", shoulder}},
+      {[](Options& o) { o.servo_bandwidth[0] = 0; }, {"servo_bandwidth", "0", shoulder}},
+      {[](Options& o) { o.servo_bandwidth[1] = -50; }, {"servo_bandwidth", "-50", elbow}},
+      {[](Options& o) { o.servo_bandwidth[1] = not_a_number; }, {"servo_bandwidth", "nan", elbow}},
+      {[](Options& o) { o.servo_bandwidth[0] = 1e9; },
+       {"servo_bandwidth", "1e+09", shoulder, "at most 2e+08"}},
       {[](Options& o) { o.encoder_resolution[0] = -1e-5; },
        {"encoder_resolution", "-1e-05", shoulder}},
       {[](Options& o) { o.encoder_resolution[1] = infinity; },
@@ -90,6 +95,15 @@ TEST_CASE("bad options are refused, naming option, joint, value and limit") {
     CHECK_THROWS_AS(Simulator<Model<2>>(support::model<Q2d>(), options), std::invalid_argument);
     for (const std::string& part : bad.message) CHECK_THROWS_WITH(Q2dSim(options), Contains(part));
   }
+}
+
+TEST_CASE("servos make as many steps as their bandwidth needs, and no fewer than asked for") {
+  Options options{.period = 0.01, .substeps = 2};
+  CHECK(servo_substeps(options) == 5);  // of 2 ms, for 100 rad/s
+  options.servo_bandwidth = {1, 1000};
+  CHECK(servo_substeps(options) == 50);
+  options.servo_bandwidth = {1, 1};
+  CHECK(servo_substeps(options) == 2);
 }
 
 TEST_CASE("the limits themselves are a good start") {
@@ -177,5 +191,17 @@ TEST_CASE("the fastest decay of coupled joints is found, in whichever direction 
     const double fastest = 1 / (1 - std::abs(along));
     SimulatorOptions<2> options{.period = 0.99 * 2.785 / fastest};  // just stable
     CHECK_THROWS_AS(validate(robot, options), std::invalid_argument);
+  }
+}
+
+TEST_CASE("damping that no number of sub-steps can follow is refused, up to the largest number") {
+  for (const double damping : {1e20, 1e153, 1e155, 1e200, support::largest}) {
+    CAPTURE(damping);
+    Model<2> robot = support::model<Q2d>();
+    robot.joints[0].damping = damping;
+    CHECK_THROWS_AS(validate(robot, SimulatorOptions<2>()), std::invalid_argument);
+    CHECK_THROWS_WITH(
+        validate(robot, SimulatorOptions<2>()),
+        Catch::Matchers::Contains("damping") && !Catch::Matchers::Contains("substeps"));
   }
 }

@@ -16,7 +16,8 @@ using support::slider;
 namespace {
 
 static_assert(Hardware<Q2dSim> && Hardware<Simulator<Model<3>>>);
-static_assert(!Hardware<Q2dSim, PositionCommand<2>>);
+static_assert(Hardware<Q2dSim, PositionCommand<2>> && Hardware<Q2dSim, VelocityCommand<2>>);
+static_assert(Hardware<Q2dSim, MultiModeCommand<2>> && !Hardware<Q2dSim, PositionCommand<3>>);
 
 using SliderSim = Simulator<Model<1>>;
 using Vector = JointVector<2>;

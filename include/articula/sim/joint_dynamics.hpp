@@ -9,10 +9,11 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 namespace articula {
 
-/// Advances a robot in time under constant efforts. Between events the motion is smooth and is
+/// Advances a robot in time under the efforts of its drives. Between events the motion is smooth and is
 /// integrated by Runge-Kutta; an event (a joint reaches its stop, or comes to rest against dry
 /// friction) is located in time to the last bits, dealt with, and the step goes on from there.
 /// Stops are inelastic: a joint that arrives gives up its velocity by an impulse through the mass
@@ -33,14 +34,30 @@ class JointDynamics {
         parents_(branches(model_of(robot).mechanism)),
         has_friction_((friction_.array() > 0).any()) {}
 
-  /// The motion after one step.
+  /// The motion after one step under constant efforts.
   /// @param motion  position and velocity at its beginning; positions within the joints' limits
-  /// @param effort  efforts of the drives, constant over the step [N m or N], N x 1
+  /// @param effort  efforts of the drives [N m or N], N x 1
   /// @param step    [s]
   /// Real-time: yes. One Runge-Kutta step, and some fifty more for each event.
-  [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion,
+  [[nodiscard]] Motion<joint_count> advance(const Motion<joint_count>& motion,
                                             const JointVector<joint_count>& effort,
                                             double step) const noexcept {
+    return advance(
+        motion, [&effort](const auto&, const auto&) noexcept { return effort; }, step);
+  }
+
+  /// The motion after one step under efforts that depend on it.
+  /// @param motion  as above
+  /// @param effort  callable with (q, v) -> efforts of the drives [N m or N], N x 1
+  /// @param step    [s]
+  /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step.
+  template <class Drives>
+  requires std::is_invocable_r_v < JointVector<joint_count>,
+  const Drives&, const JointVector<joint_count>&,
+      const JointVector<joint_count>& >
+          [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion,
+                                                    const Drives& effort,
+                                                    double step) const noexcept {
     double rest = step;
     for (int event = 0; event < most_events && rest > 0; ++event) {
       if (any_at_stop(motion)) motion = after_impact(motion, Rebound::yes);
@@ -117,8 +134,9 @@ class JointDynamics {
   }
 
   /// Which joints are held from here on, and how friction acts on the others.
+  template <class Drives>
   [[nodiscard]] Phase phase_at(const Motion<joint_count>& motion,
-                               const JointVector<joint_count>& effort) const noexcept {
+                               const Drives& effort) const noexcept {
     Phase phase;
     EffortBounds<joint_count> bounds;
     bool may_hold = false;
@@ -133,7 +151,8 @@ class JointDynamics {
     }
     if (!may_hold) return phase;
     const JointVector<joint_count> load =
-        effort + phase.sliding - damping_.cwiseProduct(motion.velocity) -
+        effort(motion.position, motion.velocity) + phase.sliding -
+        damping_.cwiseProduct(motion.velocity) -
         nonlinear_effects(robot_, motion.position, motion.velocity);
     const auto answer = hold_within_bounds<joint_count>(
         parents_, mass_matrix(robot_, motion.position), load, bounds);
@@ -148,15 +167,16 @@ class JointDynamics {
   }
 
   /// A Runge-Kutta step within one phase.
+  template <class Drives>
   [[nodiscard]] Motion<joint_count> smooth_step(const Phase& phase,
                                                 const Motion<joint_count>& motion,
-                                                const JointVector<joint_count>& effort,
-                                                double step) const noexcept {
-    const JointVector<joint_count> drive = effort + phase.sliding;
+                                                const Drives& effort, double step) const noexcept {
     if (!phase.any_held) {
-      return runge_kutta_step<joint_count>(motion, step, [&](const auto& q, const auto& v) {
-        return forward_dynamics(robot_, q, v, drive - damping_.cwiseProduct(v));
-      });
+      return runge_kutta_step<joint_count>(
+          motion, step, [&](const auto& q, const auto& v) noexcept {
+            return forward_dynamics(robot_, q, v,
+                                    effort(q, v) + phase.sliding - damping_.cwiseProduct(v));
+          });
     }
     EffortBounds<joint_count> bounds;
     for (int j = 0; j < joint_count; ++j) {
@@ -164,9 +184,9 @@ class JointDynamics {
       bounds.lower[j] = -JointLimits::infinity;
       bounds.upper[j] = JointLimits::infinity;
     }
-    return runge_kutta_step<joint_count>(motion, step, [&](const auto& q, const auto& v) {
+    return runge_kutta_step<joint_count>(motion, step, [&](const auto& q, const auto& v) noexcept {
       const JointVector<joint_count> load =
-          drive - damping_.cwiseProduct(v) - nonlinear_effects(robot_, q, v);
+          effort(q, v) + phase.sliding - damping_.cwiseProduct(v) - nonlinear_effects(robot_, q, v);
       return hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), load, bounds).motion;
     });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Noise for simulated sensors, the same on every machine.
+/// @file Noise for simulated sensors.
 #pragma once
 
 #include <cmath>
@@ -8,8 +8,9 @@
 
 namespace articula {
 
-/// Independent standard normal numbers. The standard library's distribution is another one with
-/// every implementation, and neither it nor the generators promise not to throw.
+/// Independent standard normal numbers, on every machine the same but for the rounding of its
+/// mathematical library. The standard library's distribution is another one with every
+/// implementation, and neither it nor the generators promise not to throw.
 ///
 /// Sources: SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014);
 /// Box and Muller: A note on the generation of random normal deviates, 1958.
