@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/control/computed_torque.hpp>
+#include <articula/dynamics/mass_matrix.hpp>
 #include <articula/loop/loop.hpp>
+
+#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
 
 #include "catch.hpp"
+#include "random.hpp"
 #include "test_robots.hpp"
 
 using namespace articula;
@@ -156,4 +160,35 @@ TEST_CASE("an overflow is over in the next cycle") {
   wild.position = {1e308, -1e308};
   static_cast<void>(controller.update({}, wild, 1e-3));
   CHECK(is_finite(controller.update({}, calm, 1e-3)));
+}
+
+// What was lost is an acceleration, M(q)^-1 excess, at the position of that cycle, whatever gravity
+// does: an integral that pushed into the same direction takes its last step back, another keeps it.
+TEST_CASE("integrals are told the acceleration that was lost") {
+  const Model<2> robot = strong_arm();
+  constexpr unsigned seed = 1;
+  CAPTURE(seed);
+  support::Random random(seed);
+  constexpr double period = 1e-3;
+  for (int k = 0; k < 1000; ++k) {
+    ComputedTorqueLaw<Model<2>> law(robot, {PidGains{.integral = 1}, PidGains{.integral = 1}});
+    JointState<2> state;
+    state.position = random.vector<2>(3);
+    const Vector error = random.vector<2>(3), excess = random.vector<2>(1);
+    law.start(state);
+    JointReference<2> reference;
+    reference.position = state.position + error;
+    static_cast<void>(law.effort(state, reference, period));
+    law.limited(excess);
+
+    const Vector lost = mass_matrix(robot, state.position).inverse() * excess;
+    Vector integral = error * period;
+    for (int j = 0; j < 2; ++j) {
+      if (lost[j] * integral[j] > 0) integral[j] = 0;
+    }
+    reference.position = state.position;  // no error: nothing is added
+    const Vector expected = inverse_dynamics(robot, state.position, state.velocity, integral);
+    // The integrals are some 1e-3 rad/s^2 and the efforts of gravity some 10 N m.
+    CHECK((law.effort(state, reference, period) - expected).norm() < 1e-13);
+  }
 }

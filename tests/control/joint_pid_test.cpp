@@ -288,3 +288,35 @@ TEST_CASE("hostile inputs leave nothing behind, whatever the gains") {
     CHECK(is_finite(pid.update(g, error_of(0.1), 1e-3)));
   }
 }
+
+TEST_CASE("a second start is like the first, whatever was before") {
+  PidGains g{.proportional = 3, .integral = 2, .derivative = 1};
+  g.derivative_of = DerivativeOf::error;
+  g.derivative_filter_time = 0.01;
+  g.position_weight = 0.5;
+  g.velocity_weight = 0.25;
+  JointPid first, second;
+  for (int k = 0; k < 5; ++k) static_cast<void>(second.update(g, error_of(0.3 * k), 1e-3));
+  first.start(g);
+  second.start(g);
+  for (int k = 0; k < 5; ++k) {
+    const PidInput input{.error = 1 - 0.1 * k, .measured = 2 + 0.1 * k};
+    CHECK(second.update(g, input, 1e-3) == first.update(g, input, 1e-3));
+  }
+}
+
+TEST_CASE("an excess that overflowed takes the last step back, whatever the anti-windup") {
+  for (const AntiWindup way :
+       {AntiWindup::none, AntiWindup::back_calculation, AntiWindup::conditional_integration}) {
+    for (const double excess : {infinity, -infinity, not_a_number}) {
+      PidGains g{.proportional = 1, .integral = 1};
+      g.anti_windup = way;
+      JointPid pid;
+      static_cast<void>(pid.update(g, error_of(1), 1e-3));
+      const double before = pid.integral();
+      static_cast<void>(pid.update(g, error_of(1), 1e-3));
+      pid.limited(g, excess);
+      CHECK(pid.integral() == before);
+    }
+  }
+}

@@ -5,6 +5,8 @@
 #include "articula/control/feedforward.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// Open-loop control: effort = clamp(effort_ref).
@@ -13,7 +15,10 @@ namespace articula {
 template <Robot R>
 class Bypass : public EffortController<R, EffortFeedforward<joint_count<R>>> {
  public:
-  explicit Bypass(const R& robot = described<R>())
+  static constexpr std::string_view name = "bypass";
+
+  Bypass() requires DescribedRobot<R> : Bypass(R()) {}
+  explicit Bypass(const R& robot)
       : EffortController<R, EffortFeedforward<articula::joint_count<R>>>(robot, {}) {}
 };
 

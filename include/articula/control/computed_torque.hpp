@@ -10,6 +10,8 @@
 #include "articula/dynamics/gravity.hpp"
 #include "articula/dynamics/inverse_dynamics.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// The effort that makes the rigid bodies accelerate as reference and feedback ask:
@@ -39,6 +41,18 @@ class ComputedTorqueLaw {
     const JointVector<joint_count> acceleration =
         reference.acceleration + feedback_.effort(state, reference, period);
     return inverse_dynamics(robot_, state.position, state.velocity, acceleration);
+  }
+
+  /// Lets the integrals begin with the acceleration that the effort would cause beyond a_ref, see
+  /// PidLaw. Real-time: yes.
+  /// @return  the effort that reference and integrals ask for [N m or N], N x 1
+  JointVector<joint_count> prime(const JointState<joint_count>& state,
+                                 const JointReference<joint_count>& reference, double period,
+                                 const JointVector<joint_count>& effort) noexcept {
+    const JointVector<joint_count> share = feedback_.prime(
+        state, reference, period,
+        forward_dynamics(robot_, state.position, state.velocity, effort) - reference.acceleration);
+    return inverse_dynamics(robot_, state.position, state.velocity, reference.acceleration + share);
   }
 
   /// Keeps the integrals from winding up. The feedback asks for accelerations, so it is told the
@@ -72,6 +86,7 @@ template <Robot R>
 class ComputedTorque : public EffortController<R, ComputedTorqueLaw<R>, FrictionCompensation<R>,
                                                EffortFeedforward<joint_count<R>>> {
  public:
+  static constexpr std::string_view name = "computed_torque";
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// Critically damped errors that decay with exp(-20 t): 63 % of a step in about 0.1 s.

@@ -7,6 +7,8 @@
 #include "articula/control/impedance_gains.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// Joint impedance control closed in the drives, at their own rate: they are given K, D, q_ref and
@@ -16,6 +18,7 @@ namespace articula {
 template <Robot R>
 class DriveImpedance {
  public:
+  static constexpr std::string_view name = "drive_impedance";
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// @param gains  of each joint

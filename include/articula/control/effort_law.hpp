@@ -37,6 +37,17 @@ concept LimitAware = requires(L law, const JointVector<N>& excess) {
   noexcept;
 };
 
+/// What can take over from another controller without a jump: after `start` and before the first
+/// `effort` (or a controller's `update`), `prime(state, reference, period, effort)` tells which effort
+/// (or command) was given last, so that what the part remembers can begin there: an integral takes it
+/// for the load that it has to carry. The part answers with its share of that effort, N x 1.
+template <class L, int N>
+concept Primable = requires(L law, const JointState<N>& state, const JointReference<N>& reference,
+                            double period, const JointVector<N>& effort) {
+  { law.prime(state, reference, period, effort) }
+  noexcept->std::convertible_to<JointVector<N>>;
+};
+
 /// What can go on with other gains of the kind `Gains` between two cycles.
 template <class L, class Gains>
 concept TakesGains = requires(L law, const Gains& gains) {

@@ -5,6 +5,8 @@
 #include "articula/control/feedforward.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// Position drives go where the reference says: position = clamp(q_ref), within the joints' limits.
@@ -13,7 +15,10 @@ namespace articula {
 template <Robot R>
 class ForwardPosition : public PositionController<R, PositionFeedforward<joint_count<R>>> {
  public:
-  explicit ForwardPosition(const R& robot = described<R>())
+  static constexpr std::string_view name = "forward_position";
+
+  ForwardPosition() requires DescribedRobot<R> : ForwardPosition(R()) {}
+  explicit ForwardPosition(const R& robot)
       : PositionController<R, PositionFeedforward<articula::joint_count<R>>>(robot, {}) {}
 };
 

@@ -5,6 +5,8 @@
 #include "articula/control/feedforward.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// Velocity drives go as fast as the reference says: velocity = clamp(v_ref), within the joints'
@@ -13,7 +15,10 @@ namespace articula {
 template <Robot R>
 class ForwardVelocity : public VelocityController<R, VelocityFeedforward<joint_count<R>>> {
  public:
-  explicit ForwardVelocity(const R& robot = described<R>())
+  static constexpr std::string_view name = "forward_velocity";
+
+  ForwardVelocity() requires DescribedRobot<R> : ForwardVelocity(R()) {}
+  explicit ForwardVelocity(const R& robot)
       : VelocityController<R, VelocityFeedforward<articula::joint_count<R>>>(robot, {}) {}
 };
 

@@ -7,6 +7,8 @@
 #include "articula/control/impedance_gains.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// A spring and a damper between each of N joints and its reference:
@@ -49,6 +51,7 @@ class JointImpedance
     : public EffortController<R, ImpedanceLaw<joint_count<R>>, GravityCompensation<R>,
                               EffortFeedforward<joint_count<R>>> {
  public:
+  static constexpr std::string_view name = "joint_impedance";
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// @param gains  of each joint

@@ -47,6 +47,15 @@ class JointPid {
     fresh_ = true;
   }
 
+  /// Lets the integral begin with an output that was given by another controller, as far as its
+  /// clamps allow. After `start`; without an integral gain, which could never take it back, or with
+  /// an output that is not finite it does nothing. Real-time: yes.
+  void prime(const PidGains& g, double output) noexcept {
+    if (g.integral == 0 || !is_finite(output)) return;
+    set_integral(g, output);
+    previous_integral_ = integral_;
+  }
+
   /// The output u'.
   /// @param g       that validate() accepts
   /// @param in      this cycle's input

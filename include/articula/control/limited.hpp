@@ -89,6 +89,13 @@ class Limited {
     }
   }
 
+  /// Lets the controller begin with what was given last, if it can. Real-time: yes.
+  JointVector<joint_count> prime(const State& state, const Reference& reference, double period,
+                                 const JointVector<joint_count>& command) noexcept requires
+      Primable<ControllerType, joint_count> {
+    return controller_.prime(state, reference, period, command);
+  }
+
   /// What the last update changed. Real-time: yes.
   [[nodiscard]] const LimitReport<joint_count>& report() const noexcept { return report_; }
   [[nodiscard]] const CommandLimits<joint_count>& limits() const noexcept { return limits_; }

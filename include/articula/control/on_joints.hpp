@@ -47,6 +47,13 @@ class OnJoints {
     return chosen(law_.effort(state, reference, period));
   }
 
+  /// Lets the part begin with what was given last on its joints. Real-time: yes.
+  JointVector<N> prime(const JointState<N>& state, const JointReference<N>& reference,
+                       double period,
+                       const JointVector<N>& effort) noexcept requires Primable<Law, N> {
+    return chosen(law_.prime(state, reference, period, chosen(effort)));
+  }
+
   /// Tells the part what was cut off on its joints. Real-time: yes.
   void limited(const JointVector<N>& excess) noexcept requires LimitAware<Law, N> {
     law_.limited(chosen(excess));

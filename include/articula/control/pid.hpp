@@ -6,6 +6,8 @@
 #include "articula/control/pid_law.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// PID control of each joint: effort = clamp(PID + effort_ref), see PidLaw.
@@ -14,6 +16,7 @@ namespace articula {
 template <Robot R>
 class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward<joint_count<R>>> {
  public:
+  static constexpr std::string_view name = "pid";
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// With the gains that the robot brings along.

@@ -79,7 +79,10 @@ void validate(const std::array<PidGains, N>& gains, const std::array<std::string
       if (!(value >= 0 && value <= 1)) refuse(what, " ", value, " is not within 0 .. 1");
     };
     const auto check_clamps = [&](std::string_view what, double low, double high) {
-      if (!(low <= high) || low == PidGains::infinity || high == -PidGains::infinity) {
+      if (!(low <= high)) {
+        refuse(what, "_min ", low, " and ", what, "_max ", high, " are NaN or out of order");
+      }
+      if (low == PidGains::infinity || high == -PidGains::infinity) {
         refuse(what, "_min ", low, " and ", what, "_max ", high, " leave no finite value");
       }
     };

@@ -85,6 +85,24 @@ class PidLaw {
     return output;
   }
 
+  /// Lets the integrals begin with an effort that another controller gave last: the load that it has
+  /// carried. What p and d ask for comes on top of it. Joints without integral gain begin with 0.
+  /// @return  the integral terms and feed-forwards, N x 1
+  /// Real-time: yes. O(N).
+  JointVector<N> prime(const JointState<N>&, const JointReference<N>& reference, double,
+                       const JointVector<N>& effort) noexcept {
+    JointVector<N> share;
+    for (int j = 0; j < N; ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      const PidGains& g = gains_[i];
+      const double feedforward = g.velocity_feedforward * reference.velocity[j] +
+                                 g.acceleration_feedforward * reference.acceleration[j];
+      pids_[i].prime(g, effort[j] - feedforward);
+      share[j] = pids_[i].integral() + feedforward;
+    }
+    return share;
+  }
+
   /// Keeps the integrals from winding up behind a limit, as each joint's gains say.
   /// @param excess  total minus limited total, N x 1
   /// Real-time: yes. O(N).

@@ -7,6 +7,8 @@
 #include "articula/control/pid_law.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// PID control of each joint, relieved of the robot's weight: effort = clamp(PID + g(q) +
@@ -16,6 +18,7 @@ template <Robot R>
 class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, GravityCompensation<R>,
                                                EffortFeedforward<joint_count<R>>> {
  public:
+  static constexpr std::string_view name = "pid_plus_gravity";
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// With the gains that the robot brings along.

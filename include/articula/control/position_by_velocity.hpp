@@ -6,6 +6,8 @@
 #include "articula/control/pid_law.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// Position control through velocity drives: velocity = clamp(PID + v_ref), see PidLaw, whose output
@@ -15,6 +17,7 @@ template <Robot R>
 class PositionByVelocity
     : public VelocityController<R, PidLaw<joint_count<R>>, VelocityFeedforward<joint_count<R>>> {
  public:
+  static constexpr std::string_view name = "position_by_velocity";
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// @param gains  proportional [1/s], integral [1/s^2], derivative [1], clamps in rad/s or m/s

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -32,7 +33,7 @@ template <class Command, Robot R>
   if constexpr (std::same_as<Command, PositionCommand<n>>) {
     return {limits(&JointLimits::lower), limits(&JointLimits::upper)};
   } else {
-    constexpr bool is_effort = std::same_as<Command, EffortCommand<n>>;
+    constexpr bool is_effort = requires(Command command) { command.effort; };
     const JointVector<n> highest =
         limits(is_effort ? &JointLimits::effort : &JointLimits::velocity);
     return {-highest, highest};
@@ -59,7 +60,7 @@ class SumController {
 
   /// Starts all parts anew. Real-time: yes.
   void start(const JointState<joint_count>& state) noexcept {
-    std::apply([&](Laws&... law) { (law.start(state), ...); }, laws_);
+    for_each_law([&](auto& law) noexcept { law.start(state); });
   }
 
   /// The limited total for the coming period.
@@ -71,8 +72,7 @@ class SumController {
                                const JointReference<joint_count>& reference,
                                double period) noexcept {
     JointVector<joint_count> total = JointVector<joint_count>::Zero();
-    std::apply([&](Laws&... law) { ((total += law.effort(state, reference, period)), ...); },
-               laws_);
+    for_each_law([&](auto& law) noexcept { total += law.effort(state, reference, period); });
     JointVector<joint_count> command;
     for (int j = 0; j < joint_count; ++j) {
       // A NaN stays one, for whoever looks for it, and does not turn into a limit. A sum that
@@ -83,11 +83,38 @@ class SumController {
     return {command};
   }
 
+  /// Lets the parts that can, such as a PID's integral, begin with what the last command holds beyond
+  /// the other parts. After `start`. Real-time: yes.
+  /// @param state      measured joints
+  /// @param reference  what they shall do
+  /// @param period     time until the next update [s]
+  /// @param command    given last, by another controller, N x 1
+  /// @return           what these parts begin with of it, N x 1
+  JointVector<joint_count> prime(const JointState<joint_count>& state,
+                                 const JointReference<joint_count>& reference, double period,
+                                 const JointVector<joint_count>& command) noexcept
+      requires(Primable<Laws, joint_count> || ...) {
+    JointVector<joint_count> rest = command;
+    for_each_law([&](auto& law) noexcept {
+      if constexpr (!Primable<decltype(law), joint_count>) {
+        rest -= law.effort(state, reference, period);
+        law.start(state);  // as if it had not been asked
+      }
+    });
+    const JointVector<joint_count> left = rest;
+    for_each_law([&](auto& law) noexcept {
+      if constexpr (Primable<decltype(law), joint_count>) {
+        rest -= law.prime(state, reference, period, rest);
+      }
+    });
+    return left - rest;
+  }
+
   /// Tells the parts by how much the command was cut off: called by `update`, and by whoever limits
   /// the command further. Real-time: yes.
   /// @param excess  asked minus given, N x 1, in the unit of the command
   void limited(const JointVector<joint_count>& excess) noexcept {
-    for_each_law([&](auto& law) {
+    for_each_law([&](auto& law) noexcept {
       if constexpr (LimitAware<decltype(law), joint_count>) law.limited(excess);
     });
   }
@@ -95,7 +122,7 @@ class SumController {
   /// Goes on with other gains, in every part that takes them. Real-time: yes.
   template <class Gains>
   requires(TakesGains<Laws, Gains> || ...) void set_gains(const Gains& gains) noexcept {
-    for_each_law([&](auto& law) {
+    for_each_law([&](auto& law) noexcept {
       if constexpr (TakesGains<decltype(law), Gains>) law.set_gains(gains);
     });
   }
@@ -108,7 +135,10 @@ class SumController {
 
  private:
   void for_each_law(auto function) noexcept {
-    std::apply([&](Laws&... law) { (function(law), ...); }, laws_);
+    [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
+      (function(std::get<I>(laws_)), ...);
+    }
+    (std::index_sequence_for<Laws...>());
   }
 
   detail::CommandRange<joint_count> range_;

@@ -6,6 +6,8 @@
 #include "articula/control/pid_law.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// Velocity control of each joint: effort = clamp(PID + effort_ref), where the PID's error is
@@ -15,6 +17,7 @@ template <Robot R>
 class VelocityByEffort : public EffortController<R, PidLaw<joint_count<R>, PidOf::velocity>,
                                                  EffortFeedforward<joint_count<R>>> {
  public:
+  static constexpr std::string_view name = "velocity_by_effort";
   static constexpr int joint_count = articula::joint_count<R>;
   using Law = PidLaw<joint_count, PidOf::velocity>;
 

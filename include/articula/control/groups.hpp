@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Controllers for groups of a robot's joints, each at its own rate.
+#pragma once
+
+#include "articula/control/effort_law.hpp"
+#include "articula/control/switch_board.hpp"
+#include "articula/core/controller.hpp"
+#include "articula/core/finite.hpp"
+#include "articula/core/name.hpp"
+#include "articula/model/robot.hpp"
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace articula {
+
+/// A group of a robot's joints.
+struct JointGroup {
+  Name name{};
+  std::vector<Name> joints{};
+  int divisor = 1;  ///< its controller is asked in every cycle of this number, >= 1
+};
+
+/// Controllers for groups of a robot's joints, each at its own rate. Together they are one controller:
+///
+///     template <class R>
+///     using Parts = Groups<R, Switch<R, PidPlusGravity<R>, ComputedTorque<R>>, JointImpedance<R>>;
+///     Parts<GripperArm> parts({{{"arm", {"joint_1", ...}}, {"gripper", {"left_knuckle"}, 10}}},
+///                             arm_controllers, gripper_controller);
+///
+/// - Every joint belongs to one group.
+/// - A group's controller is one for all joints of the robot; what counts of its command is what it
+///   says for its own. It sees the whole state, and a reference that asks nothing of the other
+///   joints: their position and velocity as measured, no acceleration, no effort.
+/// - The controller of a group with the divisor k is asked in the first cycle and every k-th from
+///   then on, with the period k dt. In between its command is held; one that is not finite is not,
+///   the controller is asked again.
+/// - Controllers in a Switch, or a Limited one, go by the group's name and theirs, "arm/pid".
+///   A strict request may be about several groups.
+/// @tparam R            the robot
+/// @tparam Controllers  one per group, all with the same type of command
+template <Robot R, Controller<joint_count<R>>... Controllers>
+class Groups {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  static constexpr std::size_t group_count = sizeof...(Controllers);
+  /// How many controllers can be switched.
+  static constexpr std::size_t controller_count =
+      (detail::switch_size<Controllers> + ... + std::size_t{0});
+  using State = JointState<joint_count>;
+  using Reference = JointReference<joint_count>;
+  using Vector = JointVector<joint_count>;
+  template <class C>
+  using CommandOf = decltype(std::declval<C&>().update(std::declval<const State&>(),
+                                                       std::declval<const Reference&>(), double()));
+  using Command = CommandOf<std::tuple_element_t<0, std::tuple<Controllers...>>>;
+  static_assert((std::same_as<CommandOf<Controllers>, Command> && ...),
+                "the controllers of Groups have the same type of command");
+
+  /// @param groups       of the joints
+  /// @param controllers  one per group, in the same order
+  /// @param robot        whose joints these are
+  /// @throws std::invalid_argument naming the joint that the robot does not have, that is in two
+  ///         groups or in none, the divisor below 1, the name that is empty or there twice
+  explicit Groups(const std::array<JointGroup, group_count>& groups, Controllers... controllers,
+                  const R& robot = described<R>())
+      : controllers_(std::move(controllers)...) {
+    std::array<const JointGroup*, static_cast<std::size_t>(joint_count)> owners{};
+    for (std::size_t g = 0; g < group_count; ++g) {
+      const JointGroup& group = groups[g];
+      if (group.name.empty()) refuse("group " + std::to_string(g + 1) + " has no name");
+      for (std::size_t other = 0; other < g; ++other) {
+        if (groups[other].name == group.name) refuse("two are named " + quoted(group.name));
+      }
+      if (group.divisor < 1) {
+        refuse("divisor " + std::to_string(group.divisor) + " of group " + quoted(group.name) +
+               " is below 1");
+      }
+      parts_[g].divisor = group.divisor;
+      for (const Name& joint : group.joints) {
+        const int j = joint_index(robot, joint.view());
+        const JointGroup*& owner = owners[static_cast<std::size_t>(j)];
+        if (owner != nullptr) {
+          refuse("joint " + quoted(joint) + " of group " + quoted(group.name) + " is in group " +
+                 quoted(owner->name) + " already");
+        }
+        owner = &group;
+        parts_[g].chosen[j] = 1;
+      }
+    }
+    const auto names = joint_names(robot);
+    for (std::size_t j = 0; j < names.size(); ++j) {
+      if (owners[j] == nullptr) refuse("joint " + quoted(names[j]) + " is in no group");
+    }
+    std::size_t entry = 0;
+    for_each_switch([&](const auto& own, std::size_t g) noexcept {
+      for (const ControllerInfo& info : own.list()) {
+        board_.entries[entry].name = info.name;
+        board_.entries[entry++].place = static_cast<int>(g);
+      }
+    });
+    for (auto& of : board_.entries) {
+      const std::string group(groups[static_cast<std::size_t>(of.place)].name.view());
+      of.name = std::string_view(group + "/" + std::string(of.name.view()));
+    }
+    board_.validate();
+  }
+
+  /// Starts all controllers anew. Real-time: yes.
+  void start(const State& state) noexcept {
+    for (Part& part : parts_) part.wait = 0;
+    for_each([&](auto& controller, std::size_t) noexcept { controller.start(state); });
+  }
+
+  /// The command of all groups for the coming period.
+  /// Real-time: yes, if the controllers' are.
+  [[nodiscard]] Command update(const State& state, const Reference& reference,
+                               double period) noexcept {
+    for_each([&](auto& controller, std::size_t g) noexcept {
+      Part& part = parts_[g];
+      part.updated = part.wait == 0;
+      if (part.updated) {
+        const Command own = controller.update(state, of_group(part, state, reference),
+                                              static_cast<double>(part.divisor) * period);
+        if (take_over(own, part)) part.wait = part.divisor;
+      }
+      if (part.wait > 0) --part.wait;
+    });
+    return command_;
+  }
+
+  /// Tells the controllers that were asked in this cycle what was cut off. Real-time: yes.
+  void limited(const Vector& excess) noexcept {
+    for_each([&](auto& controller, std::size_t g) noexcept {
+      if constexpr (LimitAware<decltype(controller), joint_count>) {
+        if (parts_[g].updated) controller.limited(chosen(parts_[g], excess));
+      }
+    });
+  }
+
+  /// Goes on with other gains of the one group that takes them. Where several do, whose gains they
+  /// are must be said: `member<I>().set_gains(gains)`. Real-time: yes.
+  template <class Gains>
+  requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) ==
+           1) void set_gains(const Gains& gains) noexcept {
+    for_each([&](auto& controller, std::size_t) noexcept {
+      if constexpr (TakesGains<decltype(controller), Gains>) controller.set_gains(gains);
+    });
+  }
+
+  /// Asks for controllers to start and stop when their group is asked next. In the thread of the
+  /// update. Real-time: yes.
+  SwitchOutcome request(const SwitchRequest& request) noexcept {
+    std::size_t entry = 0;
+    for_each_switch([&](const auto& own, std::size_t) noexcept {
+      for (const auto& of : own.board().entries) {
+        board_.entries[entry].active = of.active;
+        board_.entries[entry++].anew = of.anew;
+      }
+    });
+    const SwitchOutcome outcome = board_.plan(request);
+    entry = 0;
+    for_each_switch([&](auto& own, std::size_t) noexcept {
+      for (auto& of : own.board().entries) {
+        of.active = board_.entries[entry].active;
+        of.anew = board_.entries[entry++].anew;
+      }
+    });
+    return outcome;
+  }
+
+  /// All controllers that can be switched, and what they are doing. Real-time: yes.
+  [[nodiscard]] std::array<ControllerInfo, controller_count> list() const noexcept {
+    std::array<ControllerInfo, controller_count> all;
+    std::size_t entry = 0;
+    for_each_switch([&](const auto& own, std::size_t) noexcept {
+      for (const ControllerInfo& info : own.list()) {
+        all[entry] = {board_.entries[entry].name, info.status};
+        ++entry;
+      }
+    });
+    return all;
+  }
+
+  /// The controller of a group, by the group's place in the list.
+  template <std::size_t I>
+  [[nodiscard]] auto& member() noexcept {
+    return std::get<I>(controllers_);
+  }
+
+ private:
+  struct Part {
+    Vector chosen = Vector::Zero();  ///< 1 for the group's joints
+    int divisor = 1;
+    int wait = 0;          ///< cycles until it is asked again
+    bool updated = false;  ///< it was asked in the last cycle
+  };
+
+  [[noreturn]] static void refuse(const std::string& what) {
+    throw std::invalid_argument("groups: " + what);
+  }
+  [[nodiscard]] static std::string quoted(std::string_view name) {
+    return "'" + std::string(name) + "'";
+  }
+
+  [[nodiscard]] static Vector chosen(const Part& part, const Vector& values,
+                                     const Vector& others = Vector::Zero()) noexcept {
+    return (part.chosen.array() != 0).select(values, others);
+  }
+
+  [[nodiscard]] static Reference of_group(const Part& part, const State& state,
+                                          const Reference& reference) noexcept {
+    return {chosen(part, reference.position, state.position),
+            chosen(part, reference.velocity, state.velocity), chosen(part, reference.acceleration),
+            chosen(part, reference.effort)};
+  }
+
+  /// @return  whether what the group gets is finite
+  bool take_over(const Command& own, const Part& part) noexcept {
+    bool finite = true;
+    const auto take = [&](auto member) {
+      command_.*member = chosen(part, own.*member, command_.*member);
+      finite = finite && is_finite(chosen(part, own.*member));
+    };
+    if constexpr (requires { own.position; }) take(&Command::position);
+    if constexpr (requires { own.velocity; }) take(&Command::velocity);
+    if constexpr (requires { own.effort; }) take(&Command::effort);
+    if constexpr (requires { own.stiffness; }) {
+      take(&Command::stiffness);
+      take(&Command::damping);
+    }
+    return finite;
+  }
+
+  void for_each(auto function) noexcept {
+    [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
+      (function(std::get<I>(controllers_), I), ...);
+    }
+    (std::index_sequence_for<Controllers...>());
+  }
+
+  /// Calls function(switch, group) for every group that has one.
+  void for_each_switch(auto function) noexcept { visit_switches(controllers_, function); }
+  void for_each_switch(auto function) const noexcept { visit_switches(controllers_, function); }
+
+  static void visit_switches(auto& controllers, auto& function) noexcept {
+    const auto look = [&](auto& controller, std::size_t g) noexcept {
+      using C = std::remove_cvref_t<decltype(controller)>;
+      if constexpr (detail::switch_size < C >> 0) function(switch_in(controller), g);
+    };
+    [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
+      (look(std::get<I>(controllers), I), ...);
+    }
+    (std::index_sequence_for<Controllers...>());
+  }
+
+  std::tuple<Controllers...> controllers_;
+  std::array<Part, group_count> parts_{};
+  SwitchBoard<controller_count> board_{};
+  Command command_{};
+};
+
+}  // namespace articula

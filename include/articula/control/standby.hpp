@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What the joints are commanded while no controller is active.
+#pragma once
+
+#include "articula/control/damping_effort.hpp"
+#include "articula/control/safe_command.hpp"
+#include "articula/core/finite.hpp"
+#include "articula/core/joint_command.hpp"
+#include "articula/core/joint_reference.hpp"
+#include "articula/core/joint_state.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+namespace articula {
+
+/// The controller that wants nothing but safety, whatever the reference says:
+///
+///     efforts      g(q) - M(q) v / T: the weight is carried, the motion decays (see damping_effort)
+///     velocities   zero
+///     positions    that at which it was started
+///     multi-mode   no spring, no damper, the effort as above
+///
+/// A Switch does this while no controller is active. It can be one of its controllers, too.
+/// @tparam R  the robot
+/// @tparam C  the command
+template <Robot R, JointCommand<joint_count<R>> C = EffortCommand<joint_count<R>>>
+class Standby {
+ public:
+  static constexpr std::string_view name = "standby";
+  static constexpr int joint_count = articula::joint_count<R>;
+
+  Standby() requires DescribedRobot<R> : Standby(0.1) {}
+  /// @param damping_time  T, in which the velocity falls to 1/e [s]; shorter than two periods it is
+  ///                      taken for those
+  /// @param robot         whose weight is carried
+  /// @throws std::invalid_argument if T is not a number > 0
+  explicit Standby(double damping_time, const R& robot = described<R>())
+      : robot_(robot), damping_time_(damping_time) {
+    if (is_finite(damping_time) && damping_time > 0) return;
+    std::ostringstream message;
+    message << "standby: damping_time " << damping_time << " s is not a number > 0";
+    throw std::invalid_argument(message.str());
+  }
+
+  /// Takes the position that is to be held. Real-time: yes.
+  void start(const JointState<joint_count>& state) noexcept { position_ = state.position; }
+
+  /// The safe command for the coming period. Without a good state efforts are zero. Real-time: yes.
+  [[nodiscard]] C update(const JointState<joint_count>& state, const JointReference<joint_count>&,
+                         double period) noexcept {
+    C command;
+    if constexpr (requires { command.effort; }) {
+      const double time = is_finite(period) ? std::max(damping_time_, 2 * period) : damping_time_;
+      command.effort = damping_effort(robot_, state.position, state.velocity, time);
+      if (!is_finite(command.effort)) command.effort.setZero();
+      return limited(robot_, command);
+    } else {
+      if constexpr (std::same_as<C, PositionCommand<joint_count>>) command.position = position_;
+      return command;
+    }
+  }
+
+ private:
+  [[no_unique_address]] R robot_;
+  double damping_time_;
+  JointVector<joint_count> position_ = JointVector<joint_count>::Zero();  ///< [rad or m]
+};
+
+}  // namespace articula

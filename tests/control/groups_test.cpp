@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// Controllers for groups of joints, each at its own rate and switched on its own.
+#include <articula/control/bypass.hpp>
+#include <articula/control/drive_impedance.hpp>
+#include <articula/control/groups.hpp>
+#include <articula/control/joint_impedance.hpp>
+#include <articula/control/limited.hpp>
+#include <articula/control/pid.hpp>
+#include <articula/control/pid_plus_gravity.hpp>
+#include <articula/control/switch.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include <array>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "catch.hpp"
+#include "numbers.hpp"
+#include "random.hpp"
+#include "random_robots.hpp"
+#include "test_robots.hpp"
+
+using namespace articula;
+using Catch::Matchers::Contains;
+using support::not_a_number;
+using Arm = support::TiltedQ2d;
+
+namespace {
+
+using Vector = JointVector<2>;
+constexpr double dt = 1e-3;
+const Name shoulder = "shoulder_active_joint", elbow = "elbow_active_joint";
+
+/// Counts what it is told, and asks for the number of its updates.
+template <int N>
+struct Counter {
+  int starts = 0, updates = 0, told = 0;
+  double period = 0, bad = 0;
+  JointReference<N> reference{};
+  JointVector<N> excess = JointVector<N>::Zero();
+
+  void start(const JointState<N>&) noexcept { ++starts; }
+  EffortCommand<N> update(const JointState<N>&, const JointReference<N>& wish,
+                          double time) noexcept {
+    ++updates;
+    reference = wish;
+    period = time;
+    return {JointVector<N>::Constant(updates + bad)};
+  }
+  void limited(const JointVector<N>& cut_off) noexcept {
+    ++told;
+    excess = cut_off;
+  }
+};
+
+using Counters = Groups<Arm, Counter<2>, Counter<2>>;
+static_assert(Controller<Counters, 2> && LimitAware<Counters, 2>);
+
+Counters counters(int divisor_of_shoulder, int divisor_of_elbow) {
+  return Counters({{{"s", {shoulder}, divisor_of_shoulder}, {"e", {elbow}, divisor_of_elbow}}}, {},
+                  {});
+}
+
+template <class R>
+using Two = Switch<R, PidPlusGravity<R>, JointImpedance<R>>;
+
+Two<Arm> two() { return Two<Arm>({}, {}, JointImpedance<Arm>({{{50, 5}, {50, 5}}})); }
+
+}  // namespace
+
+TEST_CASE("each group's controller is asked at its own rate, and its command is held between") {
+  Counters groups = counters(1, 3);
+  groups.start({});
+  for (int cycle = 0; cycle < 30; ++cycle) {
+    CAPTURE(cycle);
+    CHECK(groups.update({}, {}, dt).effort == Vector(cycle + 1, cycle / 3 + 1));
+  }
+  CHECK(groups.member<0>().period == dt);
+  CHECK(groups.member<1>().period == 3 * dt);
+  groups.start({});  // all in the first cycle
+  CHECK(groups.update({}, {}, dt).effort == Vector(31, 11));
+  CHECK(groups.member<1>().starts == 2);
+}
+
+TEST_CASE("a group sees all joints as they are, and is asked for its own alone") {
+  Counters groups = counters(1, 1);
+  JointState<2> state;
+  state.position = {1, 2};
+  state.velocity = {3, 4};
+  JointReference<2> reference;
+  reference.position = {5, 6};
+  reference.velocity = {7, 8};
+  reference.acceleration = {9, 10};
+  reference.effort = {11, 12};
+  groups.start(state);
+  static_cast<void>(groups.update(state, reference, dt));
+  const JointReference<2>& own = groups.member<1>().reference;
+  CHECK(own.position == Vector(1, 6));
+  CHECK(own.velocity == Vector(3, 8));
+  CHECK(own.acceleration == Vector(0, 10));
+  CHECK(own.effort == Vector(0, 12));
+}
+
+TEST_CASE("a group is told what was cut off on its joints, when it has been asked") {
+  Counters groups = counters(1, 2);
+  groups.start({});
+  for (int cycle = 0; cycle < 4; ++cycle) {
+    static_cast<void>(groups.update({}, {}, dt));
+    groups.limited(Vector(1, 2));
+  }
+  CHECK(groups.member<0>().told == 4);
+  CHECK(groups.member<0>().excess == Vector(1, 0));
+  CHECK(groups.member<1>().told == 2);
+  CHECK(groups.member<1>().excess == Vector(0, 2));
+}
+
+TEST_CASE("a command that is not finite is not held: the controller is asked again") {
+  Counters groups = counters(5, 5);
+  groups.start({});
+  groups.member<1>().bad = not_a_number;
+  CHECK_FALSE(is_finite(groups.update({}, {}, dt)));
+  CHECK_FALSE(is_finite(groups.update({}, {}, dt)));
+  groups.member<1>().bad = 0;
+  CHECK(groups.update({}, {}, dt).effort == Vector(1, 3));
+  CHECK(groups.update({}, {}, dt).effort == Vector(1, 3));
+}
+
+TEST_CASE("joints in two groups, in none, or unknown are refused by name") {
+  using Array = std::array<JointGroup, 2>;
+  const auto make = [](const Array& groups) { return Counters(groups, {}, {}); };
+  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"e", {}}}}),
+                    Contains("'elbow_active_joint' is in no group"));
+  CHECK_THROWS_WITH(make({{{"s", {shoulder, elbow}}, {"e", {elbow}}}}),
+                    Contains("'elbow_active_joint' of group 'e' is in group 's' already"));
+  CHECK_THROWS_WITH(make({{{"s", {shoulder, shoulder}}, {"e", {elbow}}}}),
+                    Contains("'shoulder_active_joint' of group 's' is in group 's' already"));
+  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"e", {"wrist"}}}}), Contains("'wrist'"));
+  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"", {elbow}}}}), Contains("group 2 has no name"));
+  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"s", {elbow}}}}), Contains("two are named 's'"));
+  for (const int bad : {0, -1}) {
+    CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"e", {elbow}, bad}}}),
+                      Contains("divisor " + std::to_string(bad) + " of group 'e'"));
+  }
+}
+
+TEST_CASE("on random trees each joint gets its group's command") {
+  constexpr unsigned seed = 71;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 20; ++k) {
+    CAPTURE(k);
+    const Model<5> robot = support::random_robot(random, 5).model<5>();
+    const auto names = joint_names(robot);
+    std::array<JointGroup, 3> groups{{{"a"}, {"b"}, {"c"}}};
+    std::array<std::size_t, 5> owner{};
+    for (std::size_t j = 0; j < 5; ++j) {
+      owner[j] = static_cast<std::size_t>(random.integer(0, 2));
+      groups[owner[j]].joints.push_back(names[j]);
+    }
+    for (auto& group : groups) group.divisor = random.integer(1, 4);
+    using C = Counter<5>;
+    Groups<Model<5>, C, C, C> together(groups, C{.bad = 0.1}, C{.bad = 0.2}, C{.bad = 0.3}, robot);
+    together.start({});
+    for (int cycle = 0; cycle < 12; ++cycle) {
+      const auto effort = together.update({}, {}, dt).effort;
+      for (std::size_t j = 0; j < 5; ++j) {
+        const int updates = cycle / groups[owner[j]].divisor + 1;
+        REQUIRE(effort[static_cast<int>(j)] == updates + 0.1 * static_cast<double>(owner[j] + 1));
+      }
+    }
+  }
+}
+
+TEST_CASE("springs in the drives: all numbers of a joint come from its group") {
+  using C = DriveImpedance<Arm>;
+  Groups<Arm, C, C> groups({{{"s", {shoulder}}, {"e", {elbow}, 2}}}, C({{{1, 2}, {3, 4}}}),
+                           C({{{5, 6}, {7, 8}}}));
+  JointReference<2> reference;
+  reference.position = {0.5, 0.25};
+  groups.start({});
+  const auto command = groups.update({}, reference, dt);
+  CHECK(command.stiffness == Vector(1, 7));
+  CHECK(command.damping == Vector(2, 8));
+  CHECK(command.position == reference.position);
+  CHECK(command.effort == gravity(Arm(), Vector(0, 0)));
+}
+
+TEST_CASE("groups are switched on their own, by the group's name, or together") {
+  using Parts = Groups<Arm, Two<Arm>, Two<Arm>>;
+  static_assert(Switching<Parts> && Parts::controller_count == 4);
+  Parts parts({{{"s", {shoulder}}, {"e", {elbow}, 5}}}, two(), two());
+  const auto states = [&] {
+    std::string text;
+    for (const auto& c : parts.list()) {
+      text += std::string(c.name.view()) + (c.status == ControllerStatus::active ? "*; " : "; ");
+    }
+    return text;
+  };
+  CHECK(states() ==
+        "s/pid_plus_gravity*; s/joint_impedance; e/pid_plus_gravity*; e/joint_impedance; ");
+  parts.start({});
+  CHECK(parts.request({.start = {"e/joint_impedance"}, .replace = true}).answer ==
+        SwitchAnswer::done);
+  static_cast<void>(parts.update({}, {}, dt));
+  CHECK(states() ==
+        "s/pid_plus_gravity*; s/joint_impedance; e/pid_plus_gravity; e/joint_impedance*; ");
+
+  // A strict request is done on all groups or on none.
+  SwitchRequest both{.start = {"s/joint_impedance", "e/joint_impedance"}, .replace = true};
+  CHECK(parts.request(both).answer == SwitchAnswer::already_active);
+  for (int k = 0; k < 10; ++k) static_cast<void>(parts.update({}, {}, dt));
+  CHECK(parts.member<0>().active() == "pid_plus_gravity");
+  both.strictness = Strictness::best_effort;
+  const SwitchOutcome outcome = parts.request(both);
+  CHECK(outcome.answer == SwitchAnswer::already_active);
+  CHECK(outcome.controller == "e/joint_impedance");
+  CHECK(outcome.started == 1);
+  for (int k = 0; k < 10; ++k) static_cast<void>(parts.update({}, {}, dt));
+  CHECK(states() ==
+        "s/pid_plus_gravity; s/joint_impedance*; e/pid_plus_gravity; e/joint_impedance*; ");
+  CHECK(parts
+            .request({.stop = {"s/joint_impedance", "e/joint_impedance"},
+                      .start = {"s/pid_plus_gravity", "e/pid_plus_gravity"}})
+            .started == 2);
+  CHECK(parts.request({.start = {"joint_impedance"}}).answer == SwitchAnswer::unknown_name);
+}
+
+TEST_CASE("switches of groups make no step, and their limited ones can be reached") {
+  using Careful = Limited<Arm, Two>;
+  using Parts = Groups<Arm, Two<Arm>, Careful>;
+  static_assert(Parts::controller_count == 4);
+  CommandLimits<2> limits = command_limits(Arm());
+  limits.acceleration = {200, 400};
+  Parts parts({{{"s", {shoulder}, 2}, {"e", {elbow}}}}, two(), Careful(limits, two()));
+  Simulator<Arm> arm;
+  JointState<2> state;
+  REQUIRE(arm.read(state) == Status::ok);
+  JointReference<2> reference;
+  reference.position = state.position;
+  parts.start(state);
+  Vector before = parts.update(state, reference, dt).effort;
+  const Vector slew = parts.member<0>().slew();
+  for (int cycle = 1; cycle < 2000; ++cycle) {
+    CAPTURE(cycle);
+    const bool even = cycle / 100 % 2 == 0;
+    if (cycle % 100 == 0) {
+      CHECK(parts
+                .request({.start = {even ? "s/pid_plus_gravity" : "s/joint_impedance",
+                                    even ? "e/pid_plus_gravity" : "e/joint_impedance"},
+                          .replace = true})
+                .answer == SwitchAnswer::done);
+    }
+    REQUIRE(arm.read(state) == Status::ok);
+    const auto command = parts.update(state, reference, dt);
+    REQUIRE(arm.write(command) == Status::ok);
+    // The shoulder's group takes two periods at once; the arm itself hardly moves.
+    const Vector step = (command.effort - before).cwiseAbs();
+    REQUIRE(step[0] <= 2 * slew[0] * dt + 0.05);
+    REQUIRE(step[1] <= slew[1] * dt + 0.05);
+    before = command.effort;
+  }
+}
+
+TEST_CASE("gains reach the one group that takes them") {
+  using Mixed = Groups<Arm, Pid<Arm>, JointImpedance<Arm>>;
+  static_assert(TakesGains<Mixed, ValidPidGains<2>> && TakesGains<Mixed, ValidImpedanceGains<2>>);
+  static_assert(!TakesGains<Groups<Arm, Pid<Arm>, Pid<Arm>>, ValidPidGains<2>>);
+  Mixed mixed({{{"s", {shoulder}}, {"e", {elbow}}}}, {}, JointImpedance<Arm>({}));
+  const PidGains g{.proportional = 7};
+  mixed.set_gains(ValidPidGains<2>({g, g}, joint_names(Arm())));
+  CHECK(mixed.member<0>().part<PidLaw<2>>().gains()[1].proportional == 7);
+}

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Controllers that are switched, in a loop, under supervision, within limits, and in simulation.
+#include <articula/articula.hpp>
+#include <articula/hardware/mock_hardware.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include <cmath>
+
+#include "catch.hpp"
+#include "numbers.hpp"
+#include "random.hpp"
+#include "test_robots.hpp"
+
+using namespace articula;
+using support::not_a_number;
+using Arm = support::TiltedQ2d;
+
+namespace {
+
+using Vector = JointVector<2>;
+
+/// Gravity compensation that breaks when it is told to.
+template <class R>
+struct Fragile {
+  static constexpr std::string_view name = "fragile";
+  bool broken = false;
+
+  void start(const JointState<2>&) noexcept {}
+  EffortCommand<2> update(const JointState<2>& state, const JointReference<2>& reference,
+                          double) noexcept {
+    if (broken) return {Vector::Constant(not_a_number)};
+    return {gravity(R(), state.position) + 20 * (reference.position - state.position)};
+  }
+};
+
+template <class R>
+using Controllers = Switch<R, Fragile<R>, PidPlusGravity<R>, ComputedTorque<R>>;
+template <class R>
+using Careful = Limited<R, Controllers>;
+
+Controllers<Arm> with_fallback() {
+  return Controllers<Arm>({.fallbacks = {{"fragile", {"pid_plus_gravity"}}}});
+}
+
+SwitchRequest instead(const Name& name) { return {.start = {name}, .replace = true}; }
+
+}  // namespace
+
+TEST_CASE("in a loop a failure with a fallback is no failure") {
+  Loop<Simulator<Arm>, Controllers> loop(with_fallback());
+  for (int k = 0; k < 100; ++k) REQUIRE(loop.update() == Status::ok);
+  const Vector before = loop.command().effort;
+  loop.controller().member<0>().broken = true;
+  REQUIRE(loop.update() == Status::ok);
+  CHECK((loop.command().effort - before).norm() < 1e-12);
+  CHECK(loop.controller().active() == "pid_plus_gravity");
+  CHECK(loop.controller().list()[0].status == ControllerStatus::failed);
+  loop.reference().position = {0.1, -0.1};
+  for (int k = 0; k < 3000; ++k) REQUIRE(loop.update() == Status::ok);
+  CHECK((loop.state().position - loop.reference().position).norm() < 1e-3);
+}
+
+TEST_CASE(
+    "in a loop a failure without a fallback is the loop's, and what follows goes on smoothly") {
+  Loop<Simulator<Arm>, Controllers> loop;
+  for (int k = 0; k < 100; ++k) REQUIRE(loop.update() == Status::ok);
+  loop.reference().position = {0.3, 0.3};
+  for (int k = 0; k < 100; ++k) REQUIRE(loop.update() == Status::ok);
+  loop.controller().member<0>().broken = true;
+  CHECK(loop.update() == Status::non_finite_command);
+  CHECK(loop.command().effort == gravity(Arm(), loop.state().position));
+  const Vector safe = loop.command().effort;
+  const Vector step = loop.controller().slew() * loop.period();
+  SECTION("when it is good again") { loop.controller().member<0>().broken = false; }
+  SECTION("when another is asked for") {
+    CHECK(loop.controller().request(instead("computed_torque")).answer == SwitchAnswer::done);
+  }
+  REQUIRE(loop.update() == Status::ok);
+  CHECK(((loop.command().effort - safe).cwiseAbs() - step).maxCoeff() < 1e-12);
+}
+
+TEST_CASE("under supervision a fallback keeps the loop active, and without one there is a fault") {
+  using MockLoop = SupervisedLoop<MockHardware<Arm>, Controllers>;
+  for (const bool falls_back : {true, false}) {
+    CAPTURE(falls_back);
+    MockLoop loop(MockHardware<Arm>(), falls_back ? with_fallback() : Controllers<Arm>(),
+                  SupervisionOptions{.bad_cycles = 3});
+    // A request before activation takes effect with it.
+    CHECK(loop.controller().request(instead("computed_torque")).answer == SwitchAnswer::done);
+    loop.request_activation();
+    CHECK(loop.update() == Status::inactive);
+    REQUIRE(loop.mode() == LoopMode::active);
+    CHECK(loop.controller().active() == "computed_torque");
+    REQUIRE(loop.update() == Status::ok);
+    CHECK(loop.controller().request(instead("fragile")).answer == SwitchAnswer::done);
+    REQUIRE(loop.update() == Status::ok);
+    loop.controller().member<0>().broken = true;
+    for (int k = 0; k < 4; ++k) {
+      CHECK(loop.update() == (falls_back ? Status::ok : Status::non_finite_command));
+    }
+    CHECK(loop.mode() == (falls_back ? LoopMode::active : LoopMode::fault));
+    if (falls_back) continue;
+    CHECK(loop.fault() == Status::non_finite_command);
+    // Acknowledged, and activated with another controller.
+    loop.acknowledge_fault();
+    CHECK(loop.update() == Status::inactive);
+    CHECK(loop.controller().request(instead("pid_plus_gravity")).answer == SwitchAnswer::done);
+    loop.request_activation();
+    CHECK(loop.update() == Status::inactive);
+    CHECK(loop.update() == Status::ok);
+    CHECK(loop.controller().active() == "pid_plus_gravity");
+  }
+}
+
+TEST_CASE("limits around a switch hold whatever is switched, and a failure brakes") {
+  constexpr unsigned seed = 81;
+  CAPTURE(seed);
+  support::Random random(seed);
+  CommandLimits<2> limits = command_limits(Arm());
+  limits.velocity = {0.5, 0.5};
+  limits.acceleration = {20, 40};
+  Loop<Simulator<Arm>, Careful> loop{Careful<Arm>(limits)};
+  auto& controllers = loop.controller().controller();
+  const char* const names[] = {"fragile", "pid_plus_gravity", "computed_torque"};
+  for (int k = 0; k < 4000; ++k) {
+    CAPTURE(k);
+    if (k % 200 == 0) loop.reference().position = random.vector<2>(0.5);
+    if (random.one_in(50)) {
+      static_cast<void>(controllers.request(instead(names[random.integer(0, 2)])));
+    }
+    if (random.one_in(200)) {
+      static_cast<void>(controllers.request({.stop = {controllers.active()}}));
+    }
+    controllers.member<0>().broken = k > 2000 && k % 100 < 3;  // there is no fallback
+    REQUIRE(loop.update() == Status::ok);
+    // The model is exact but for the effort being held over a period.
+    REQUIRE((loop.state().velocity.cwiseAbs() - limits.velocity).maxCoeff() < 1e-3);
+  }
+  GainsExchange<PidGains, 2> exchange(Arm{});
+  exchange.offer(Q2d::pid_gains);
+  CHECK(exchange.apply(controllers.member<PidPlusGravity<Arm>>()));
+}
+
+TEST_CASE("a limited controller can be one of those that are switched") {
+  using R = Arm;
+  using CarefulPid = Limited<R, PidPlusGravity>;
+  CommandLimits<2> limits = command_limits(R());
+  limits.acceleration = {20, 40};
+  using C = Switch<R, JointImpedance<R>, CarefulPid>;
+  C controllers({}, JointImpedance<R>({{{100, 10}, {100, 10}}}), CarefulPid(limits));
+  Simulator<R> arm;
+  JointState<2> state;
+  JointReference<2> reference;
+  Vector before = Vector::Zero();
+  for (int k = 0; k < 4000; ++k) {
+    CAPTURE(k);
+    REQUIRE(arm.read(state) == Status::ok);
+    if (k == 0) controllers.start(state);
+    if (k == 1000) {
+      CHECK(controllers.request(instead("pid_plus_gravity")).answer == SwitchAnswer::done);
+    }
+    if (k >= 2000) reference.position = {0.2, -0.2};
+    const auto command = controllers.update(state, reference, 1e-3);
+    if (k >= 1000 && k < 2000) {
+      // It hangs in its springs before; the difference decays, and the PID pulls it back meanwhile.
+      CHECK((command.effort - before).cwiseAbs().maxCoeff() < 0.5);
+    }
+    before = command.effort;
+    REQUIRE(arm.write(command) == Status::ok);
+  }
+  CHECK((state.position - reference.position).norm() < 1e-3);
+}
+
+TEST_CASE("switching under load: a moving arm feels the next controller, not the switch") {
+  constexpr unsigned seed = 82;
+  CAPTURE(seed);
+  support::Random random(seed);
+  using C = Loop<Simulator<Arm>, Controllers>;
+  const JointSignals<Arm> waves(
+      {{"shoulder_active_joint", SineSignal{.amplitude = 0.2, .frequency = 0.5}},
+       {"elbow_active_joint", SineSignal{.amplitude = 0.3, .frequency = 0.7}}});
+  C loop;
+  const Vector step = loop.controller().slew() * loop.period();
+  const char* const names[] = {"pid_plus_gravity", "computed_torque"};
+  REQUIRE(loop.controller().request(instead(names[0])).answer == SwitchAnswer::done);
+  Vector before = Vector::Zero(), off = Vector::Zero();
+  for (int k = 0; k < 8000; ++k) {
+    CAPTURE(k);
+    loop.reference() = waves.sample(loop.next_time());
+    if (k > 1000 && random.one_in(k % 2000 < 1000 ? 300 : 20)) {
+      static_cast<void>(loop.controller().request(instead(names[random.integer(0, 1)])));
+    }
+    REQUIRE(loop.update() == Status::ok);
+    if (k > 1000) {
+      // Under either controller alone the effort changes by less than a step in a cycle.
+      REQUIRE(((loop.command().effort - before).cwiseAbs() - 2 * step).maxCoeff() < 0);
+      off = off.cwiseMax((loop.state().position - loop.reference().position).cwiseAbs());
+    }
+    before = loop.command().effort;
+  }
+  CAPTURE(off[0], off[1]);
+  CHECK(off.maxCoeff() < 0.03);
+}
