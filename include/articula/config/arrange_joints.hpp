@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Whether a configuration fits a robot.
+#pragma once
+
+#include "articula/config/controller_config.hpp"
+#include "articula/config/scalar.hpp"
+#include "articula/model/robot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace articula::detail {
+
+template <Robot R>
+[[nodiscard]] std::string robot_text(const R& robot) {
+  return "robot '" + std::string(model_of(robot).name.view()) + "'";
+}
+
+/// The joints of a configuration in the order of a robot's, nullptr where one is not configured.
+/// @throws ConfigError if the robot lacks a joint
+template <Robot R>
+[[nodiscard]] std::array<const ConfiguredJoint*, static_cast<std::size_t>(joint_count<R>)>
+arranged_joints(const ControllerConfig& config, const R& robot) {
+  std::array<const ConfiguredJoint*, static_cast<std::size_t>(joint_count<R>)> arranged{};
+  const auto names = joint_names(robot);
+  for (const ConfiguredJoint& joint : config.joints) {
+    const auto found = std::find(names.begin(), names.end(), joint.name);
+    if (found == names.end()) {
+      throw ConfigError(joint.place,
+                        robot_text(robot) + " has no free joint '" + shown(joint.name) + "'",
+                        choice_text({names.begin(), names.end()}, joint.name));
+    }
+    arranged[static_cast<std::size_t>(found - names.begin())] = &joint;
+  }
+  return arranged;
+}
+
+/// @throws ConfigError: the joint that is not configured
+template <Robot R>
+[[noreturn]] void refuse_missing(const ControllerConfig& config, const R& robot, std::size_t joint,
+                                 const std::string& what) {
+  throw ConfigError(config.place,
+                    robot_text(robot) + " has the joint '" +
+                        std::string(joint_names(robot)[joint]) + "', which is missing",
+                    what + " for each of its " + std::to_string(joint_count<R>) + " joints");
+}
+
+/// @throws ConfigError if the robot has no such link
+template <Robot R>
+[[nodiscard]] const LinkFrame& link_of_chain(const R& robot, const std::string& name,
+                                             const ConfigPlace& place) {
+  std::vector<std::string> names;
+  for (const LinkFrame& link : model_of(robot).links) {
+    if (link.name.view() == name) return link;
+    names.emplace_back(link.name.view());
+  }
+  throw ConfigError(place, robot_text(robot) + " has no link '" + shown(name) + "'",
+                    choice_text(names, name));
+}
+
+/// A chain must begin at the base and have all joints of the robot in it.
+template <Robot R>
+void check_chain(const ControllerConfig& config, const R& robot) {
+  const std::string &root = config.chain_root, &tip = config.chain_tip;
+  if (!root.empty() && link_of_chain(robot, root, config.chain_root_place).body >= 0) {
+    throw ConfigError(config.chain_root_place, "the link '" + shown(root) + "' moves",
+                      "a link of the base of " + robot_text(robot));
+  }
+  if (tip.empty()) return;
+  const auto& bodies = model_of(robot).mechanism.bodies;
+  std::size_t count = 0;
+  int body = link_of_chain(robot, tip, config.chain_tip_place).body;
+  for (; body >= 0; body = bodies[static_cast<std::size_t>(body)].parent) ++count;
+  if (count == bodies.size()) return;
+  throw ConfigError(config.chain_tip_place,
+                    "the chain to '" + shown(tip) + "' has " + std::to_string(count) + " of the " +
+                        std::to_string(bodies.size()) + " moving bodies of " + robot_text(robot),
+                    "a tip beyond all of them");
+}
+
+/// The robot's own gravity is what counts, so the file must have the same.
+template <Robot R>
+void check_gravity(const ControllerConfig& config, const R& robot) {
+  if (!config.gravity) return;
+  constexpr double tolerance = 1e-9;  // of a figure that was written in decimal and turned [m/s^2]
+  Vector3<double> wanted = *config.gravity;
+  if (!config.chain_root.empty()) {
+    wanted = link_of_chain(robot, config.chain_root, config.chain_root_place).placement.rotation *
+             wanted;
+  }
+  const Vector3<double> own = model_of(robot).mechanism.gravity;
+  const Vector3<double> off = wanted - own;
+  if (std::hypot(off.x, off.y, off.z) <= tolerance) return;
+  std::ostringstream reason, expected;
+  const Vector3<double>& g = *config.gravity;
+  reason << "gravity (" << g.x << ", " << g.y << ", " << g.z << ") m/s^2 is not that of "
+         << robot_text(robot);
+  expected << "(" << own.x << ", " << own.y << ", " << own.z
+           << ") in the frame of its base, or a robot that is described otherwise";
+  throw ConfigError(config.gravity_place, reason.str(), expected.str());
+}
+
+}  // namespace articula::detail

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Reads the controller manager's parameters from a file. Needs the CMake target
+/// articula::config (yaml-cpp).
+#pragma once
+
+#include "articula/config/read_controller.hpp"
+#include "articula/config/section.hpp"
+#include "articula/config/source.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace articula {
+
+/// A controller that the controller manager knows.
+struct ListedController {
+  std::string name{};
+  std::string type{};  ///< the plugin's name, such as joint_trajectory_controller/...
+};
+
+/// The controller manager's parameters that matter to a loop and its thread.
+struct ControllerManagerConfig {
+  double update_rate = 100;                     ///< [Hz]
+  std::vector<ListedController> controllers{};  ///< in the order of the file
+  std::optional<int> thread_priority{};         ///< for ThreadOptions
+  std::vector<int> processors{};                ///< cpu_affinity, for ThreadOptions; empty: all
+  std::optional<bool> lock_memory{};            ///< for ThreadOptions
+  /// What the file says and nothing here does, one line each with file, line and key.
+  std::vector<std::string> notes{};
+
+  /// Time between two updates [s].
+  [[nodiscard]] double period() const noexcept { return 1 / update_rate; }
+};
+
+namespace detail {
+
+inline void take_unused_manager_parameters(ConfigMap& map) {
+  using enum UnusedParameter::Kind;
+  constexpr std::string_view always = "limits are always kept, faults always handled";
+  constexpr std::string_view compiled = "the types in the program decide what there is";
+  constexpr std::string_view runner = "see RunOptions";
+  take_unused(map, {{"use_sim_time", truth, "the loop's clock is a type in the program"},
+                    {"robot_description", word, "nothing is published or received here"},
+                    {"enforce_command_limits", truth, always},
+                    {"handle_exceptions", truth, always},
+                    {"shutdown_on_initial_state_failure", truth, always},
+                    {"hardware_components_initial_state", any_map, compiled},
+                    {"defaults", any_map, compiled},
+                    {"diagnostics", any_map, "see RunReport"},
+                    {"overruns", any_map, runner},
+                    {"hardware_synchronization", any_map, runner}});
+}
+
+}  // namespace detail
+
+/// Reads update rate, types and thread from the section controller_manager:
+///
+///     const ControllerManagerConfig manager = load_controller_manager("controllers.yaml");
+///     Loop<Q2dSim, PidPlusGravity> loop(Q2dSim({.period = manager.period()}));
+///
+/// @param source  a file, or a ConfigSource::text
+/// @throws ConfigError with file, line, key and what was expected
+/// Real-time: no (reads a file, allocates, throws).
+[[nodiscard]] inline ControllerManagerConfig load_controller_manager(const ConfigSource& source) {
+  using detail::ConfigMap;
+  using detail::ConfigSection;
+  const detail::ConfigSections all = detail::find_sections(source);
+  const ConfigSection* section = nullptr;
+  for (const ConfigSection& each : all.sections) {
+    if (each.name != "controller_manager" && !(each.name.empty() && all.sections.size() == 1)) {
+      continue;
+    }
+    if (section != nullptr) {
+      throw ConfigError({.file = all.file}, "there are several controller managers", "one");
+    }
+    section = &each;
+  }
+  if (section == nullptr) {
+    throw ConfigError({.file = all.file}, "there is no controller_manager in it", "one");
+  }
+
+  ControllerManagerConfig config;
+  ConfigMap map(detail::ConfigValue(all.file, section->parameters, section->path), config.notes);
+  if (const auto rate = map.find("update_rate")) {
+    config.update_rate = rate->integer(1, 1000000);
+  } else {
+    map.note(map.value(), "no update_rate is given: 100 Hz, as the controller manager has it");
+  }
+  if (const auto value = map.find("thread_priority")) {
+    config.thread_priority = value->integer(0, 99);
+  }
+  if (const auto value = map.find("cpu_affinity")) {
+    constexpr int most = 4095;
+    if (value->node().is_list()) {
+      for (const auto& item : value->list()) config.processors.push_back(item.integer(0, most));
+    } else if (const int processor = value->integer(-1, most); processor >= 0) {
+      config.processors = {processor};
+    }
+  }
+  if (const auto value = map.find("lock_memory")) config.lock_memory = value->truth();
+  detail::take_unused_manager_parameters(map);
+  for (const detail::ConfigNode& item : section->parameters.items) {
+    if (item.find("type") == nullptr) continue;
+    ConfigMap controller = map.need_map(item.key);
+    config.controllers.push_back({item.key, controller.need("type").word()});
+    detail::take_unused_controller_parameters(controller);
+    controller.finish();
+  }
+  map.finish();
+  return config;
+}
+
+}  // namespace articula

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The gains of one joint in a configuration file.
+#pragma once
+
+#include "articula/config/reader.hpp"
+#include "articula/control/pid_gains.hpp"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace articula::detail {
+
+/// A pair of clamps: `name`_min and `name`_max.
+inline void read_clamps(ConfigMap& map, const std::string& name, double& low, double& high) {
+  if (const auto value = map.find(name + "_min")) {
+    low = value->number_or_infinity();
+    if (low == PidGains::infinity) value->refuse("a number, or -.inf");
+  }
+  if (const auto value = map.find(name + "_max")) {
+    high = value->number_or_infinity();
+    if (high == -PidGains::infinity) value->refuse("a number, or .inf");
+    if (high < low) value->refuse("a number >= " + name + "_min");
+  } else if (high < low) {
+    map.need(name + "_min").refuse("a number <= " + name + "_max");
+  }
+}
+
+/// control_toolbox's antiwindup, a truth value in its older versions, a strategy in the newer ones.
+inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
+  if (const auto value = map.find("antiwindup")) {
+    if (!value->truth()) {
+      map.note(*value,
+               "not used: ROS lets the integral grow behind its clamps then, here it never "
+               "does; ControlToolboxPidLaw computes what ROS does");
+    }
+  }
+  if (const auto value = map.find("antiwindup_strategy")) {
+    constexpr std::array strategies = {AntiWindup::none, AntiWindup::back_calculation,
+                                       AntiWindup::conditional_integration,
+                                       AntiWindup::conditional_integration};
+    const std::size_t which =
+        value->one_of({"none", "back_calculation", "conditional_integration", "legacy"});
+    gains.anti_windup = strategies[which];
+    if (which == 3) map.note(*value, "not used: taken as conditional_integration");
+  }
+}
+
+/// Reads the gains of one joint; p must be there.
+/// @param map           whose keys they are; other keys are unknown
+/// @param joint         for messages
+/// @param has_velocity  the reference has a velocity, which feedforward_gain then multiplies
+[[nodiscard]] inline PidGains read_gains(ConfigMap map, std::string_view joint,
+                                         bool has_velocity = false) {
+  PidGains gains;
+  const auto read = [&](std::string_view key, double& to) {
+    if (const auto value = map.find(key)) to = value->number();
+  };
+  const auto read_not_negative = [&](std::string_view key, double& to) {
+    if (const auto value = map.find(key)) to = value->not_negative();
+  };
+  gains.proportional = map.need("p").number();
+  const auto integral = map.find("i");
+  if (integral) gains.integral = integral->number();
+  read("d", gains.derivative);
+
+  if (const auto clamp = map.find("i_clamp")) {
+    gains.integral_clamp_max = clamp->number_or_infinity();
+    if (gains.integral_clamp_max < 0) clamp->refuse("a number >= 0");
+    gains.integral_clamp_min = -gains.integral_clamp_max;
+  }
+  read_clamps(map, "i_clamp", gains.integral_clamp_min, gains.integral_clamp_max);
+  if (gains.integral != 0 && gains.integral_clamp_max == PidGains::infinity &&
+      gains.integral_clamp_min == -PidGains::infinity) {
+    map.note(*integral,
+             "no i_clamp is given: none here, as from ROS 2 Jazzy on; ROS 1 and Humble "
+             "take 0, that is no integral");
+  }
+  read_clamps(map, "u_clamp", gains.output_clamp_min, gains.output_clamp_max);
+  if (const auto saturation = map.find("saturation"); saturation && !saturation->truth()) {
+    gains.output_clamp_min = -PidGains::infinity;
+    gains.output_clamp_max = PidGains::infinity;
+  }
+  read_anti_windup(map, gains);
+  read_not_negative("tracking_time_constant", gains.tracking_time);
+  read_not_negative("error_deadband", gains.error_deadband);
+
+  read("ff_velocity_scale", gains.velocity_feedforward);
+  if (const auto value = map.find("feedforward_gain")) {
+    const double gain = value->number();
+    if (gain != 0 && !has_velocity) {
+      value->refuse("0, or position and velocity in reference_and_state_interfaces");
+    }
+    if (has_velocity) gains.velocity_feedforward = gain;
+  }
+  read("velocity_feedforward", gains.velocity_feedforward);
+  read("acceleration_feedforward", gains.acceleration_feedforward);
+  read_not_negative("derivative_filter_time", gains.derivative_filter_time);
+  const auto read_weight = [&](std::string_view key, double& to) {
+    if (const auto value = map.find(key)) {
+      to = value->number();
+      if (to < 0 || to > 1) value->refuse("a number from 0 to 1");
+    }
+  };
+  read_weight("position_weight", gains.position_weight);
+  read_weight("velocity_weight", gains.velocity_weight);
+
+  if (const auto value = map.find("angle_wraparound"); value && value->truth()) {
+    map.note(*value, "not used: what is followed is a trajectory's way round");
+  }
+  for (const std::string_view key :
+       {"save_i_term", "save_iterm", "activate_state_publisher", "publish_state"}) {
+    if (const auto value = map.find(key)) {
+      static_cast<void>(value->truth());
+      map.note(*value, "not used");
+    }
+  }
+  map.finish();
+  try {
+    validate<1>({gains}, {joint});
+  } catch (const std::invalid_argument& error) {
+    map.value().refuse(error.what(), "gains of a controller");
+  }
+  return gains;
+}
+
+}  // namespace articula::detail

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Where a configuration comes from: a file or a text.
+#pragma once
+
+#include "articula/config/error.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace articula {
+
+/// A YAML file, or YAML itself:
+///
+///     load_pid_gains(Q2d(), "pid_plus_gravity.yaml");
+///     load_pid_gains(Q2d(), ConfigSource::text("joints: [...]", "my gains"));
+class ConfigSource {
+ public:
+  static constexpr std::size_t capacity = std::size_t{1} << 20;  ///< largest size read [byte]
+
+  ConfigSource(const std::filesystem::path& file)
+      : name_(file.string()) {}                           // NOLINT: a path is one
+  ConfigSource(const std::string& file) : name_(file) {}  // NOLINT: likewise
+  ConfigSource(const char* file) : name_(file) {}         // NOLINT: likewise
+
+  /// YAML that is at hand.
+  /// @param yaml  the text
+  /// @param name  what messages call it
+  [[nodiscard]] static ConfigSource text(std::string_view yaml, std::string name = "YAML") {
+    ConfigSource source(name);
+    source.yaml_ = yaml;
+    source.is_text_ = true;
+    return source;
+  }
+
+  /// The file's name, or that of the text.
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+
+  /// The YAML.
+  /// @throws ConfigError if the file cannot be read, or is larger than `capacity`
+  /// Real-time: no (reads a file).
+  [[nodiscard]] std::string contents() const {
+    std::string result = is_text_ ? yaml_ : read();
+    if (result.size() > capacity) {
+      throw ConfigError({.file = name_}, "it is larger than 1 MiB", "a configuration file");
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::string read() const {
+    std::error_code ignored;
+    std::ifstream file(name_, std::ios::binary);
+    if (!file || std::filesystem::is_directory(name_, ignored)) {
+      throw ConfigError({.file = name_}, "the file cannot be read", "");
+    }
+    std::string result;
+    char block[1 << 16];
+    while (result.size() <= capacity && file.read(block, sizeof block).gcount() > 0) {
+      result.append(block, static_cast<std::size_t>(file.gcount()));
+    }
+    return result;
+  }
+
+  std::string name_;
+  std::string yaml_{};
+  bool is_text_ = false;
+};
+
+}  // namespace articula
