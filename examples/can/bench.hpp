@@ -7,6 +7,7 @@
 #include "fault_script.hpp"
 #include "protocols.hpp"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -23,9 +24,10 @@ namespace articula::examples {
 struct BenchOptions {
   std::string interface = "vcan0";
   bool cia402 = false;
-  bool lockstep = false;  ///< time passes with SYNC only
-  double duration = 0;    ///< by the clock [s]; 0: until stopped
-  unsigned seed = 1;      ///< of the garbage
+  bool lockstep = false;   ///< time passes with SYNC only
+  double sync_period = 0;  ///< CiA 402: the drives send SYNC, so often [s]; 0: the host does
+  double duration = 0;     ///< by the clock [s]; 0: until stopped
+  unsigned seed = 1;       ///< of the garbage
   SimulatorOptions<2> simulator{};
   std::vector<ScriptedFault> faults{};
 };
@@ -41,6 +43,7 @@ struct BenchReport {
 };
 
 /// Plays drives on an interface. While SYNC comes, it gives the time; while it does not, the clock.
+/// SYNC comes from the host or, by the clock, from here.
 template <class Protocol>
 class Bench {
  public:
@@ -57,13 +60,15 @@ class Bench {
   /// Plays until the flag is raised or the time is over.
   BenchReport play(const StopFlag& stop) {
     const auto begin = socket_.now();
-    last_period_ = begin;
+    last_period_ = next_sync_ = begin;
     while (!stop.requested() && !is_over(socket_.now() - begin)) {
-      socket_.wait(std::chrono::milliseconds(1));
+      socket_.wait(
+          std::min<std::chrono::nanoseconds>(std::chrono::milliseconds(1), time_to_sync()));
       if (socket_.link() == CanLink::gone) open();
       std::array<ReceivedCanFrame, 32> frames;
       const std::size_t count = socket_.receive(frames);
       for (std::size_t i = 0; i < count; ++i) take(frames[i].frame);
+      if (options_.sync_period > 0) send_sync();
       if (!options_.lockstep) catch_up();
       send_what_is_due();
     }
@@ -78,6 +83,24 @@ class Bench {
   }
   void open() { static_cast<void>(socket_.open(Protocol::subscription())); }
   [[nodiscard]] double time() const { return drives_.simulator().time(); }
+
+  [[nodiscard]] std::chrono::nanoseconds time_to_sync() const {
+    return options_.sync_period > 0 ? next_sync_ - socket_.now() : std::chrono::seconds(1);
+  }
+
+  /// Sends SYNC if it is due, and takes it as the drives do.
+  void send_sync() {
+    if (time_to_sync().count() > 0) return;
+    const std::chrono::nanoseconds period(std::llround(options_.sync_period * 1e9));
+    next_sync_ += period;
+    if (time_to_sync().count() <= 0) next_sync_ = socket_.now() + period;  // not in a burst
+    begin_faults();
+    if (is_on(FaultKind::no_sync, 0)) return;
+    CanFrame sync;
+    sync.identifier = Protocol::sync;
+    queue_.push_back({sync, socket_.now()});
+    take(sync);
+  }
 
   void take(const CanFrame& frame) {
     CanBatch answers;
@@ -175,6 +198,7 @@ class Bench {
   std::vector<bool> done_;
   std::deque<ReceivedCanFrame> queue_{};
   std::chrono::nanoseconds last_period_{};
+  std::chrono::nanoseconds next_sync_{};
   BenchReport report_{};
 };
 

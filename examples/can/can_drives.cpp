@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -45,11 +46,17 @@ std::optional<BenchOptions> parse_options(int argc, const char* const* argv) {
       ->type_name("T")
       ->capture_default_str();
   app.add_flag("--lockstep", options.lockstep, "Time passes with SYNC only, never by the clock");
+  app.add_option(
+         "--sync-period", options.sync_period,
+         "How often the drives send SYNC, by the clock, 0.001 to 1 s; 0: the host sends it. "
+         "CiA 402 only")
+      ->type_name("T")
+      ->capture_default_str();
   app.add_option("--seed", options.seed, "Of the garbage")->type_name("N")->capture_default_str();
   app.add_option("--fault", faults,
                  "Something that goes wrong, KIND[:JOINT]@START[+DURATION] in seconds of the "
                  "drives' time, joints 1 and 2: silence, garbage, delay (5 ms), fault, restart, "
-                 "bus-off; may be given again")
+                 "bus-off, no-sync; may be given again")
       ->type_name("FAULT");
   try {
     app.parse(argc, argv);
@@ -63,6 +70,18 @@ std::optional<BenchOptions> parse_options(int argc, const char* const* argv) {
   options.simulator.initial_position = JointVector<2>(initial.data());
   if (!is_finite(options.duration) || options.duration < 0) {
     throw std::invalid_argument("--duration: not a number of at least 0");
+  }
+  if (options.sync_period != 0) {
+    if (!(options.sync_period >= 1e-3 && options.sync_period <= 1)) {
+      throw std::invalid_argument("--sync-period: not a number from 0.001 to 1, or 0");
+    }
+    if (!options.cia402) throw std::invalid_argument("--sync-period: for CiA 402 only");
+    if (options.lockstep) {
+      throw std::invalid_argument("--sync-period: SYNC comes by the clock, and not in lockstep");
+    }
+    // A period between two SYNC, in steps of a millisecond as usual.
+    options.simulator.substeps = static_cast<int>(std::ceil(options.sync_period / 1e-3));
+    options.simulator.period = options.sync_period;
   }
   for (const std::string& fault : faults) options.faults.push_back(parse_fault(fault, 2));
   validate(Q2d(), options.simulator);

@@ -20,6 +20,7 @@ enum class FaultKind {
   delay,    ///< all frames are sent 5 ms late
   fault,    ///< a drive faults by itself
   restart,  ///< a drive loses its supply for a moment
+  no_sync,  ///< SYNC is not sent, where the drives send it
   bus_off,  ///< the controllers report that they have left the bus
 };
 
@@ -45,9 +46,13 @@ struct FaultName {
   bool has_joint;
 };
 inline constexpr std::array fault_names{
-    FaultName{"silence", FaultKind::silence, true}, FaultName{"garbage", FaultKind::garbage, true},
-    FaultName{"delay", FaultKind::delay, false},    FaultName{"fault", FaultKind::fault, true},
-    FaultName{"restart", FaultKind::restart, true}, FaultName{"bus-off", FaultKind::bus_off, false},
+    FaultName{"silence", FaultKind::silence, true},
+    FaultName{"garbage", FaultKind::garbage, true},
+    FaultName{"delay", FaultKind::delay, false},
+    FaultName{"fault", FaultKind::fault, true},
+    FaultName{"restart", FaultKind::restart, true},
+    FaultName{"bus-off", FaultKind::bus_off, false},
+    FaultName{"no-sync", FaultKind::no_sync, false},
 };
 
 }  // namespace detail

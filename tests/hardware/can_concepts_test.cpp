@@ -44,9 +44,10 @@ struct SmallestTransport {
   Status open(const CanSubscription&) { return Status::ok; }
   std::size_t receive(std::span<ReceivedCanFrame>) noexcept { return 0; }
   CanSending send(const CanBatch&) noexcept { return CanSending::sent; }
-  void wait(std::chrono::nanoseconds) noexcept {}
-  std::chrono::nanoseconds now() const noexcept { return {}; }
+  void wait(std::chrono::nanoseconds time) noexcept { now_ += time; }
+  std::chrono::nanoseconds now() const noexcept { return now_; }
   CanLink link() const noexcept { return CanLink::up; }
+  std::chrono::nanoseconds now_{};
 };
 struct TransportThatMayThrow : SmallestTransport {
   CanSending send(const CanBatch&) { return CanSending::sent; }

@@ -185,6 +185,77 @@ TEST_CASE("activation survives lost frames") {
   bus->on_feedback = whole;
 }
 
+TEST_CASE("activation survives the loss of any one frame") {
+  for (const bool of_the_host : {true, false}) {
+    for (int lost = 0; lost < 200; ++lost) {
+      CAPTURE(of_the_host, lost);
+      const auto bus = make_bus();
+      int number = 0;
+      const auto all_but_one = [&](CanFrame&) { return number++ != lost; };
+      (of_the_host ? bus->on_command : bus->on_feedback) = all_but_one;
+      {
+        Arm arm = make_arm(bus, {.set_up_time = std::chrono::seconds(1)});
+        REQUIRE(arm.activate() == Status::ok);
+      }
+      if (number <= lost) break;
+      REQUIRE(lost < 199);  // the loop has not ended too early
+    }
+  }
+}
+
+TEST_CASE("a fault that cannot be reset at first is reset when its cause is gone") {
+  const auto bus = make_bus();
+  int tries = 0;
+  bus->drives.raise_fault(0, 0x4310);  // too hot
+  bus->on_command = [&](CanFrame& frame) {
+    const auto request = canopen::decode_request(frame);
+    const bool resets = frame.identifier == 0x605 && request &&
+                        request->address == cia402::controlword &&
+                        request->value == cia402::fault_reset;
+    if (resets) ++tries;
+    return true;
+  };
+  bus->on_feedback = [&](CanFrame&) {
+    if (tries > 0 && tries < 4 && !bus->drives.enabled(0)) bus->drives.raise_fault(0, 0x4310);
+    return true;
+  };
+  Arm arm = make_arm(bus);
+  CHECK(arm.activate() == Status::ok);
+  CHECK(tries == 4);
+}
+
+TEST_CASE("a drive that lets go in the middle of activation is enabled again") {
+  const auto bus = make_bus();
+  auto arm = make_arm<PositionCommand<2>>(bus);
+  bool has_let_go = false;
+  bus->on_feedback = [&](CanFrame& frame) {
+    if (frame.identifier == 0x185 && !has_let_go) {  // its first report: it had been enabled
+      has_let_go = true;
+      bus->drives.raise_fault(0, 0x3210);
+      return false;
+    }
+    return true;
+  };
+  CHECK(arm.activate() == Status::ok);
+  CHECK(has_let_go);
+  CHECK(bus->drives.enabled(0));
+}
+
+TEST_CASE("a command of the past is not put into force by activation") {
+  Bench bench;
+  bench.cycles(10);
+  // The last commands arrive, their SYNC does not.
+  bench.bus->on_command = [](CanFrame& frame) { return frame != canopen::encode_sync(); };
+  CHECK(bench.arm.write({{20, -10}}) == Status::ok);
+  bench.bus->on_command = [&](CanFrame&) {
+    CHECK(bench.bus->drives.effort().cwiseAbs().maxCoeff() <= 3);
+    return true;
+  };
+  CHECK(bench.arm.activate() == Status::ok);
+  CHECK(bench.bus->drives.effort() == JointVector<2>(0, 0));
+  bench.bus->on_command = [](CanFrame&) { return true; };
+}
+
 TEST_CASE("a node that is no CiA 402 drive, or refuses, is named") {
   const auto bus = make_bus();
   bus->on_feedback = [](CanFrame& frame) {

@@ -17,6 +17,7 @@ using Kind = MockFaultKind;
 static_assert(Hardware<MockHardware<Q2d>>);
 static_assert(Hardware<MockHardware<Q2d, PositionCommand<2>>, PositionCommand<2>>);
 static_assert(Hardware<MockHardware<Q2d, VelocityCommand<2>>, VelocityCommand<2>>);
+static_assert(Hardware<MockHardware<Q2d, MultiModeCommand<2>>, MultiModeCommand<2>>);
 static_assert(!Hardware<MockHardware<Q2d>, PositionCommand<2>>);
 
 TEST_CASE("joints do at once what they are told") {
@@ -44,6 +45,27 @@ TEST_CASE("joints do at once what they are told") {
     CHECK(hardware.read(state) == Status::ok);
     CHECK(state.effort == JointVector<2>{1, -2});
     CHECK(state.position.isZero(0));
+  }
+  SECTION("springs, dampers and efforts") {
+    MockHardware<Q2d, MultiModeCommand<2>> hardware({}, 0.5);
+    REQUIRE(hardware.activate() == Status::ok);
+    MultiModeCommand<2> command{.position = {1, 7}, .velocity = {3, -2}};
+    command.stiffness = {10, 0};
+    command.damping = {1, 1};
+    command.effort = {0.5, -0.5};
+    for (int k = 0; k < 2; ++k) CHECK(hardware.write(command) == Status::ok);
+    CHECK(hardware.read(state) == Status::ok);
+    CHECK(state.position == JointVector<2>{1, -2});
+    CHECK(state.velocity == JointVector<2>{0, -2});
+    CHECK(state.effort == JointVector<2>{0.5, -0.5});
+    command.damping.setZero();
+    command.stiffness.setZero();
+    CHECK(hardware.write(command) == Status::ok);
+    CHECK(hardware.read(state) == Status::ok);
+    CHECK(state.position == JointVector<2>{1, -2});
+    CHECK(state.velocity.isZero(0));
+    command.stiffness[1] = std::nan("");
+    CHECK(hardware.write(command) == Status::non_finite_command);
   }
 }
 

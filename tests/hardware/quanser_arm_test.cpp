@@ -13,6 +13,8 @@
 #include "random.hpp"
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 using namespace articula;
 
@@ -246,6 +248,28 @@ TEST_CASE("feedback that comes late is used with its age, and old feedback not a
   CHECK(bench.reading == Status::ok);
   CHECK(bench.arm.reports()[0].age <= 1);
   CHECK(bench.arm.statistics().outdated > outdated);
+}
+
+TEST_CASE("a late frame does not displace one that is newer") {
+  Bench bench;
+  bench.cycles(5);
+  std::optional<CanFrame> old;
+  bench.bus->on_feedback = [&](CanFrame& frame) {
+    if (frame.identifier != quanser::position_base + 1) return true;
+    // Each POSITION is followed by that of the cycle before, and then by its own MOTION.
+    bench.bus->to_host.push_back(frame);
+    std::swap(frame, old ? *old : frame);
+    if (!old) old = frame;
+    return true;
+  };
+  const auto partial = bench.arm.statistics().partial;
+  for (int k = 0; k < 10; ++k) {
+    bench.cycle();
+    CHECK(bench.reading == Status::ok);
+    CHECK(bench.arm.reports()[0].age <= 1);
+  }
+  CHECK(bench.arm.statistics().partial == partial);
+  CHECK(bench.arm.statistics().outdated >= 8);
 }
 
 TEST_CASE("a fault of a drive stops all of them until activation") {

@@ -42,7 +42,7 @@ FakeArm arm() {
 Vector holding_effort() { return gravity(TiltedQ2d(), place); }
 
 /// A loop that has done some good cycles, so that its integral is not zero.
-template <template <Robot> class Controller>
+template <template <class> class Controller>
 Loop<FakeArm, Controller> running_loop() {
   Loop<FakeArm, Controller> loop(arm());
   loop.reference().position = place + Vector(1e-3, -1e-3);
@@ -60,7 +60,7 @@ Status spoilt_cycle(LoopType& loop, double& number, double wrong) {
   return status;
 }
 
-template <template <Robot> class Controller>
+template <template <class> class Controller>
 void survives_wrong_states() {
   for (const double wrong : wrong_numbers) {
     for (int j = 0; j < 2; ++j) {
@@ -83,7 +83,7 @@ void survives_wrong_states() {
   }
 }
 
-template <template <Robot> class Controller>
+template <template <class> class Controller>
 void survives_wrong_references() {
   using Reference = JointReference<2>;
   for (const double wrong : wrong_numbers) {
@@ -192,6 +192,102 @@ TEST_CASE("joints that cannot be read get no effort, and no old position is trus
   loop.hardware().reading = Status::ok;
   CHECK(loop.update() == Status::ok);
   CHECK(loop.hardware().written.effort != Vector(0, 0));
+}
+
+namespace {
+
+/// A position and gains at which the integral soon holds most of the command.
+template <Robot R>
+struct Integrating : Pid<R> {
+  Integrating()
+      : Pid<R>({PidGains{.proportional = 10, .integral = 1000},
+                PidGains{.proportional = 10, .integral = 1000}}) {}
+};
+
+template <class R>
+using CarefulPosition = Limited<R, support::PositionForward>;
+
+/// Lets a loop have so many cycles with a status of the hardware, or a NaN in its reference.
+template <class LoopType>
+void have_bad_cycles(LoopType& loop, Status status, int count) {
+  for (int k = 0; k < count; ++k) {
+    if (status == Status::non_finite_reference) {
+      CHECK(spoilt_cycle(loop, loop.reference().velocity[0], not_a_number) == status);
+    } else {
+      loop.hardware().reading = status;
+      CHECK(loop.update() == status);
+      loop.hardware().reading = Status::ok;
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("few bad cycles in a row cost no integral") {
+  for (const Status status : {Status::stale_state, Status::non_finite_reference}) {
+    CAPTURE(to_string(status));
+    auto loop = running_loop<Integrating>(), undisturbed = running_loop<Integrating>();
+    for (int round = 0; round < 3; ++round) {
+      have_bad_cycles(loop, status, decltype(loop)::borne_cycles);
+      CHECK(loop.update() == Status::ok);
+      CHECK(undisturbed.update() == Status::ok);
+      CHECK(loop.command().effort == undisturbed.command().effort);
+    }
+  }
+}
+
+TEST_CASE("after many bad cycles, or one without hardware, the controller starts anew") {
+  auto loop = running_loop<Integrating>();
+  const auto fresh_command = [&] {
+    Integrating<TiltedQ2d> fresh;
+    fresh.start(loop.hardware().measured);
+    return fresh.update(loop.hardware().measured, loop.reference(), loop.period()).effort;
+  };
+  SECTION("stale") { have_bad_cycles(loop, Status::stale_state, 4); }
+  SECTION("stale for long") { have_bad_cycles(loop, Status::stale_state, 4000); }
+  SECTION("not read") { have_bad_cycles(loop, Status::hardware_fault, 1); }
+  SECTION("not written") {
+    loop.hardware().writing = Status::hardware_fault;
+    CHECK(loop.update() == Status::hardware_fault);
+    loop.hardware().writing = Status::ok;
+  }
+  SECTION("not written because of another fault") {
+    loop.hardware().writing = Status::hardware_fault;
+    have_bad_cycles(loop, Status::stale_state, 1);
+    loop.hardware().writing = Status::ok;
+  }
+  CHECK(loop.update() == Status::ok);
+  CHECK(loop.command().effort == fresh_command());
+  CHECK(loop.update() == Status::ok);  // and once
+  CHECK(loop.command().effort != fresh_command());
+}
+
+TEST_CASE(
+    "after many cycles without a reference control begins with the effort that held the arm") {
+  auto loop = running_loop<Integrating>();
+  loop.reference().position = place;
+  have_bad_cycles(loop, Status::non_finite_reference, 10);
+  REQUIRE(loop.command().effort == holding_effort());
+  CHECK(loop.update() == Status::ok);
+  CHECK((loop.command().effort - holding_effort()).norm() < 1e-12 * holding_effort().norm());
+}
+
+TEST_CASE("limits begin at the measured state after a fault, not where they were before") {
+  CommandLimits<2> limits = command_limits(TiltedQ2d());
+  limits.velocity = {1, 1};
+  limits.acceleration = {10, 10};
+  using Hardware = FakeHardware<TiltedQ2d, PositionCommand<2>>;
+  Hardware hardware;
+  hardware.measured.position = place;
+  Loop<Hardware, CarefulPosition> loop(hardware, CarefulPosition<TiltedQ2d>(limits));
+  loop.reference().position = place + Vector(0.5, 0.5);
+  for (int k = 0; k < 100; ++k) REQUIRE(loop.update() == Status::ok);
+  // The arm is moved by hand while it cannot be read.
+  have_bad_cycles(loop, Status::hardware_fault, 3);
+  loop.hardware().measured.position = place - Vector(0.3, 0.3);
+  CHECK(loop.update() == Status::ok);
+  // Within the first cycle it goes from there as far as the acceleration allows.
+  CHECK((loop.command().position - loop.hardware().measured.position).cwiseAbs().maxCoeff() < 1e-4);
 }
 
 TEST_CASE("the hardware's own report of a wrong number is passed on") {

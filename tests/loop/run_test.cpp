@@ -286,8 +286,10 @@ TEST_CASE("hardware can pace the loop, and what it leaves out is counted") {
     TimedLoop loop{&clock};
     HardwareClock pace(bus, clock, loop.period());
     const RunReport report = run(loop, pace, {.cycles = 4});
-    CHECK(loop.starts == ms({1, 2, 3.5, 5}));
+    CHECK(loop.starts == ms({1, 2, 3.5, 4.5}));
     CHECK(report.missed == 0);
+    CHECK(report.latency.max() == 500us);
+    CHECK(pace.timeouts() == 2);
   }
 }
 

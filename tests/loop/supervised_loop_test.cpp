@@ -361,6 +361,34 @@ TEST_CASE("position and velocity drives stay where they were commanded last, or 
   }
 }
 
+namespace {
+
+template <class R>
+struct Springs : DriveImpedance<R> {
+  Springs() : DriveImpedance<R>({{{100, 10}, {100, 10}}}) {}
+};
+
+}  // namespace
+
+TEST_CASE("drives with springs hold where the joints are, or give nothing") {
+  using SpringMock = MockHardware<TiltedQ2d, MultiModeCommand<2>>;
+  for (const SafeBehaviour behaviour : {SafeBehaviour::damp, SafeBehaviour::zero_effort}) {
+    SupervisedLoop<SpringMock, Springs> loop(SpringMock(),
+                                             {.behaviour = behaviour, .reference_lifetime = 0.01});
+    activate(loop);
+    loop.post(reference_at(0.1, 0.2));
+    cycles(loop, 5);
+    CHECK(loop.command().stiffness == JointVector<2>(100, 100));
+    cycles(loop, 20);
+    CHECK(loop.mode() == LoopMode::fault);
+    const bool holds = behaviour == SafeBehaviour::damp;
+    CHECK(loop.command().stiffness == JointVector<2>::Constant(holds ? 100 : 0));
+    CHECK(loop.command().damping == JointVector<2>::Constant(holds ? 10 : 0));
+    CHECK(loop.command().effort.isZero(0) == !holds);  // it carries the weight
+    if (holds) CHECK(loop.command().position == loop.state().position);
+  }
+}
+
 TEST_CASE("deactivation writes a safe command, then the hardware is inactive") {
   MockLoop loop;
   loop.hardware().set_state(state_at(0.2, 0.2));

@@ -59,6 +59,30 @@ TEST_CASE("a CSV file has a header with units and a line per record, exact to th
   CHECK_FALSE(std::getline(stream, line));
 }
 
+TEST_CASE("a command of several numbers has a column for each") {
+  const support::ScratchFile file("multi_mode.csv");
+  CsvWriter<Q2d, MultiModeCommand<2>> writer(file.path());
+  CycleRecord<2, MultiModeCommand<2>> record;
+  record.command = {{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}};
+  writer.write(record);
+  writer.close();
+  std::ifstream stream(file.path());
+  std::string line;
+  REQUIRE(std::getline(stream, line));
+  const auto header = cells(line);
+  REQUIRE(std::getline(stream, line));
+  const auto values = cells(line);
+  REQUIRE(values.size() == header.size());
+  const std::vector<std::string> names{"position [rad]", "velocity [rad/s]", "stiffness [N m/rad]",
+                                       "damping [N m s/rad]", "effort [N m]"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    CHECK(header[10 + k] == "shoulder_active_joint command " + names[k]);
+    CHECK(header[22 + k] == "elbow_active_joint command " + names[k]);
+    CHECK(std::stoul(values[10 + k]) == 2 * k + 1);
+    CHECK(std::stoul(values[22 + k]) == 2 * k + 2);
+  }
+}
+
 TEST_CASE("a file that cannot be written is an error") {
   CHECK_THROWS_WITH((CsvWriter<Q2d, EffortCommand<2>>("/nowhere/records.csv")),
                     "cannot write /nowhere/records.csv");

@@ -165,6 +165,21 @@ TEST_CASE("an MCAP file is what its specification says") {
   }
 }
 
+TEST_CASE("a command of several numbers is an object of its members") {
+  CycleRecord<2, MultiModeCommand<2>> record;
+  record.command = {{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}};
+  const Json json = record_json(Q2d(), record);
+  const Json& command = json["q2d"]["elbow_active_joint"]["command"];
+  CHECK(command["position"] == 2);
+  CHECK(command["velocity"] == 4);
+  CHECK(command["stiffness"] == 6);
+  CHECK(command["damping"] == 8);
+  CHECK(command["effort"] == 10);
+  const Json schema = schema_of(json);
+  CHECK(schema["properties"]["q2d"]["properties"]["elbow_active_joint"]["properties"]["command"]
+              ["properties"]["damping"]["type"] == "number");
+}
+
 TEST_CASE("an MCAP file without messages is one, too") {
   const support::ScratchFile file("empty.mcap");
   McapWriter writer(file.path(), "nothing", "Nothing", "{}");

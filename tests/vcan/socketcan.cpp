@@ -7,8 +7,11 @@
 
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <thread>
+
+#include <sys/time.h>
 
 using namespace articula;
 using support::RawPeer;
@@ -227,6 +230,19 @@ TEST_CASE("frames for which there was no room are counted") {
   CHECK(peer.send(0x181, {1}));  // the count comes with the next frame
   received += bench.receive();
   CHECK(received + bench.transport.statistics().lost == flood + 1);
+}
+
+TEST_CASE("a signal ends the wait for a frame, and does not prolong it") {
+  const Bench bench;
+  struct sigaction action {};
+  action.sa_handler = [](int) {};
+  REQUIRE(::sigaction(SIGALRM, &action, nullptr) == 0);
+  const itimerval once{{0, 0}, {0, 50'000}};
+  REQUIRE(::setitimer(ITIMER_REAL, &once, nullptr) == 0);
+  const auto begin = std::chrono::steady_clock::now();
+  SocketCan transport("vcan0");
+  transport.wait(10s);
+  CHECK(std::chrono::steady_clock::now() - begin < 10s);
 }
 
 TEST_CASE("opening anew leaves nothing of the past") {

@@ -19,7 +19,7 @@ namespace articula {
 struct CanSubscription {
   std::vector<std::uint32_t> identifiers{};  ///< the drives' frames
   std::uint32_t last_of_cycle = 0;           ///< of the frame with which each cycle's output ends
-  std::size_t frames_per_cycle = 0;          ///< how many frames that output has
+  std::size_t frames_per_cycle = 0;          ///< how many frames that output has at most
 };
 
 /// What a drive last said of itself and its joint.
@@ -32,6 +32,12 @@ struct DriveReport {
   std::uint32_t age = never;  ///< cycles begun since the one that the figures above belong to
   bool enabled = false;       ///< follows commands
   std::uint16_t fault = 0;    ///< the protocol's own fault code, 0 if there is none
+};
+
+/// Who sends the frame that begins a cycle of the drives.
+enum class SyncProducer : unsigned char {
+  host,          ///< The codec, at the end of each cycle's commands: the loop paces the bus.
+  another_node,  ///< A drive or a master clock: the bus paces the loop, see PacedCanCodec.
 };
 
 /// What a codec made of a frame.
@@ -81,6 +87,17 @@ concept CanCodec = JointCommand<typename C::Command, C::joint_count> &&
   { constant.reports() }
   noexcept
       ->std::convertible_to<std::span<const DriveReport, static_cast<std::size_t>(C::joint_count)>>;
+};
+
+/// A codec whose drives' cycles are begun by a frame of another node, which can pace a loop:
+/// `heard_cycles()` tells how many have begun.
+///
+/// `encode` and `encode_stop` begin no cycle then. But where none has begun since the last time, the
+/// reports grow older by one all the same, so that a bus that falls silent is found.
+template <class C>
+concept PacedCanCodec = CanCodec<C> && requires(const C& constant) {
+  { constant.heard_cycles() }
+  noexcept->std::same_as<std::uint64_t>;
 };
 
 }  // namespace articula

@@ -15,6 +15,7 @@ enum class CanCause : unsigned char {
   link_gone,      ///< The interface does not exist any more.
   bus_off,        ///< The controller has left the bus after too many errors.
   not_sent,       ///< The bus has not taken our frames for too many cycles.
+  no_sync,        ///< The node that begins the bus's cycles is silent.
   drive_silent,   ///< A drive's feedback is missing for too many cycles.
   drive_fault,    ///< A drive reports a fault.
   drive_let_go,   ///< A drive reports that it does not follow commands, without a fault.
@@ -42,6 +43,8 @@ struct CanFault {
       return "the CAN controller is bus-off";
     case CanCause::not_sent:
       return "the CAN bus does not take frames";
+    case CanCause::no_sync:
+      return "the bus's SYNC stays away";
     case CanCause::drive_silent:
       return "a drive is silent";
     case CanCause::drive_fault:

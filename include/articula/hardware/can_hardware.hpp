@@ -15,6 +15,7 @@
 #include <chrono>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 namespace articula {
@@ -22,10 +23,12 @@ namespace articula {
 /// A robot whose drives are on a CAN bus.
 ///
 /// `write` sends the commands of a cycle and the frame that puts them into force; the drives answer
-/// with feedback, which the next `read` takes in. Where the feedback of some joint is missing, its
-/// last one is used until it is too old. When something is wrong for good (see CanCause) while the
-/// drives are active, they are told to let go, in every cycle from then on, until `activate`
-/// succeeds again: nothing starts to move by itself. docs/hardware.md has a table of all faults.
+/// with feedback, which the next `read` takes in. Where another node begins the cycles of the bus
+/// (see PacedCanCodec), it can pace the loop, and this is PacingHardware. Where the feedback of some
+/// joint is missing, its last one is used until it is too old. When something is wrong for good (see
+/// CanCause) while the drives are active, they are told to let go, in every cycle from then on, until
+/// `activate` succeeds again: nothing starts to move by itself. docs/hardware.md has a table of all
+/// faults.
 /// @tparam R          the robot
 /// @tparam Codec      the language of its drives
 /// @tparam Transport  the way to the bus
@@ -59,6 +62,9 @@ class CanHardware {
         fault_(other.fault_),
         dropped_(other.dropped_),
         not_sent_(other.not_sent_),
+        unpaced_(other.unpaced_),
+        read_cycle_(other.read_cycle_),
+        awaited_cycle_(other.awaited_cycle_),
         feedback_time_(other.feedback_time_),
         statistics_(other.statistics_) {}
   CanHardware& operator=(CanHardware&&) = delete;
@@ -75,7 +81,7 @@ class CanHardware {
   [[nodiscard]] Status activate() noexcept {
     mode_ = Mode::inactive;
     fault_ = {};
-    dropped_ = not_sent_ = 0;
+    dropped_ = not_sent_ = unpaced_ = 0;
     codec_.restart();
     if (transport_.open(codec_.subscription()) != Status::ok) {
       fault_ = {CanCause::link_gone};
@@ -83,6 +89,7 @@ class CanHardware {
     }
     drain();
     codec_.restart();  // what had been waiting in the receive queue told of the past
+    const std::uint64_t heard_before = heard_cycles();
     const auto begin = transport_.now();
     CanSetUp progress = CanSetUp::in_progress;
     for (auto tick = begin; progress == CanSetUp::in_progress; tick += options_.set_up_period) {
@@ -94,12 +101,14 @@ class CanHardware {
     }
     if (progress == CanSetUp::done) {
       dropped_ = not_sent_ = 0;
+      read_cycle_ = awaited_cycle_ = heard_cycles();
       mode_ = Mode::active;
       return Status::ok;
     }
     fault_ = {CanCause::no_activation};
     blame([&](const DriveReport& r) { return r.fault != 0 || r.age >= options_.stale_after; });
     if (fault_.joint < 0) blame([](const DriveReport& r) { return !r.enabled; });
+    if (is_paced && heard_cycles() == heard_before) fault_ = {CanCause::no_sync};
     send_stop();
     return Status::hardware_fault;
   }
@@ -115,11 +124,13 @@ class CanHardware {
       return Status::hardware_fault;
     }
     constexpr int patience = 20;  // set-up periods
+    // Where the cycles are another node's, a new one may just have begun.
+    constexpr std::uint32_t fresh = is_paced ? 1 : 0;
     for (int k = 0; k < patience; ++k) {
       send_stop();
       listen_until(transport_.now() + options_.set_up_period);
       const bool let_go = std::ranges::all_of(
-          reports(), [](const DriveReport& r) { return r.age == 0 && !r.enabled; });
+          reports(), [](const DriveReport& r) { return r.age <= fresh && !r.enabled; });
       if (let_go) return Status::ok;
     }
     return Status::hardware_fault;
@@ -132,6 +143,7 @@ class CanHardware {
   /// Real-time: yes, but for the bus.
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     drain();
+    if (is_paced) note_pace();
     if (mode_ == Mode::active) look_for_faults();
     bool stale = false, partial = false;
     for (int j = 0; j < joint_count; ++j) {
@@ -171,12 +183,35 @@ class CanHardware {
     return finite ? Status::ok : Status::non_finite_command;
   }
 
-  /// Waits until the feedback of all joints for the last cycle is there: for loops that the bus
-  /// paces.
+  /// Waits until the bus's next cycle has begun and its feedback is there, or CanHardwareOptions's
+  /// feedback_time is over. A cycle that has begun since this was called last counts as the next.
+  /// @param timeout  longest time to wait for the beginning
+  /// @return         Status::ok, Status::stale_state if no cycle began in time, or
+  ///                 Status::hardware_fault, at once, while the link is not up
+  /// Real-time: yes, but for the wait.
+  [[nodiscard]] Status wait_for_cycle(std::chrono::nanoseconds timeout) noexcept requires
+      PacedCanCodec<Codec> {
+    const auto end = transport_.now() + timeout;
+    drain();
+    while (codec_.heard_cycles() == awaited_cycle_) {
+      if (transport_.link() != CanLink::up) return Status::hardware_fault;
+      const auto rest = end - transport_.now();
+      if (rest.count() <= 0) return Status::stale_state;
+      transport_.wait(rest);
+      drain();
+    }
+    awaited_cycle_ = codec_.heard_cycles();
+    // What is missing then, `read` tells.
+    static_cast<void>(wait_for_feedback(options_.feedback_time));
+    return Status::ok;
+  }
+
+  /// Waits until the feedback of all joints for the last cycle is there: for going through cycles
+  /// as fast as drives without a clock of their own answer, as in tests.
   /// @param time  longest time to wait
   /// @return      Status::ok, or Status::stale_state if it did not come in time
   /// Real-time: yes, but for the wait.
-  [[nodiscard]] Status wait(std::chrono::nanoseconds time) noexcept {
+  [[nodiscard]] Status wait_for_feedback(std::chrono::nanoseconds time) noexcept {
     const auto end = transport_.now() + time;
     for (;;) {
       drain();
@@ -192,7 +227,7 @@ class CanHardware {
   /// Why the drives were told to let go, or why activate failed; CanCause::none if all is well.
   /// Real-time: yes.
   [[nodiscard]] const CanFault& fault() const noexcept { return fault_; }
-  /// When the newest frame of a drive arrived, by the transport's time stamps. Real-time: yes.
+  /// When the newest frame that was taken in arrived, by the transport's time stamps. Real-time: yes.
   [[nodiscard]] std::chrono::nanoseconds feedback_time() const noexcept { return feedback_time_; }
   [[nodiscard]] const CanStatistics& statistics() const noexcept { return statistics_; }
   [[nodiscard]] auto reports() const noexcept { return codec_.reports(); }
@@ -203,6 +238,21 @@ class CanHardware {
 
  private:
   enum class Mode : unsigned char { inactive, active, faulted };
+  static constexpr bool is_paced = PacedCanCodec<Codec>;
+
+  /// How many cycles another node has begun.
+  [[nodiscard]] std::uint64_t heard_cycles() const noexcept {
+    if constexpr (is_paced) return codec_.heard_cycles();
+    return 0;
+  }
+
+  /// Counts the readings before which no cycle has begun.
+  void note_pace() noexcept {
+    const bool begun = heard_cycles() != read_cycle_;
+    read_cycle_ = heard_cycles();
+    unpaced_ = begun ? 0 : unpaced_ + 1;
+    if (!begun) ++statistics_.unpaced;
+  }
 
   /// Takes in what has arrived. A flood of frames does not hold up the loop: what is left after
   /// some hundred waits for the next cycle, or is lost in the kernel, which counts it.
@@ -245,6 +295,7 @@ class CanHardware {
       case CanLink::gone:
         return fail({CanCause::link_gone});
     }
+    if (unpaced_ >= options_.silent_after) return fail({CanCause::no_sync});
     for (int j = 0; j < joint_count; ++j) {
       const DriveReport& report = reports()[static_cast<std::size_t>(j)];
       if (report.fault != 0) return fail({CanCause::drive_fault, j, report.fault});
@@ -307,8 +358,11 @@ class CanHardware {
   CanHardwareOptions options_;
   Mode mode_ = Mode::inactive;
   CanFault fault_{};
-  std::uint32_t dropped_ = 0;   ///< cycles in a row that the bus did not take
-  std::uint32_t not_sent_ = 0;  ///< cycles in a row that did not, or not surely, get onto it
+  std::uint32_t dropped_ = 0;     ///< cycles in a row that the bus did not take
+  std::uint32_t not_sent_ = 0;    ///< cycles in a row that did not, or not surely, get onto it
+  std::uint32_t unpaced_ = 0;     ///< readings in a row before which no cycle of the bus had begun
+  std::uint64_t read_cycle_ = 0;  ///< cycles that had been heard at the last reading
+  std::uint64_t awaited_cycle_ = 0;  ///< and at the end of the last wait
   std::chrono::nanoseconds feedback_time_{};
   CanStatistics statistics_{};
 };

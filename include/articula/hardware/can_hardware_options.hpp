@@ -20,6 +20,9 @@ struct CanHardwareOptions {
   /// Cycles in a row whose frames did not, or not surely, get onto the bus, from which that is a
   /// fault.
   std::uint32_t not_sent_after = 10;
+  /// Where another node begins the bus's cycles: how long after that a cycle of the loop waits for
+  /// the drives' feedback, at most; about half the period.
+  std::chrono::nanoseconds feedback_time = std::chrono::microseconds(500);
   /// Time between two steps of the drives' set-up, about the period of the loop.
   std::chrono::nanoseconds set_up_period = std::chrono::milliseconds(1);
   /// Longest time that the set-up may take.
@@ -42,6 +45,8 @@ inline void validate(const CanHardwareOptions& options) {
           " is less than stale_after ", options.stale_after);
   require(options.not_sent_after >= 1, "not_sent_after ", options.not_sent_after,
           " is less than 1 cycle");
+  require(options.feedback_time.count() >= 0, "feedback_time ", options.feedback_time.count(),
+          " ns is negative");
   require(options.set_up_period.count() > 0, "set_up_period ", options.set_up_period.count(),
           " ns is not positive");
   require(options.set_up_time >= options.set_up_period, "set_up_time ", options.set_up_time.count(),
@@ -54,7 +59,9 @@ struct CanStatistics {
   std::uint64_t not_sent = 0;     ///< of these, not or not wholly taken by the bus
   std::uint64_t unconfirmed = 0;  ///< of these, sent without a sign of life of the one before
   std::uint64_t partial = 0;      ///< readings in which some joint's feedback was missing
-  std::uint64_t accepted = 0;     ///< frames of the drives that were taken in
+  std::uint64_t unpaced = 0;      ///< readings before which no cycle of the bus had begun, where
+                                  ///< another node begins them
+  std::uint64_t accepted = 0;     ///< frames that were taken in
   std::uint64_t outdated = 0;     ///< frames of the drives that were too old
   std::uint64_t foreign = 0;      ///< frames of nobody we know
   std::uint64_t malformed = 0;    ///< frames with a drive's identifier that make no sense

@@ -30,18 +30,30 @@ namespace articula {
 /// | TPDO 1 | sent | statusword, position, torque |
 /// | TPDO 2 | sent | velocity, error code |
 ///
+/// Who sends SYNC is an option of the type. With SyncProducer::another_node the codec sends none: one
+/// that is received begins the cycle and puts into force what was written before. It comes from
+/// another device, one of the drives or a master (objects 1005h, 1006h), at the loop's period. The
+/// drives are stopped by access to their objects as well then, since without SYNC no RPDO counts.
+///
 /// A drive is to fault when RPDO 1 stays away for the deadline (object 1400h, 5, where it has one).
 /// Other process data objects that a drive sends by itself are to be switched off in its
 /// configuration: they would only load the bus.
 /// @tparam R            the robot
 /// @tparam CommandType  what the drives follow
-template <Robot R, JointCommand<articula::joint_count<R>> CommandType =
-                       EffortCommand<articula::joint_count<R>>>
+/// @tparam Sync         who sends SYNC
+template <Robot R,
+          JointCommand<articula::joint_count<R>> CommandType =
+              EffortCommand<articula::joint_count<R>>,
+          SyncProducer Sync = SyncProducer::host>
 class Cia402Codec {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr cia402::Mode mode = cia402::mode_of<CommandType>;
+  static constexpr bool sends_sync = Sync == SyncProducer::host;
   using Command = CommandType;
+  static_assert(!std::same_as<Command, MultiModeCommand<joint_count>>,
+                "CiA 402 has no mode for springs and dampers: command efforts, velocities or "
+                "positions");
   static_assert(joint_count < static_cast<int>(CanBatch::capacity) / 2,
                 "too many joints for one bus");
 
@@ -63,6 +75,11 @@ class Cia402Codec {
   [[nodiscard]] CanSubscription subscription() const {
     CanSubscription subscription{.last_of_cycle = canopen::sync_identifier,
                                  .frames_per_cycle = drives_.size() + 1};
+    if (!sends_sync) {
+      subscription.identifiers.push_back(canopen::sync_identifier);
+      subscription.last_of_cycle = canopen::receive_pdo_1_base + drives_.back().node;
+      subscription.frames_per_cycle = 2 * drives_.size();  // a stop takes that many
+    }
     for (const Cia402Drive& drive : drives_) {
       for (const std::uint32_t base :
            {canopen::transmit_pdo_1_base, canopen::transmit_pdo_2_base, canopen::emergency_base,
@@ -83,44 +100,55 @@ class Cia402Codec {
   /// Brings all drives to operation enabled, side by side, then begins cycles until all have told
   /// where they are. Real-time: yes. O(N).
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
-    bool all_enabled = true;
-    for (Cia402SetUp& set_up : set_ups_) {
-      const CanSetUp progress = set_up.advance(elapsed, batch);
+    constexpr std::uint32_t fresh = sends_sync ? 0 : 1;  // another's cycle may just have begun
+    bool all_enabled = true, all_known = true;
+    for (std::size_t j = 0; j < drives_.size(); ++j) {
+      const CanSetUp progress = set_ups_[j].advance(elapsed, batch);
       if (progress == CanSetUp::failed) return progress;
       all_enabled = all_enabled && progress == CanSetUp::done;
+      const bool known = reports_[j].age <= fresh && reports_[j].enabled;
+      if (!known) set_ups_[j].doubt(elapsed);
+      all_known = all_known && known;
     }
     if (!all_enabled) return CanSetUp::in_progress;
-    const bool all_known =
-        std::ranges::all_of(reports_, [](const DriveReport& r) { return r.age == 0 && r.enabled; });
     if (all_known) return CanSetUp::done;
-    begin_cycle(batch);
+    if (sends_sync) send_sync(batch);
     return CanSetUp::in_progress;
   }
 
-  /// RPDO 1 for each drive, in the drive's units, rounded and held within their range, and SYNC. A
-  /// NaN gives zero; for a position, the measured one. Real-time: yes. O(N).
+  /// RPDO 1 for each drive, in the drive's units, rounded and held within their range, and SYNC if
+  /// it is ours. A NaN gives zero; for a position, the measured one. Real-time: yes. O(N).
   void encode(const Command& command, CanBatch& batch) noexcept {
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       push_command(j, cia402::enable_operation, target(command, j), batch);
     }
-    begin_cycle(batch);
+    end_output(batch);
   }
 
   /// Takes the power from all drives. Real-time: yes. O(N).
   void encode_stop(CanBatch& batch) noexcept {
     Command still;
+    if (!sends_sync && !heard_) {
+      // What waits for a SYNC that does not come is not done.
+      for (const Cia402Drive& drive : drives_) {
+        batch.push_back(canopen::encode_request(
+            {canopen::SdoKind::download, cia402::controlword, cia402::disable_voltage, 2},
+            drive.node));
+      }
+    }
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
         still.position[static_cast<int>(j)] = reports_[j].position;
       }
       push_command(j, cia402::disable_voltage, target(still, j), batch);
     }
-    begin_cycle(batch);
+    end_output(batch);
   }
 
   /// Takes in a drive's frame. Real-time: yes. O(N).
   [[nodiscard]] CanDecoding decode(const CanFrame& frame) noexcept {
     if (frame.extended) return CanDecoding::foreign;
+    if (!sends_sync && frame.identifier == canopen::sync_identifier) return take_sync(frame);
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       switch (frame.identifier - drives_[j].node) {
         case canopen::transmit_pdo_1_base:
@@ -164,6 +192,10 @@ class Cia402Codec {
     return set_ups_[static_cast<std::size_t>(joint)];
   }
   [[nodiscard]] const Cia402DriveList<joint_count>& drives() const noexcept { return drives_; }
+  /// How many SYNC of another node have been heard. Real-time: yes.
+  [[nodiscard]] std::uint64_t heard_cycles() const noexcept requires(!sends_sync) {
+    return heard_cycles_;
+  }
 
  private:
   /// What has come of a drive's two feedback frames since the last SYNC.
@@ -215,12 +247,30 @@ class Cia402Codec {
     batch.push_back(frame);
   }
 
-  void begin_cycle(CanBatch& batch) noexcept {
+  void begin_cycle() noexcept {
     for (DriveReport& report : reports_) {
       if (report.age < DriveReport::never - 1) ++report.age;
     }
     for (Halves& half : halves_) half.first = half.second = false;
+  }
+  void send_sync(CanBatch& batch) noexcept {
+    begin_cycle();
     batch.push_back(canopen::encode_sync());
+  }
+
+  /// After the commands of a cycle.
+  void end_output(CanBatch& batch) noexcept {
+    if (sends_sync) return send_sync(batch);
+    if (!heard_) begin_cycle();  // what is known grows older without SYNC, too
+    heard_ = false;
+  }
+
+  [[nodiscard]] CanDecoding take_sync(const CanFrame& frame) noexcept {
+    if (frame.length > 1) return CanDecoding::malformed;  // 1: with a counter, of no use here
+    begin_cycle();
+    heard_ = true;
+    ++heard_cycles_;
+    return CanDecoding::accepted;
   }
 
   [[nodiscard]] CanDecoding take_transmit_pdo_1(std::size_t j, const CanFrame& frame) noexcept {
@@ -271,6 +321,8 @@ class Cia402Codec {
   std::array<Cia402SetUp, static_cast<std::size_t>(joint_count)> set_ups_;
   std::array<DriveReport, static_cast<std::size_t>(joint_count)> reports_{};
   std::array<Halves, static_cast<std::size_t>(joint_count)> halves_{};
+  bool heard_ = false;  ///< SYNC has come since the last output
+  std::uint64_t heard_cycles_ = 0;
 };
 
 }  // namespace articula

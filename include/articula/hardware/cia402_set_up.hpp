@@ -17,7 +17,9 @@ namespace articula {
 /// Brings one drive to operation enabled by access to its objects, one request at a time: checks
 /// that it is a CiA 402 drive, maps the process data, sets the mode, starts the node, resets a fault
 /// and walks the state machine. Nothing moves meanwhile: the target is zero, or the position where
-/// the drive stands, before it is enabled.
+/// the drive stands, before it is enabled; and a command of the past that may still wait for SYNC in
+/// the drive is dropped, since the node leaves the operational state first. All objects are accessed
+/// by expedited transfers; none of them is longer than four bytes.
 class Cia402SetUp {
  public:
   /// @param node      1 .. 127
@@ -35,6 +37,10 @@ class Cia402SetUp {
     const auto entry = [](const canopen::ObjectAddress& object, std::uint32_t bits) {
       return std::uint32_t{object.index} << 16 | std::uint32_t{object.subindex} << 8 | bits;
     };
+    const auto command = [](canopen::NmtCommand wanted) {
+      return Step{{}, Action::command_node, static_cast<std::uint32_t>(wanted)};
+    };
+    add(command(canopen::NmtCommand::enter_pre_operational));
     add({{0x1000, 0}, Action::expect_profile_402});
     add({{0x1017, 0}, Action::write, 100, 2});  // heartbeat every 100 ms
     add({{0x1400, 1}, Action::write, off | receive, 4});
@@ -62,6 +68,7 @@ class Cia402SetUp {
     add({{0x1801, 1}, Action::write, transmit_2, 4});
     add({cia402::interpolation_period, Action::write_if_there, period, 1});
     add({cia402::interpolation_exponent, Action::write_if_there, 0xfd, 1});  // 10^-3 s
+    prepare_ = count_;
     add({cia402::controlword, Action::write, cia402::disable_voltage, 2});
     add({cia402::mode_of_operation, Action::write, static_cast<std::uint32_t>(mode), 1});
     if (mode == cia402::Mode::cyclic_synchronous_position) {
@@ -71,7 +78,8 @@ class Cia402SetUp {
       add({target.address, Action::write, 0, target.size});
     }
     add({cia402::mode_display, Action::expect_mode});
-    add({{}, Action::start_node});
+    start_ = count_;
+    add(command(canopen::NmtCommand::start));
     add({cia402::statusword, Action::read_state});
     add({cia402::controlword, Action::advance_state, 0, 2});
   }
@@ -81,7 +89,16 @@ class Cia402SetUp {
     step_ = 0;
     waiting_ = false;
     failed_ = false;
+    resetting_ = doubted_ = false;
     abort_code_ = 0;
+  }
+
+  /// Starts the node again and looks at its state, where the drive does not show that it is enabled
+  /// some time after it was: the command to start may have been lost. Real-time: yes.
+  void doubt(std::chrono::nanoseconds elapsed) noexcept {
+    if (step_ < count_ || elapsed - asked_ < patience) return;
+    step_ = start_;
+    doubted_ = true;
   }
 
   /// Appends the next request, if the node has answered the one before; without an answer that one
@@ -91,11 +108,10 @@ class Cia402SetUp {
   /// Real-time: yes.
   [[nodiscard]] CanSetUp advance(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
     if (failed_) return CanSetUp::failed;
-    constexpr std::chrono::milliseconds patience{100};
     while (step_ < count_ && (!waiting_ || elapsed - asked_ >= patience)) {
       const Step& step = steps_[step_];
-      if (step.action == Action::start_node) {
-        batch.push_back(canopen::encode(canopen::NmtCommand::start, node_));
+      if (step.action == Action::command_node) {
+        batch.push_back(canopen::encode(static_cast<canopen::NmtCommand>(step.value), node_));
         ++step_;
         continue;
       }
@@ -134,7 +150,15 @@ class Cia402SetUp {
         break;
       case Action::read_state:
         state_ = cia402::state_of(static_cast<std::uint16_t>(answer.value));
-        if (state_ == cia402::State::operation_enabled) step_ = count_ - 1;
+        if (state_ == cia402::State::operation_enabled) {
+          step_ = count_ - 1;
+        } else if (doubted_) {  // it has let go, and may stand elsewhere by now
+          doubted_ = false;
+          step_ = prepare_;
+          return;
+        }
+        // A fault is reset by the bit's rise, so a second try takes a fall in between.
+        resetting_ = state_ == cia402::State::fault && !resetting_;
         break;
       case Action::advance_state:  // and look what came of it
         step_ -= 1;
@@ -142,7 +166,7 @@ class Cia402SetUp {
       case Action::write:
       case Action::write_if_there:
       case Action::write_remembered:
-      case Action::start_node:
+      case Action::command_node:
         break;
     }
     ++step_;
@@ -163,7 +187,7 @@ class Cia402SetUp {
     expect_mode,
     remember,
     write_remembered,
-    start_node,
+    command_node,  ///< network management, which is not answered
     read_state,
     advance_state,
   };
@@ -181,18 +205,25 @@ class Cia402SetUp {
     if (step.action == Action::write_remembered) value = remembered_;
     if (step.action == Action::advance_state) {
       value = state_ ? cia402::towards_operation(*state_) : cia402::disable_voltage;
+      if (state_ == cia402::State::fault && !resetting_) value = cia402::disable_voltage;
     }
     const auto kind = step.size == 0 ? canopen::SdoKind::upload : canopen::SdoKind::download;
     return {kind, step.address, value, step.size};
   }
+
+  static constexpr std::chrono::milliseconds patience{100};  ///< for an answer
 
   std::uint8_t node_;
   cia402::Mode mode_;
   std::array<Step, 40> steps_{};
   std::size_t count_ = 0;
   std::size_t step_ = 0;
+  std::size_t prepare_ = 0;  ///< the step from which on the drive is made ready
+  std::size_t start_ = 0;    ///< the step from which on the node is operational
   bool waiting_ = false;
   bool failed_ = false;
+  bool resetting_ = false;  ///< the controlword is to reset a fault
+  bool doubted_ = false;    ///< it was done, but that does not show
   std::uint32_t abort_code_ = 0;
   std::uint32_t remembered_ = 0;
   std::optional<cia402::State> state_{};

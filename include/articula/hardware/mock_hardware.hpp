@@ -20,7 +20,9 @@ namespace articula {
 /// fail by a script. For trying out everything around a robot.
 ///
 /// A position command is where the joints are from then on, and their velocity is the step over the
-/// period; a velocity command moves them by one period; an effort command shows as measured effort.
+/// period; a velocity command moves them by one period; an effort command shows as measured effort. A
+/// multi-mode command does each of these: joints with a spring go where it pulls them, those with a
+/// damper alone move with its velocity, and all show the effort.
 /// Commands move joints while the hardware is active; a command that is not finite is refused.
 /// @tparam R            the robot
 /// @tparam CommandType  what the drives take
@@ -108,6 +110,7 @@ class MockHardware {
       joints_.velocity = command.velocity;
       joints_.position += command.velocity * period_;
     } else {
+      if constexpr (std::same_as<Command, MultiModeCommand<joint_count>>) follow(command);
       joints_.effort = command.effort;
     }
     return Status::ok;
@@ -134,6 +137,20 @@ class MockHardware {
     }
     return false;
   }
+  void follow(const MultiModeCommand<joint_count>& command) noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      double velocity = 0;
+      if (command.stiffness[j] > 0) {
+        velocity = (command.position[j] - joints_.position[j]) / period_;
+        joints_.position[j] = command.position[j];
+      } else if (command.damping[j] > 0) {
+        velocity = command.velocity[j];
+        joints_.position[j] += velocity * period_;
+      }
+      joints_.velocity[j] = velocity;
+    }
+  }
+
   static void spoil(JointVector<joint_count>& values, int joint, double value) noexcept {
     if (joint < 0) {
       values.setConstant(value);

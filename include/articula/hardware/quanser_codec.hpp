@@ -104,14 +104,20 @@ class QuanserCodec {
     for (std::size_t j = 0; j < modules_.size(); ++j) {
       if (node == 0 || modules_[j].node != node) continue;
       if (const auto position = quanser::decode_position(frame)) {
+        const std::uint64_t cycle = cycle_of(position->counter);
+        if (is_outdated(j, cycle, halves_[j].position_cycle)) return CanDecoding::outdated;
         halves_[j].position = *position;
-        halves_[j].position_cycle = cycle_of(position->counter);
-        return complete(j, position->counter);
+        halves_[j].position_cycle = cycle;
+        complete(j);
+        return CanDecoding::accepted;
       }
       if (const auto motion = quanser::decode_motion(frame)) {
+        const std::uint64_t cycle = cycle_of(motion->counter);
+        if (is_outdated(j, cycle, halves_[j].motion_cycle)) return CanDecoding::outdated;
         halves_[j].motion = *motion;
-        halves_[j].motion_cycle = cycle_of(motion->counter);
-        return complete(j, motion->counter);
+        halves_[j].motion_cycle = cycle;
+        complete(j);
+        return CanDecoding::accepted;
       }
       if (const auto heartbeat = quanser::decode_heartbeat(frame)) {
         take_condition(j, heartbeat->status, heartbeat->faults);
@@ -165,12 +171,16 @@ class QuanserCodec {
     return age < 128 && age < cycle_ ? cycle_ - age : 0;
   }
 
-  [[nodiscard]] CanDecoding complete(std::size_t j, std::uint8_t counter) noexcept {
+  /// A frame of no cycle, of one that is known already, or of an older one than its like has come for;
+  /// that one must not displace what is newer.
+  [[nodiscard]] bool is_outdated(std::size_t j, std::uint64_t cycle,
+                                 std::uint64_t newest) const noexcept {
+    return cycle == 0 || cycle <= halves_[j].taken_cycle || cycle < newest;
+  }
+
+  void complete(std::size_t j) noexcept {
     Halves& half = halves_[j];
-    if (cycle_of(counter) == 0 || cycle_of(counter) <= half.taken_cycle) {
-      return CanDecoding::outdated;
-    }
-    if (half.position_cycle != half.motion_cycle) return CanDecoding::accepted;
+    if (half.position_cycle != half.motion_cycle) return;
     half.taken_cycle = half.position_cycle;
     const QuanserModule& module = modules_[j];
     DriveReport& report = reports_[j];
@@ -181,7 +191,6 @@ class QuanserCodec {
     report.effort = half.motion.millinewton_metres / 1e3;
     report.age = static_cast<std::uint32_t>(cycle_ - half.taken_cycle);
     take_condition(j, half.position.status, half.motion.faults);
-    return CanDecoding::accepted;
   }
 
   void take_condition(std::size_t j, std::uint8_t status, std::uint8_t faults) noexcept {

@@ -225,6 +225,7 @@ class SimulatedCia402Node {
         nmt_ = command == static_cast<std::uint8_t>(canopen::NmtCommand::stop)
                    ? canopen::NmtState::stopped
                    : canopen::NmtState::pre_operational;
+        has_received_ = false;
         obey(cia402::disable_voltage);
         return;
       case canopen::NmtCommand::reset_node:
@@ -247,6 +248,8 @@ class SimulatedCia402Node {
     if (request.size != object->size) return abort(0x0607'0010);  // length does not match
     if (is_locked(request)) return abort(0x0800'0022);            // present device state
     object->value = request.value;
+    // What has come for a process data object that is switched off is dropped.
+    if ((value({0x1400, 1}) & 0x8000'0000U) != 0) has_received_ = false;
     if (request.address == cia402::controlword) obey(static_cast<std::uint16_t>(request.value));
     if (request.address == cia402::mode_of_operation) {
       find(cia402::mode_display)->value = request.value;

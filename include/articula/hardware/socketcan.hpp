@@ -229,13 +229,14 @@ class SocketCan {
     return CanSending::failed;
   }
 
-  /// Waits for a frame. Real-time: no (waits).
+  /// Waits for a frame, or a signal. Real-time: no (waits).
   void wait(std::chrono::nanoseconds time) noexcept {
     if (time.count() <= 0) return;
     const timespec limit{static_cast<time_t>(time.count() / 1'000'000'000),
                          static_cast<long>(time.count() % 1'000'000'000)};
     pollfd entry{socket_, POLLIN, 0};
     const int ready = ::ppoll(&entry, 1, &limit, nullptr);
+    if (ready < 0 && errno == EINTR) return;
     // On a broken interface poll returns at once; the caller's loop must not become a busy one.
     if (ready != 0 && (entry.revents & POLLIN) == 0) ::nanosleep(&limit, nullptr);
   }

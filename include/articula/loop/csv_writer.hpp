@@ -2,11 +2,11 @@
 /// @file Records as comma-separated values.
 #pragma once
 
+#include "articula/core/command_parts.hpp"
 #include "articula/loop/cycle_record.hpp"
 #include "articula/model/robot.hpp"
 
 #include <chrono>
-#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,8 @@
 namespace articula {
 
 /// Writes records to a file: a header that names every column with its unit, then one line each.
-/// Numbers are written so that reading them back gives the same.
+/// Numbers are written so that reading them back gives the same. A command of several numbers for a
+/// joint has a column for each.
 /// @tparam R            the robot
 /// @tparam CommandType  of the loop
 template <Robot R, class CommandType>
@@ -36,14 +37,25 @@ class CsvWriter {
       const std::string name(joint.name.view()), q = slides ? "m" : "rad";
       const std::string effort = slides ? " [N]" : " [N m]";
       const std::string position = " [" + q + "]", velocity = " [" + q + "/s]";
+      const auto unit = [&](CommandQuantity quantity) -> std::string {
+        if (quantity == CommandQuantity::position) return position;
+        if (quantity == CommandQuantity::velocity) return velocity;
+        if (quantity == CommandQuantity::effort) return effort;
+        if (quantity == CommandQuantity::stiffness) return slides ? " [N/m]" : " [N m/rad]";
+        return slides ? " [N s/m]" : " [N m s/rad]";
+      };
       for (const std::string& column :
            {"position" + position, "velocity" + velocity, "effort" + effort,
             "reference position" + position, "reference velocity" + velocity,
-            "reference acceleration [" + q + "/s^2]", "reference effort" + effort,
-            "command" + (commands_efforts      ? effort
-                         : commands_velocities ? velocity
-                                               : position)}) {
+            "reference acceleration [" + q + "/s^2]", "reference effort" + effort}) {
         file_ << ',' << name << ' ' << column;
+      }
+      const CommandType command;
+      const auto parts = parts_of(command);
+      for (const auto& part : parts) {
+        file_ << ',' << name << " command";
+        if (parts.size() > 1) file_ << ' ' << to_string(part.quantity);
+        file_ << unit(part.quantity);
       }
     }
     file_ << ",latency [s],period [s],update [s]\n";
@@ -58,9 +70,10 @@ class CsvWriter {
       for (const auto* vector :
            {&record.state.position, &record.state.velocity, &record.state.effort,
             &record.reference.position, &record.reference.velocity, &record.reference.acceleration,
-            &record.reference.effort, &values_of(record.command)}) {
+            &record.reference.effort}) {
         file_ << ',' << (*vector)[j];
       }
+      for (const auto& part : parts_of(record.command)) file_ << ',' << (*part.values)[j];
     }
     const CycleTiming& timing = record.timing;
     for (const auto duration : {timing.latency, timing.period, timing.update}) {
@@ -78,10 +91,6 @@ class CsvWriter {
   }
 
  private:
-  static constexpr bool commands_efforts = std::same_as<CommandType, EffortCommand<joint_count>>;
-  static constexpr bool commands_velocities =
-      std::same_as<CommandType, VelocityCommand<joint_count>>;
-
   void check() const {
     if (!file_) throw std::runtime_error("cannot write " + path_);
   }

@@ -2,10 +2,11 @@
 /// @file The control loop: one hardware, one controller, one cycle at a time.
 #pragma once
 
+#include "articula/control/effort_law.hpp"
+#include "articula/control/safe_command.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
-#include "articula/loop/safe_command.hpp"
 #include "articula/model/robot.hpp"
 
 #include <concepts>
@@ -27,6 +28,12 @@ namespace articula {
 /// One cycle reads the joints, lets the controller compute, keeps the command within the robot's
 /// effort limits and writes it. NaN and infinity never reach the hardware: whatever goes wrong, the
 /// command that is written is a safe one (see safe_command) and the Status tells.
+///
+/// After up to `borne_cycles` bad cycles in a row the controller goes on as if nothing had been: a lost
+/// frame costs no integral. After more, or after one in which the hardware could not be read or
+/// written, it starts anew with the first good one, since what it remembers is of a motion that is over.
+/// Where reference or command were to blame and the joints were held meanwhile, it begins with the
+/// command that held them, if it can (see Primable).
 /// @tparam HardwareType        satisfies Hardware
 /// @tparam ControllerTemplate  makes a Controller of the hardware's robot
 template <class HardwareType, template <class> class ControllerTemplate>
@@ -35,6 +42,8 @@ class Loop {
   using RobotType = typename HardwareType::RobotType;
   using ControllerType = ControllerTemplate<RobotType>;
   static constexpr int joint_count = articula::joint_count<RobotType>;
+  /// Bad cycles in a row over which the controller's memory is kept.
+  static constexpr int borne_cycles = 3;
   using State = JointState<joint_count>;
   using Reference = JointReference<joint_count>;
   using Command = decltype(std::declval<ControllerType&>().update(
@@ -93,6 +102,7 @@ class Loop {
     if (status == Status::ok && !is_finite(reference_)) status = Status::non_finite_reference;
     Command command;
     if (status == Status::ok) {
+      if (bad_cycles_ > borne_cycles) restart();
       command = controller_.update(state_, reference_, period_);
       if (!is_finite(command)) status = Status::non_finite_command;
     }
@@ -100,9 +110,11 @@ class Loop {
                    ? limited(hardware_.robot(), command)
                    : safe_command(hardware_.robot(), trusted_position(read), command_);
 
-    if (!is_finite(command_)) return status;  // a position command before any position is known
-    const Status write = hardware_.write(command_);
-    return status == Status::ok ? write : status;
+    // A position command before any position is known is not finite.
+    const Status write = is_finite(command_) ? hardware_.write(command_) : Status::ok;
+    if (status == Status::ok) status = write;
+    note(status, read, write);
+    return status;
   }
 
   /// What the joints shall do; may be changed between two updates.
@@ -165,6 +177,28 @@ class Loop {
     }
     controller_.start(state_);
     started_ = true;
+    bad_cycles_ = 0;
+  }
+
+  /// What is remembered of the bad cycles before a good one.
+  void note(Status status, Status read, Status write) noexcept {
+    if (status == Status::ok) {
+      bad_cycles_ = 0;
+      joints_lost_ = false;
+      return;
+    }
+    if (bad_cycles_ <= borne_cycles) ++bad_cycles_;
+    if (read == Status::hardware_fault || write != Status::ok) bad_cycles_ = borne_cycles + 1;
+    joints_lost_ = joints_lost_ || read != Status::ok || write != Status::ok ||
+                   status == Status::non_finite_state;
+  }
+
+  void restart() noexcept {
+    controller_.start(state_);
+    if constexpr (Primable<ControllerType, joint_count> && requires { values_of(command_); }) {
+      if (joints_lost_) return;
+      static_cast<void>(controller_.prime(state_, reference_, period_, values_of(command_)));
+    }
   }
 
   /// The position that a safe command may build on: none where the hardware could not be read.
@@ -181,6 +215,8 @@ class Loop {
   double time_ = 0;
   std::uint64_t cycles_ = 0;
   bool started_ = false;
+  int bad_cycles_ = 0;        ///< in a row, counted to one more than are borne with
+  bool joints_lost_ = false;  ///< in one of them the joints were not known or not held
   State state_{};
   Reference reference_{};
   Command command_{};

@@ -2,6 +2,7 @@
 /// @file Records as JSON. Needs nlohmann-json (target articula::recording).
 #pragma once
 
+#include "articula/core/command_parts.hpp"
 #include "articula/loop/cycle_record.hpp"
 #include "articula/model/robot.hpp"
 
@@ -57,7 +58,15 @@ template <Robot R, class Command>
                           {"velocity", record.reference.velocity[j]},
                           {"acceleration", record.reference.acceleration[j]},
                           {"effort", record.reference.effort[j]}};
-    joint["command"] = values_of(record.command)[j];
+    const auto parts = parts_of(record.command);
+    for (const auto& part : parts) {
+      const double value = (*part.values)[j];
+      if (parts.size() == 1) {
+        joint["command"] = value;
+      } else {
+        joint["command"][std::string(to_string(part.quantity))] = value;
+      }
+    }
   }
   json["cycle"] = record.cycle;
   json["status"] = std::string(to_string(record.status));

@@ -2,10 +2,13 @@
 /// @file Runs a loop in real time. Linux.
 #pragma once
 
+#include "articula/core/hardware.hpp"
+#include "articula/loop/hardware_clock.hpp"
 #include "articula/loop/monotonic_clock.hpp"
 #include "articula/loop/realtime_thread.hpp"
 #include "articula/loop/run.hpp"
 
+#include <type_traits>
 #include <utility>
 
 namespace articula {
@@ -18,8 +21,15 @@ struct RealtimeOptions {
   RunOptions run{};
 };
 
-/// Makes the calling thread fit for real time and runs the loop on it by CLOCK_MONOTONIC; see
-/// make_realtime and the other `run`.
+/// A loop whose hardware can pace it.
+template <class L>
+concept PacedLoop = requires(L loop) {
+  requires PacingHardware<std::remove_cvref_t<decltype(loop.hardware())>>;
+};
+
+/// Makes the calling thread fit for real time and runs the loop on it; see make_realtime and the other
+/// `run`. The pace is that of the loop's hardware where it can give one (see HardwareClock), else
+/// CLOCK_MONOTONIC.
 /// @throws std::invalid_argument if an option or the loop's period makes no sense
 /// @throws std::system_error if the system refuses, unless options.thread.warn takes the refusal
 /// Real-time: all cycles, if update and each are.
@@ -27,7 +37,12 @@ template <RunnableLoop LoopType, class Each = WhileOk>
 RunReport run(LoopType& loop, const RealtimeOptions& options, Each each = {}) {
   make_realtime(options.thread);
   MonotonicClock clock;
-  return run(loop, clock, options.run, std::move(each));
+  if constexpr (PacedLoop<LoopType>) {
+    HardwareClock pace(loop.hardware(), clock, loop.period());
+    return run(loop, pace, options.run, std::move(each));
+  } else {
+    return run(loop, clock, options.run, std::move(each));
+  }
 }
 
 }  // namespace articula

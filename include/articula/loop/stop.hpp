@@ -2,9 +2,9 @@
 /// @file How a loop ends.
 #pragma once
 
+#include "articula/control/safe_command.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/status.hpp"
-#include "articula/loop/safe_command.hpp"
 
 namespace articula {
 

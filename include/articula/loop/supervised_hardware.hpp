@@ -2,10 +2,10 @@
 /// @file What stands between a supervised loop and its hardware.
 #pragma once
 
+#include "articula/control/damping_effort.hpp"
+#include "articula/control/safe_command.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
-#include "articula/loop/damping_effort.hpp"
-#include "articula/loop/safe_command.hpp"
 #include "articula/loop/supervision_options.hpp"
 #include "articula/model/robot.hpp"
 
@@ -103,6 +103,8 @@ class SupervisedHardware {
       CommandType damped{
           damping_effort(robot(), state_.position, state_.velocity, options_.damping_time)};
       return is_finite(damped) ? limited(robot(), damped) : CommandType{};
+    } else if constexpr (std::same_as<CommandType, MultiModeCommand<joint_count>>) {
+      return options_.behaviour == SafeBehaviour::zero_effort ? CommandType{} : command;
     } else if constexpr (std::same_as<CommandType, PositionCommand<joint_count>>) {
       return has_written_ ? written_ : command;  // the measured position would creep
     } else {
