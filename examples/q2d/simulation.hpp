@@ -3,10 +3,10 @@
 #pragma once
 
 #include "articula/articula.hpp"
+#include "articula/control/step_metrics.hpp"
 #include "csv_file.hpp"
 #include "experiments.hpp"
 #include "progress.hpp"
-#include "step_metrics.hpp"
 
 #include <algorithm>
 #include <chrono>
