@@ -41,6 +41,10 @@ context=$(
 )
 
 mkdir -p benchmarks/results
+# Ratios are to be believed if what disturbs one case disturbs the others as well.
+for subject in "${subjects[@]}"; do
+  [[ $subject != peers && $subject != packs ]] || options+=(--benchmark_enable_random_interleaving=true)
+done
 for subject in ${subjects[@]+"${subjects[@]}"}; do
   result=benchmarks/results/$subject.json
   "$programs/${subject}_benchmark" \
@@ -50,4 +54,5 @@ for subject in ${subjects[@]+"${subjects[@]}"}; do
   # In place of the machine's name, which is nobody's business.
   sed -i -e '/"host_name"/{r /dev/stdin' -e 'd}' "$result" <<<"$context"
   echo "written: $result"
+  [[ $subject != peers ]] || benchmarks/peers/table.sh
 done

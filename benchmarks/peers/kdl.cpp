@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "kdl_robot.hpp"
 #include "peer.hpp"
 
 #include <kdl/chaindynparam.hpp>
@@ -7,42 +8,60 @@
 #include <kdl/tree.hpp>
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
 
+#include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 namespace peers {
 namespace {
 
-KDL::Vector to_kdl(const articula::Vector3<double>& a) { return {a.x, a.y, a.z}; }
+using support::to_kdl;
 
-KDL::Segment to_kdl(const std::string& name, const articula::Body& body) {
-  const auto& [x, y, z] = body.placement.rotation.rows;
-  const KDL::Frame frame(KDL::Rotation(x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z),
-                         to_kdl(body.placement.translation));
-  const KDL::Joint joint(name, frame.p, frame.M.UnitZ(),
-                         body.prismatic ? KDL::Joint::TransAxis : KDL::Joint::RotAxis);
-  const auto& [mass, first_moment, i] = body.inertia;
-  const KDL::Vector c = to_kdl(first_moment) / mass;
-  const double xx = i.xx - mass * (c.y() * c.y() + c.z() * c.z()),
-               yy = i.yy - mass * (c.x() * c.x() + c.z() * c.z()),
-               zz = i.zz - mass * (c.x() * c.x() + c.y() * c.y());
-  const KDL::RotationalInertia about_center(xx, yy, zz, i.xy + mass * c.x() * c.y(),
-                                            i.xz + mass * c.x() * c.z(),
-                                            i.yz + mass * c.y() * c.z());
-  const KDL::RigidBodyInertia inertia(mass, c, about_center);
-  return KDL::Segment(name, joint, frame, inertia);
+/// The inertia of a segment and of all that fixed joints hold on it, about the origin of its frame.
+KDL::RigidBodyInertia inertia_with(const KDL::SegmentMap::const_iterator& segment,
+                                   const std::string& next) {
+  KDL::RigidBodyInertia inertia = segment->second.segment.getInertia();
+  for (const auto& child : segment->second.children) {
+    if (child->first == next) continue;
+    inertia = inertia + child->second.segment.pose(0) * inertia_with(child, next);
+  }
+  return inertia;
 }
 
-/// KDL numbers joints in the order in which they are added.
-KDL::Tree to_kdl(std::span<const articula::Body> bodies) {
-  KDL::Tree tree("root");
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::string parent = bodies[i].parent < 0 ? "root" : std::to_string(bodies[i].parent);
-    if (!tree.addSegment(to_kdl(std::to_string(i), bodies[i]), parent)) {
-      throw std::runtime_error("KDL refuses a segment");
-    }
+/// The chain with the most segments that holds all moving joints, if there is one. What is fixed beside
+/// it (the other finger of a gripper) is added to the segment that carries it: a chain of KDL would
+/// leave it out.
+std::optional<KDL::Chain> whole_chain(const KDL::Tree& tree) {
+  KDL::Chain longest;
+  for (const auto& [tip, element] : tree.getSegments()) {
+    KDL::Chain chain;
+    tree.getChain(tree.getRootSegment()->first, tip, chain);
+    if (chain.getNrOfJoints() < tree.getNrOfJoints()) continue;
+    if (chain.getNrOfSegments() > longest.getNrOfSegments()) longest = chain;
   }
-  return tree;
+  if (longest.getNrOfSegments() == 0) return {};
+  KDL::Chain whole;
+  for (unsigned i = 0; i < longest.getNrOfSegments(); ++i) {
+    KDL::Segment segment = longest.getSegment(i);
+    const bool last = i + 1 == longest.getNrOfSegments();
+    segment.setInertia(inertia_with(tree.getSegment(segment.getName()),
+                                    last ? "" : longest.getSegment(i + 1).getName()));
+    whole.addSegment(segment);
+  }
+  return whole;
+}
+
+/// For each joint of KDL its number in articula's order.
+std::vector<std::size_t> order_of(const KDL::Tree& tree, const std::vector<std::string>& names) {
+  std::vector<std::size_t> order(tree.getNrOfJoints());
+  for (const auto& [name, element] : tree.getSegments()) {
+    const KDL::Joint& joint = element.segment.getJoint();
+    if (joint.getType() == KDL::Joint::None) continue;
+    const auto found = std::find(names.begin(), names.end(), joint.getName());
+    order[element.q_nr] = static_cast<std::size_t>(found - names.begin());
+  }
+  return order;
 }
 
 /// A state in KDL's types.
@@ -50,12 +69,13 @@ struct KdlState {
   KDL::JntArray q, v, a, effort;
 };
 
-std::vector<KdlState> convert(const std::vector<State>& states) {
+std::vector<KdlState> convert(const std::vector<State>& states,
+                              const std::vector<std::size_t>& order) {
   std::vector<KdlState> converted;
   for (const State& state : states) {
-    const auto array = [](const Numbers& numbers) {
+    const auto array = [&](const Numbers& numbers) {
       KDL::JntArray result(static_cast<unsigned>(numbers.size()));
-      for (unsigned i = 0; i < result.rows(); ++i) result(i) = numbers[i];
+      for (unsigned i = 0; i < result.rows(); ++i) result(i) = numbers[order[i]];
       return result;
     };
     converted.push_back({array(state.q), array(state.v), array(state.a), array(state.effort)});
@@ -70,27 +90,30 @@ void require(int error) {
 /// What both kinds of solvers share.
 class KdlPeer : public Peer {
  public:
-  KdlPeer(unsigned joints, const std::vector<State>& states)
-      : states_(convert(states)), numbers_(joints) {}
+  KdlPeer(const std::vector<State>& states, const std::vector<std::size_t>& order)
+      : states_(convert(states, order)),
+        order_(order),
+        numbers_(static_cast<unsigned>(order.size())) {}
 
   [[nodiscard]] Numbers result(Operation) const override { return numbers_of(numbers_); }
 
  protected:
-  [[nodiscard]] static Numbers numbers_of(const KDL::JntArray& array) {
-    return {array.data.begin(), array.data.end()};
+  [[nodiscard]] Numbers numbers_of(const KDL::JntArray& array) const {
+    Numbers numbers(order_.size());
+    for (unsigned i = 0; i < array.rows(); ++i) numbers[order_[i]] = array(i);
+    return numbers;
   }
 
   std::vector<KdlState> states_;
-  KDL::JntArray numbers_;  ///< efforts or accelerations of the last run
+  std::vector<std::size_t> order_;  ///< in ours, of KDL's joints
+  KDL::JntArray numbers_;           ///< efforts or accelerations of the last run
 };
 
 class KdlTree final : public KdlPeer {
  public:
-  KdlTree(const KDL::Tree& tree, const KDL::Vector& gravity, const std::vector<State>& states)
-      : KdlPeer(tree.getNrOfJoints(), states),
-        tree_(tree),
-        solver_(tree_, gravity),
-        zero_(tree.getNrOfJoints()) {}
+  KdlTree(const KDL::Tree& tree, const KDL::Vector& gravity, const std::vector<State>& states,
+          const std::vector<std::size_t>& order)
+      : KdlPeer(states, order), tree_(tree), solver_(tree_, gravity), zero_(tree.getNrOfJoints()) {}
 
   [[nodiscard]] bool offers(Operation operation) const override {
     return operation == Operation::inverse_dynamics || operation == Operation::gravity;
@@ -110,8 +133,10 @@ class KdlTree final : public KdlPeer {
 
 class KdlChain final : public KdlPeer {
  public:
-  KdlChain(const KDL::Chain& chain, const KDL::Vector& gravity, const std::vector<State>& states)
-      : KdlPeer(chain.getNrOfJoints(), states),
+  /// @pre joints of a chain are in the order of ours
+  KdlChain(const KDL::Chain& chain, const KDL::Vector& gravity, const std::vector<State>& states,
+           const std::vector<std::size_t>& order)
+      : KdlPeer(states, order),
         chain_(chain),
         inverse_(chain_, gravity),
         parameters_(chain_, gravity),
@@ -187,16 +212,15 @@ class KdlChain final : public KdlPeer {
 
 }  // namespace
 
-std::unique_ptr<Peer> kdl(std::span<const articula::Body> bodies,
-                          const articula::Vector3<double>& gravity,
+std::unique_ptr<Peer> kdl(const support::Blueprint& robot, const std::vector<std::string>& joints,
                           const std::vector<State>& states) {
-  const KDL::Tree tree = to_kdl(bodies);
-  KDL::Chain chain;
-  tree.getChain("root", std::to_string(bodies.size() - 1), chain);
-  if (chain.getNrOfJoints() == bodies.size()) {
-    return std::make_unique<KdlChain>(chain, to_kdl(gravity), states);
+  const KDL::Tree tree = to_kdl(robot, support::root_of(robot));
+  const std::vector<std::size_t> order = order_of(tree, joints);
+  const KDL::Vector gravity = to_kdl(robot.gravity);
+  if (const auto chain = whole_chain(tree)) {
+    return std::make_unique<KdlChain>(*chain, gravity, states, order);
   }
-  return std::make_unique<KdlTree>(tree, to_kdl(gravity), states);
+  return std::make_unique<KdlTree>(tree, gravity, states, order);
 }
 
 }  // namespace peers

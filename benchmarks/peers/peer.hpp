@@ -2,12 +2,15 @@
 /// @file The same work, done by another library.
 #pragma once
 
+#include "blueprint.hpp"
+
 #include <articula/model/mechanism.hpp>
 
 #include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -42,10 +45,12 @@ class Peer {
   [[nodiscard]] virtual Numbers result(Operation operation) const = 0;
 };
 
-/// Orocos KDL: its solvers for chains where the robot is one, else its solver for trees, which has
-/// inverse dynamics only.
-[[nodiscard]] std::unique_ptr<Peer> kdl(std::span<const articula::Body> bodies,
-                                        const articula::Vector3<double>& gravity,
+/// Orocos KDL: the robot as kdl_parser makes it of a URDF, a segment for each link, fixed joints included.
+/// Its solvers for chains where the robot is one, else its solver for trees, which has inverse
+/// dynamics only.
+/// @param joints  names of those that move, in articula's order
+[[nodiscard]] std::unique_ptr<Peer> kdl(const support::Blueprint& robot,
+                                        const std::vector<std::string>& joints,
                                         const std::vector<State>& states);
 
 /// How MuJoCo's functions are called.

@@ -160,10 +160,15 @@ class Cases {
   std::vector<Sample> samples_ = make_samples();
   std::vector<peers::State> states_ = states_of(samples_);
   std::remove_cvref_t<decltype(model_of(Robot{}))> model_ = model_of(Robot{});
+  std::vector<std::string> names_ = [] {
+    const auto names = joint_names(Robot{});
+    return std::vector<std::string>(names.begin(), names.end());
+  }();
   std::span<const Body> bodies_ = model_.mechanism.bodies;
   Vector3<double> gravity_ = Robot::description.gravity;
   std::array<NamedPeer, 3> peers_{
-      NamedPeer{"kdl", 1e-9, peers::kdl(bodies_, gravity_, states_)},
+      NamedPeer{"kdl", 1e-9,
+                peers::kdl(support::blueprint_of(Robot::description), names_, states_)},
       NamedPeer{"mujoco", 1e-5, peers::mujoco(bodies_, gravity_, states_, peers::Pipeline::whole)},
       NamedPeer{"mujoco_shortest", 1e-5,
                 peers::mujoco(bodies_, gravity_, states_, peers::Pipeline::shortest)}};

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Makes results/peers.md and results/peers.svg of results/peers.json, or of another file's figures:
 #
-#   benchmarks/run.sh peers --benchmark_enable_random_interleaving=true && benchmarks/peers/table.sh
-#   benchmarks/peers/table.sh <figures.json> <folder for table and plot>
+#   benchmarks/run.sh peers                                              # runs this at its end
+#   benchmarks/peers/table.sh [<figures.json> [<folder for table and plot>]]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 json=${1:-results/peers.json}
@@ -36,7 +36,8 @@ context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; 
   echo
   echo "Nanoseconds of one call, median of five repetitions; in brackets how many times as long as ours, the"
   echo "described type. \"Shortest\" are MuJoCo's stages that the result needs, without the rest of the"
-  echo "public function. PR2: thirty joints, all free."
+  echo "public function. KDL has the robot as kdl_parser makes it of the URDF. PR2: thirty joints, all free;"
+  echo "ours compiled with \`-O1\`."
   echo
   echo "| robot | operation | described type | \`Model<N>\` | KDL | MuJoCo | MuJoCo, shortest |"
   echo "|---|---|---:|---:|---:|---:|---:|"

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sixteen robots side by side, <operation>/<robot>/together, and one after the other, /one_by_one: the
+// ratio of the two is what packs gain per robot. `lanes` is how many doubles fit into a register.
+#include <articula/dynamics/forward_dynamics.hpp>
+#include <articula/dynamics/inverse_dynamics.hpp>
+#include <articula/robots/panda.hpp>
+#include <articula/robots/q2d.hpp>
+#include <articula/robots/ur10.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <random>
+#include <vector>
+
+namespace {
+
+using namespace articula;
+
+constexpr int robots = 16;
+
+struct Inverse {
+  template <class R, class... Arrays>
+  static auto run(const R& robot, const Arrays&... arrays) {
+    return inverse_dynamics(robot, arrays...);
+  }
+};
+struct Forward {
+  template <class R, class... Arrays>
+  static auto run(const R& robot, const Arrays&... arrays) {
+    return forward_dynamics(robot, arrays...);
+  }
+};
+
+/// Random states: positions, velocities and efforts or accelerations.
+template <class Vectors>
+std::vector<std::array<Vectors, 3>> random_states(std::size_t count) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> number(-3, 3);
+  std::vector<std::array<Vectors, 3>> states(count);
+  for (auto& state : states) {
+    for (Vectors& values : state) values = values.unaryExpr([&](double) { return number(engine); });
+  }
+  return states;
+}
+
+template <class Operation, class R>
+void together(benchmark::State& bench) {
+  const auto states = random_states<JointVectors<joint_count<R>, robots>>(64);
+  std::size_t i = 0;
+  for (auto _ : bench) {
+    const auto& [q, v, x] = states[i++ % states.size()];
+    auto result = Operation::run(R{}, q, v, x);
+    benchmark::DoNotOptimize(result);
+  }
+  bench.counters["lanes"] = symbolic::lanes_of_a_register;
+}
+
+template <class Operation, class R>
+void one_by_one(benchmark::State& bench) {
+  const auto states = random_states<JointVector<joint_count<R>>>(64 * robots);
+  std::size_t i = 0;
+  for (auto _ : bench) {
+    for (int k = 0; k < robots; ++k) {
+      const auto& [q, v, x] = states[i++ % states.size()];
+      auto result = Operation::run(R{}, q, v, x);
+      benchmark::DoNotOptimize(result);
+    }
+  }
+  bench.counters["lanes"] = symbolic::lanes_of_a_register;
+}
+
+#define ARTICULA_PACKS(operation, Operation, robot, Robot)                                 \
+  BENCHMARK(together<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/together"); \
+  BENCHMARK(one_by_one<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/one_by_one")
+
+ARTICULA_PACKS(inverse, Inverse, q2d, Q2d);
+ARTICULA_PACKS(inverse, Inverse, ur10, Ur10);
+ARTICULA_PACKS(inverse, Inverse, panda, Panda);
+ARTICULA_PACKS(forward, Forward, q2d, Q2d);
+ARTICULA_PACKS(forward, Forward, ur10, Ur10);
+ARTICULA_PACKS(forward, Forward, panda, Panda);
+
+}  // namespace
