@@ -11,6 +11,7 @@ packages=(
   libeigen3-dev      # the one dependency of articula::articula
   liburdfdom-dev     # robots from URDF files
   nlohmann-json3-dev # recordings as JSON
+  libyaml-cpp-dev    # configuration files
   catch2             # tests
   binutils           # nm, for the check of the object code
   libbenchmark-dev   # benchmarks

@@ -35,4 +35,7 @@ install(FILES cmake/articula-socketcan.cmake DESTINATION ${articula_package_dir}
 # The component recording.
 install(FILES cmake/articula-recording.cmake DESTINATION ${articula_package_dir})
 
+# The component config.
+install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_package_dir})
+
 install(FILES LICENSE TYPE DOC)

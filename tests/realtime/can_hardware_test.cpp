@@ -49,10 +49,28 @@ class DirectTransport {
   std::chrono::nanoseconds now() const noexcept { return now_; }
   CanLink link() const noexcept { return CanLink::up; }
 
+ protected:
+  void hear(const CanFrame& frame) noexcept { answers_.push_back(frame); }
+  void advance(std::chrono::nanoseconds time) noexcept { now_ += time; }
+
  private:
   Drives drives_;
   CanBatch answers_{};
   std::chrono::nanoseconds now_{};
+};
+
+/// A bus without memory on the heap, on which another node sends SYNC when it is waited for.
+template <class Drives>
+class PacingTransport : public DirectTransport<Drives> {
+ public:
+  using DirectTransport<Drives>::DirectTransport;
+  void wait(std::chrono::nanoseconds time) noexcept {
+    CanBatch sync;
+    sync.push_back(canopen::encode_sync());
+    this->hear(sync[0]);
+    static_cast<void>(this->send(sync));
+    this->advance(time);
+  }
 };
 
 template <class Codec, class Drives>
@@ -75,4 +93,21 @@ TEST_CASE("a cycle over the Quanser protocol does not touch the heap") {
 
 TEST_CASE("a cycle over CiA 402 does not touch the heap") {
   check(Cia402Codec<Q2d>(drives), SimulatedCia402Drives<Q2d>(drives));
+}
+
+TEST_CASE("a cycle that the bus paces does not touch the heap, nor does the wait for it") {
+  using PacedCodec = Cia402Codec<Q2d, EffortCommand<2>, SyncProducer::another_node>;
+  using Drives = SimulatedCia402Drives<Q2d>;
+  using Arm = CanHardware<Q2d, PacedCodec, PacingTransport<Drives>>;
+  Arm arm{PacedCodec(drives), PacingTransport<Drives>(Drives(drives))};
+  Loop<Arm, PidPlusGravity> loop(std::move(arm));
+  loop.reference().position = {-1, 1};
+  Status status = Status::ok;
+  CHECK(heap_calls_in([&] {
+          for (int k = 0; k < 1000 && status == Status::ok; ++k) {
+            status = loop.hardware().wait_for_cycle(std::chrono::milliseconds(1));
+            if (status == Status::ok) status = loop.update();
+          }
+        }) == 0);
+  CHECK(status == Status::ok);
 }

@@ -30,7 +30,12 @@ const Vector q(0.3, -0.7), v(1, 2), a(-3, 4), effort(5, -6);
 template <Robot R>
 std::size_t heap_calls_of_model_and_dynamics(const R& robot) {
   const LinkIndex tool = link_index(robot, "tool_link");
+  const JointVectors<2, 8> many = JointVectors<2, 8>::Constant(0.5);
   return heap_calls_in([&] {
+    look(inverse_dynamics(robot, many, many, many));
+    look(gravity(robot, many));
+    look(nonlinear_effects(robot, many, many));
+    look(forward_dynamics(robot, many, many, many));
     look(static_cast<double>(model_of(robot).links.size()));
     look(static_cast<double>(joint_names(robot)[1].size()));
     look(joint_values(robot, [](const JointProperties& joint) { return joint.damping; }));
@@ -41,6 +46,7 @@ std::size_t heap_calls_of_model_and_dynamics(const R& robot) {
     look(mass_matrix(robot, q));
     look(forward_dynamics(robot, q, v, effort));
     look(forward_kinematics(robot, q, tool).matrix());
+    look(jacobian(robot, q, tool));
     look(kinetic_energy(robot, q, v));
     look(potential_energy(robot, q));
     look(friction_effort(robot, v));

@@ -4,6 +4,7 @@
 
 #include <articula/hardware/can_transport.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <deque>
@@ -28,15 +29,57 @@ struct FakeCanBus {
   int opened = 0;
   std::vector<articula::CanFrame> to_drives{};  ///< all that was on the wire
   std::deque<articula::CanFrame> to_host{};     ///< not received yet
+  std::chrono::nanoseconds sync_period{};     ///< of another node that sends SYNC; 0: there is none
+  std::chrono::nanoseconds next_sync{};       ///< when that one is due
+  articula::CanFrame sync{};                  ///< what it sends
+  std::chrono::nanoseconds feedback_delay{};  ///< after which feedback arrives
   /// What is done to each frame of the drives: false keeps it from arriving.
   std::function<bool(articula::CanFrame&)> on_feedback = [](articula::CanFrame&) { return true; };
   /// What is done to each frame of the host.
   std::function<bool(articula::CanFrame&)> on_command = [](articula::CanFrame&) { return true; };
 
+  /// What is done where SYNC is due: false keeps the other node from sending it.
+  std::function<bool()> on_sync = [] { return true; };
+
   void deliver(const articula::CanBatch& answers) {
     for (articula::CanFrame frame : answers) {
-      if (on_feedback(frame)) to_host.push_back(frame);
+      if (!on_feedback(frame)) continue;
+      if (feedback_delay.count() == 0) {
+        to_host.push_back(frame);
+      } else {
+        on_its_way_.emplace_back(time + feedback_delay, frame);
+      }
     }
+  }
+  /// When something happens next that time has to pass for, at most `end`.
+  [[nodiscard]] std::chrono::nanoseconds next_event(std::chrono::nanoseconds end) const {
+    if (sync_period.count() > 0) end = std::min(end, next_sync);
+    if (!on_its_way_.empty()) end = std::min(end, on_its_way_.front().first);
+    return std::max(end, time);
+  }
+  /// Lets time pass on a bus on which another node sends SYNC.
+  void pass(std::chrono::nanoseconds duration) {
+    const auto end = time + duration;
+    for (;;) {
+      time = next_event(end);
+      while (!on_its_way_.empty() && on_its_way_.front().first <= time) {
+        to_host.push_back(on_its_way_.front().second);
+        on_its_way_.pop_front();
+      }
+      if (sync_period.count() > 0 && next_sync <= time) {
+        next_sync += sync_period;
+        send_sync();
+      } else if (time >= end) {
+        return;
+      }
+    }
+  }
+  void send_sync() {
+    if (!on_sync()) return silent_period();
+    to_host.push_back(sync);
+    articula::CanBatch answers;
+    drives.receive(sync, answers);
+    deliver(answers);
   }
   /// A period without SYNC.
   void silent_period() {
@@ -44,6 +87,9 @@ struct FakeCanBus {
     drives.pass_silent_period(answers);
     deliver(answers);
   }
+
+ private:
+  std::deque<std::pair<std::chrono::nanoseconds, articula::CanFrame>> on_its_way_{};
 };
 
 /// The host's end of the bus.
@@ -81,6 +127,9 @@ class FakeCanTransport {
   }
   void wait(std::chrono::nanoseconds time) noexcept {
     if (!bus_->to_host.empty()) return;
+    if (bus_->sync_period.count() > 0) {
+      return bus_->pass(bus_->next_event(bus_->time + time) - bus_->time);
+    }
     bus_->time += time;
     bus_->silent_period();
   }
