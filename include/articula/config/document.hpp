@@ -124,8 +124,12 @@ class ConfigBuilder final : public YAML::EventHandler {
   void check_keys(const ConfigNode& map) const {
     std::vector<const ConfigNode*> sorted;
     for (const ConfigNode& item : map.items) sorted.push_back(&item);
-    const auto before = [](const ConfigNode* a, const ConfigNode* b) { return a->key < b->key; };
-    std::stable_sort(sorted.begin(), sorted.end(), before);
+    const auto before = [](const ConfigNode* a, const ConfigNode* b) {
+      if (a->key != b->key) return a->key < b->key;
+      return std::pair(a->key_mark.line, a->key_mark.column) <
+             std::pair(b->key_mark.line, b->key_mark.column);
+    };
+    std::sort(sorted.begin(), sorted.end(), before);
     for (std::size_t k = 1; k < sorted.size(); ++k) {
       if (sorted[k - 1]->key != sorted[k]->key) continue;
       refuse(sorted[k]->key_mark,

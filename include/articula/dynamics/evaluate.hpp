@@ -52,12 +52,15 @@ template <std::size_t N>
 [[nodiscard, gnu::always_inline]] inline JointMatrix<static_cast<int>(N)> to_matrix(
     const std::array<std::array<double, N>, N>& rows) noexcept {
   JointMatrix<static_cast<int>(N)> matrix;
+  // Row by row: clang refuses folds over more than 256 elements.
   [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
-    ((matrix.coeffRef(static_cast<Eigen::Index>(I / N), static_cast<Eigen::Index>(I % N)) =
-          rows[I / N][I % N]),
-     ...);
+    const auto copy_row = [&](std::size_t i) __attribute__((always_inline)) {
+      ((matrix.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(I)) = rows[i][I]),
+       ...);
+    };
+    (copy_row(I), ...);
   }
-  (std::make_index_sequence<N * N>{});
+  (std::make_index_sequence<N>{});
   return matrix;
 }
 
