@@ -34,7 +34,7 @@ struct SwitchEvent {
 /// brings back what became of them, who is active and what has happened:
 ///
 ///     SwitchExchange exchange(loop.controller());
-///     SwitchOutcome outcome = exchange.ask({.stop = {"pid"}, .start = {"bypass"}});  // another thread
+///     auto outcome = exchange.ask({.stop = {"pid"}, .start = {"bypass"}});  // another thread
 ///     for (const ControllerInfo& controller : exchange.list()) ...                   // that thread
 ///     exchange.apply(loop.controller());            // the control thread, between two cycles
 ///
