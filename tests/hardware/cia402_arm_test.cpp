@@ -225,9 +225,9 @@ TEST_CASE("a fault that cannot be reset at first is reset when its cause is gone
 }
 
 TEST_CASE("a drive that lets go in the middle of activation is enabled again") {
+  bool has_let_go = false;  // before the arm, whose destructor still sends
   const auto bus = make_bus();
   auto arm = make_arm<PositionCommand<2>>(bus);
-  bool has_let_go = false;
   bus->on_feedback = [&](CanFrame& frame) {
     if (frame.identifier == 0x185 && !has_let_go) {  // its first report: it had been enabled
       has_let_go = true;

@@ -251,9 +251,9 @@ TEST_CASE("feedback that comes late is used with its age, and old feedback not a
 }
 
 TEST_CASE("a late frame does not displace one that is newer") {
+  std::optional<CanFrame> old;  // before the arm, whose destructor still sends
   Bench bench;
   bench.cycles(5);
-  std::optional<CanFrame> old;
   bench.bus->on_feedback = [&](CanFrame& frame) {
     if (frame.identifier != quanser::position_base + 1) return true;
     // Each POSITION is followed by that of the cycle before, and then by its own MOTION.

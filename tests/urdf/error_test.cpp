@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "urdf_text.hpp"
 
+#include <filesystem>
 #include <fstream>
 
 using namespace articula;
@@ -62,9 +63,11 @@ TEST_CASE("Files that cannot be read") {
 }
 
 TEST_CASE("The file is named") {
-  const std::string file = "urdf_error_test.urdf";
+  const auto file = std::filesystem::temp_directory_path() / "articula_error_test.urdf";
   std::ofstream(file) << inertial("-0.3");
-  CHECK(refusal(file) == "urdf_error_test.urdf: link 'rod': the mass is negative (-0.3 kg)");
+  CHECK(refusal(file.string()) ==
+        file.string() + ": link 'rod': the mass is negative (-0.3 kg)");
+  std::filesystem::remove(file);
 }
 
 TEST_CASE("Text that is not XML") {
