@@ -4,7 +4,9 @@
 
 #include "articula/symbolic/vector_sine_cosine.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 namespace articula::symbolic {
@@ -66,24 +68,35 @@ requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_registe
     return made_of(-a.reals_);
   }
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) noexcept {
-    return a.each([](double x) { return std::sqrt(x); });
+    Pack root;
+    for (int lane = 0; lane < Lanes; ++lane) root.reals_[lane] = std::sqrt(a.reals_[lane]);
+    return root;
   }
   [[gnu::always_inline]] friend Pack sin(const Pack& a) noexcept { return sincos(a).sine; }
   [[gnu::always_inline]] friend Pack cos(const Pack& a) noexcept { return sincos(a).cosine; }
+  [[gnu::always_inline]] friend SineAndCosine<Pack> sincos(const Pack& a) noexcept {
+    std::array<Pack, 1> sine, cosine;
+    sincos(std::array{a}, sine, cosine);
+    return {sine[0], cosine[0]};
+  }
 
-  /// Sines and cosines [rad], within three units in the last place; NaN for angles that are not
-  /// finite. Large angles are left to <cmath>.
-  [[gnu::always_inline]] friend SineAndCosine<Pack> sincos(const Pack& angle) noexcept {
+  /// Sines and cosines of K packs of angles [rad], within three units in the last place; NaN for angles
+  /// that are not finite. If one is large all are left to <cmath>: to ask once costs less than K times.
+  template <std::size_t K>
+  [[gnu::always_inline]] friend void sincos(const std::array<Pack, K>& angle,
+                                            std::array<Pack, K>& sine,
+                                            std::array<Pack, K>& cosine) noexcept {
+    Reals sizes{};
+    for (std::size_t i = 0; i < K; ++i) sizes += detail::magnitude<Lanes>(angle[i].reals_);
     double size = 0;
-    for (int lane = 0; lane < Lanes; ++lane) size += std::abs(angle[lane]);
-    SineAndCosine<Pack> result;
+    for (int lane = 0; lane < Lanes; ++lane) size += sizes[lane];
     if (size <= detail::largest_reduced_angle) [[likely]] {
-      detail::sine_cosine_by_lane<Lanes>(angle.reals_, result.sine.reals_, result.cosine.reals_);
+      for (std::size_t i = 0; i < K; ++i) {
+        detail::sine_cosine_by_lane<Lanes>(angle[i].reals_, sine[i].reals_, cosine[i].reals_);
+      }
     } else {
-      result = {angle.each([](double x) { return std::sin(x); }),
-                angle.each([](double x) { return std::cos(x); })};
+      sincos_of_large(angle, sine, cosine);
     }
-    return result;
   }
 
  private:
@@ -94,11 +107,16 @@ requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_registe
     pack.reals_ = reals;
     return pack;
   }
-  template <class Function>
-  [[gnu::noinline, gnu::cold]] Pack each(const Function& f) const noexcept {
-    Pack result;
-    for (int lane = 0; lane < Lanes; ++lane) result.reals_[lane] = f(reals_[lane]);
-    return result;
+  template <std::size_t K>
+  [[gnu::noinline, gnu::cold]] static void sincos_of_large(const std::array<Pack, K>& angle,
+                                                           std::array<Pack, K>& sine,
+                                                           std::array<Pack, K>& cosine) noexcept {
+    for (std::size_t i = 0; i < K; ++i) {
+      for (int lane = 0; lane < Lanes; ++lane) {
+        sine[i].reals_[lane] = std::sin(angle[i][lane]);
+        cosine[i].reals_[lane] = std::cos(angle[i][lane]);
+      }
+    }
   }
 
   Reals reals_;

@@ -28,6 +28,15 @@ template <std::size_t Count, class Function>
   return lanes;
 }
 
+/// The order in which K angles go into lanes: every second one first, then the others. Neighbours in
+/// memory would be loaded as one vector; where that does not begin where the vector began as which
+/// they were stored shortly before, a processor waits for memory.
+template <std::size_t K>
+[[nodiscard]] constexpr std::size_t in_order(std::size_t i) noexcept {
+  constexpr std::size_t even = (K + 1) / 2;
+  return i < even ? 2 * i : 2 * (i - even) + 1;
+}
+
 /// Some of the angles, each in as many lanes as said, and zeros in the lanes that are left. Put
 /// together in registers: what goes through memory in parts and comes back as one waits long.
 template <int Lanes, std::size_t Begin, std::size_t Times, std::size_t K>
@@ -91,10 +100,20 @@ template <class S, std::size_t K>
     detail::for_each_index<K>([&](auto i)
                                   __attribute__((always_inline)) { size += std::abs(angle[i]); });
     if (size <= detail::largest_reduced_angle) [[likely]] {
-      detail::sine_cosine_in_lanes<0>(angle, sine, cosine);
+      std::array<double, K> ordered, s, c;
+      detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
+        ordered[i] = angle[detail::in_order<K>(i)];
+      });
+      detail::sine_cosine_in_lanes<0>(ordered, s, c);
+      detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
+        sine[detail::in_order<K>(i)] = s[i];
+        cosine[detail::in_order<K>(i)] = c[i];
+      });
     } else {
       detail::sine_cosine_of_large(angle, sine, cosine);
     }
+  } else if constexpr (requires { sincos(angle, sine, cosine); }) {
+    sincos(angle, sine, cosine);
   } else if constexpr (requires { sincos(angle[0]); }) {
     detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
       const auto [s, c] = sincos(angle[i]);

@@ -48,6 +48,13 @@ template <int Lanes>
   (std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
 }
 
+/// Absolute values.
+template <int Lanes>
+[[gnu::always_inline]] inline Reals<Lanes> magnitude(const Reals<Lanes>& x) noexcept {
+  constexpr std::int64_t all_but_the_sign = INT64_MAX;
+  return reinterpret_cast<Reals<Lanes>>(reinterpret_cast<Integers<Lanes>>(x) & all_but_the_sign);
+}
+
 /// The largest angle that is reduced right [rad].
 inline constexpr double largest_reduced_angle = 1e6;
 
