@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sixteen robots side by side, <operation>/<robot>/together, and one after the other, /one_by_one: the
-// ratio of the two is what packs gain per robot. `lanes` is how many doubles fit into a register.
+// ratio of the two is what packs gain per robot. `lanes` is how many doubles fit into a register. A single
+// robot's sines already are taken in its lanes; /plain is one by one with those of <cmath>.
 #include <articula/dynamics/forward_dynamics.hpp>
 #include <articula/dynamics/inverse_dynamics.hpp>
 #include <articula/robots/panda.hpp>
@@ -9,6 +10,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -19,16 +22,32 @@ using namespace articula;
 constexpr int robots = 16;
 
 struct Inverse {
+  using Algorithm = InverseDynamics;
   template <class R, class... Arrays>
   static auto run(const R& robot, const Arrays&... arrays) {
     return inverse_dynamics(robot, arrays...);
   }
 };
 struct Forward {
+  using Algorithm = ForwardDynamics;
   template <class R, class... Arrays>
   static auto run(const R& robot, const Arrays&... arrays) {
     return forward_dynamics(robot, arrays...);
   }
+};
+
+/// A double that the library does not know as one.
+struct Plain {
+  double x;
+  Plain() = default;
+  explicit Plain(double number) : x(number) {}
+  friend Plain operator+(Plain a, Plain b) { return Plain(a.x + b.x); }
+  friend Plain operator-(Plain a, Plain b) { return Plain(a.x - b.x); }
+  friend Plain operator*(Plain a, Plain b) { return Plain(a.x * b.x); }
+  friend Plain operator/(Plain a, Plain b) { return Plain(a.x / b.x); }
+  friend Plain operator-(Plain a) { return Plain(-a.x); }
+  friend Plain sin(Plain a) { return Plain(std::sin(a.x)); }
+  friend Plain cos(Plain a) { return Plain(std::cos(a.x)); }
 };
 
 /// Random states: positions, velocities and efforts or accelerations.
@@ -69,9 +88,32 @@ void one_by_one(benchmark::State& bench) {
   bench.counters["lanes"] = symbolic::lanes_of_a_register;
 }
 
-#define ARTICULA_PACKS(operation, Operation, robot, Robot)                                 \
-  BENCHMARK(together<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/together"); \
-  BENCHMARK(one_by_one<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/one_by_one")
+template <class Operation, class R>
+void plain(benchmark::State& bench) {
+  constexpr auto n = std::size_t{joint_count<R>};
+  const auto states = random_states<JointVector<joint_count<R>>>(64 * robots);
+  std::size_t i = 0;
+  for (auto _ : bench) {
+    for (int k = 0; k < robots; ++k) {
+      std::array<std::array<Plain, n>, 3> inputs;
+      for (std::size_t j = 0; j < 3; ++j) {
+        const auto& vector = states[i % states.size()][j];
+        for (std::size_t l = 0; l < n; ++l) {
+          inputs[j][l] = Plain(vector[static_cast<Eigen::Index>(l)]);
+        }
+      }
+      ++i;
+      const auto& [q, v, x] = inputs;
+      auto result = compiled::run<typename Operation::Algorithm, R>(q, v, x);
+      benchmark::DoNotOptimize(result);
+    }
+  }
+}
+
+#define ARTICULA_PACKS(operation, Operation, robot, Robot)                                     \
+  BENCHMARK(together<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/together");     \
+  BENCHMARK(one_by_one<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/one_by_one"); \
+  BENCHMARK(plain<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/plain")
 
 ARTICULA_PACKS(inverse, Inverse, q2d, Q2d);
 ARTICULA_PACKS(inverse, Inverse, ur10, Ur10);

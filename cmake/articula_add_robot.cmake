@@ -72,7 +72,8 @@ function(articula_add_robot name)
     DEPENDS ${urdf} ${tool}
     COMMENT "Making ${snake_case}.hpp from ${arg_URDF}"
     VERBATIM)
-  add_custom_target(${name}_header DEPENDS ${header})
+  # Part of a whole build, so that a URDF with a fault stops it even where nobody links the robot yet.
+  add_custom_target(${name}_header ALL DEPENDS ${header})
   add_library(${name} INTERFACE)
   add_dependencies(${name} ${name}_header)
   target_include_directories(${name} INTERFACE ${directory})

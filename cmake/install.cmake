@@ -38,4 +38,6 @@ install(FILES cmake/articula-recording.cmake DESTINATION ${articula_package_dir}
 # The component config.
 install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_package_dir})
 
-install(FILES LICENSE TYPE DOC)
+# What README.md links to lies beside it, as it does here.
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)
+install(DIRECTORY docs examples TYPE DOC)

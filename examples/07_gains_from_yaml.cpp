@@ -33,5 +33,5 @@ int main() try {
 }
 // pid_plus_gravity_controller at 1000 Hz, gravity -9.8 m/s^2, priority 99
 // (-1.000, 1.000) rad
-// slip:1:8: joint: robot 'q2d' has no free joint 'elbow', expected one of
+// slip:1:8: joint: robot 'q2d' has no joint 'elbow', expected one of
 // shoulder_active_joint, elbow_active_joint

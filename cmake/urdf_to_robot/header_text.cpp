@@ -142,6 +142,13 @@ std::string joint_text(const Joint& joint) {
     mimic.add("offset", joint.mimic.offset, bare.mimic.offset);
     members.add("mimic", mimic.text(member_indent + std::string_view(".mimic = ").size()));
   }
+  if (!joint.shared_rotors.joint.empty()) {
+    Members rotors;
+    rotors.add("joint", quoted(joint.shared_rotors.joint));
+    rotors.add("inertia", joint.shared_rotors.inertia, bare.shared_rotors.inertia);
+    members.add("shared_rotors",
+                rotors.text(member_indent + std::string_view(".shared_rotors = ").size()));
+  }
   return members.text(element_indent);
 }
 

@@ -63,6 +63,9 @@ std::string properties(const articula::UrdfDocument& document, const urdf::Joint
     text += ", damping " + text_of(joint.dynamics->damping) + " " + effort_unit + " s/" + unit +
             ", friction " + text_of(joint.dynamics->friction) + " " + effort_unit;
   }
+  if (!document.robot->links_.at(joint.child_link_name)->inertial) {
+    text += ", no mass in " + joint.child_link_name;
+  }
   if (joint.mimic) {
     text += ", mimics " + joint.mimic->joint_name + ": " + text_of(joint.mimic->multiplier) +
             " q + " + text_of(joint.mimic->offset);

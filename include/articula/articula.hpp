@@ -7,6 +7,7 @@
 #include "articula/control/computed_torque.hpp"
 #include "articula/control/control_toolbox_pid_law.hpp"
 #include "articula/control/drive_impedance.hpp"
+#include "articula/control/drive_spring.hpp"
 #include "articula/control/equivalent_inertia.hpp"
 #include "articula/control/forward_position.hpp"
 #include "articula/control/forward_velocity.hpp"

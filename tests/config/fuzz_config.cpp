@@ -39,6 +39,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   load([&] { static_cast<void>(PidPlusGravity<Q2d>(load_pid_gains(robot, source).gains)); });
   load([&] { static_cast<void>(load_pid_gains(robot, source, "pid_controller")); });
   load([&] { static_cast<void>(load_controller(source)); });
+  load([&] {
+    const auto some = load_pid_gains(robot, source, "", GainsOf::some_joints);
+    if (some.group.empty()) __builtin_trap();
+    validate(some.gains, joint_names(robot));
+  });
   load([&] { validate(load_trajectory_tolerances(robot, source).tolerances, robot); });
   load([&] {
     if (!(load_controller_manager(source).period() > 0)) __builtin_trap();

@@ -24,6 +24,9 @@ using Load = std::function<void(const ConfigSource&)>;
 const Load load_gains = [](const ConfigSource& source) {
   static_cast<void>(load_pid_gains(Q2d(), source));
 };
+const Load load_any = [](const ConfigSource& source) {
+  static_cast<void>(load_controller(source));
+};
 const Load load_tolerances = [](const ConfigSource& source) {
   static_cast<void>(load_trajectory_tolerances(Q2d(), source));
 };
@@ -97,7 +100,7 @@ std::vector<std::string> without(std::vector<std::string> all,
   return all;
 }
 
-const std::vector<std::string> words = {"'1'", "!!str 1", "many", "010", "0x10", "1_0", "1e999"};
+const std::vector<std::string> words = {"'1'", "!!str 1", "many", "010", "0x10", "1_0"};
 
 const std::string joints = "joints: [shoulder_active_joint, elbow_active_joint]\n";
 const std::string both = joints + "shoulder_active_joint: {p: 1}\nelbow_active_joint: {p: 1}\n";
@@ -106,9 +109,12 @@ const std::string both = joints + "shoulder_active_joint: {p: 1}\nelbow_active_j
 
 TEST_CASE("hostile values in every gain") {
   const std::string before = joints + "shoulder_active_joint: {p: 1}\nelbow_active_joint:\n  ";
-  for (const std::string key : {"p"}) check_field(load_gains, {before, key, "\n", numbers});
+  check_field(load_gains, {before, "p", "\n", not_negative});
+  for (const std::string key : {"i", "d"}) {
+    check_field(load_gains, {before, key, "\n  p: 1\n", not_negative});
+  }
   for (const std::string key :
-       {"i", "d", "ff_velocity_scale", "velocity_feedforward", "acceleration_feedforward"}) {
+       {"ff_velocity_scale", "velocity_feedforward", "acceleration_feedforward"}) {
     check_field(load_gains, {before, key, "\n  p: 1\n", numbers});
   }
   for (const std::string key :
@@ -118,22 +124,25 @@ TEST_CASE("hostile values in every gain") {
   for (const std::string key : {"position_weight", "velocity_weight", "feedforward_gain"}) {
     check_field(load_gains, {before, key, "\n  p: 1\n", {"0"}});
   }
-  for (const std::string key : {"antiwindup", "saturation", "save_i_term", "angle_wraparound",
-                                "activate_state_publisher", "publish_state"}) {
+  for (const std::string key :
+       {"antiwindup", "saturation", "save_i_term", "save_iterm", "angle_wraparound",
+        "normalize_error", "activate_state_publisher", "publish_state"}) {
     check_field(load_gains, {before, key, "\n  p: 1\n", {"true"}});
   }
   check_field(load_gains, {before, "antiwindup_strategy", "\n  p: 1\n"});
   check_field(load_gains, {before, "i_clamp", "\n  p: 1\n", without(bounds, {"-1", "-.inf"})});
-  // Alone, a bound may be anything but the infinity that leaves nothing.
-  for (const std::string key : {"i_clamp_max", "u_clamp_max"}) {
-    check_field(load_gains, {before, key, "\n  p: 1\n", without(bounds, {"-.inf"})});
-    const std::string low = key == "i_clamp_max" ? "i_clamp_min" : "u_clamp_min";
+  // 0 lies between the bounds.
+  for (const std::string clamp : {"i_clamp", "u_clamp"}) {
     check_field(load_gains,
-                {before, key, "\n  p: 1\n  " + low + ": -0.5\n", without(bounds, {"-1", "-.inf"})});
+                {before, clamp + "_max", "\n  p: 1\n", without(bounds, {"-1", "-.inf"})});
+    check_field(load_gains, {before, clamp + "_min", "\n  p: 1\n", {"-1", "0", "-.inf"}});
   }
-  for (const std::string key : {"i_clamp_min", "u_clamp_min"}) {
-    check_field(load_gains, {before, key, "\n  p: 1\n", without(bounds, {".inf"})});
-  }
+  check_field(load_gains,
+              {joints + "shoulder_active_joint: {p: 1}\nelbow_active_joint: {", "pid", "}\n"});
+  // Directly among the parameters of a controller of one joint.
+  check_field(load_any, {"joint: elbow_active_joint\np: 1\n", "i", "\n", not_negative});
+  check_field(load_any, {"joint: elbow_active_joint\n", "p", "\n", not_negative});
+  check_field(load_any, {"joint: elbow_active_joint\n", "pid", "\n"});
 }
 
 TEST_CASE("hostile values in every other parameter of a controller") {
@@ -150,15 +159,24 @@ TEST_CASE("hostile values in every other parameter of a controller") {
   check_field(load_gains, {both + "chain: {", "tip", ", root: origin_link}\n"});
   check_field(load_gains, {both, "priority", "\n", {"0"}});
   check_field(load_gains, {both, "type", "\n", words});
-  check_field(load_gains, {"gains: {shoulder_active_joint: {p: 1}, elbow_active_joint: {p: 1}}\n",
-                           "joints", "\n"});
+  const std::string gains = "gains: {shoulder_active_joint: {p: 1}, elbow_active_joint: {p: 1}}\n";
+  for (const std::string key : {"joints", "dof_names", "joint_names", "joint", "joint_name"}) {
+    check_field(load_gains, {gains, key, "\n"});
+  }
+  check_field(load_any, {joints, "gains", "\n", {"{}"}});
+  check_field(load_gains, {both, "reference_and_state_interfaces", "\n"});
+  check_field(load_gains, {both, "velocity_ff", "\n", {"{}"}});
+  check_field(load_gains, {both + "velocity_ff: {", "elbow_active_joint", "}\n", numbers});
+  check_field(load_gains, {both, "constraints", "\n", {"{}"}});
   check_field(load_gains, {joints + "Kp: [1, 1]\n", "Kd", "\n"});
   check_field(load_gains, {joints + "Kd: [1, 1]\n", "Kp", "\n"});
   check_field(load_gains, {joints + "Kd: [1, 1]\nKp: [1, {", "Kp", "}]\n"});
   for (const std::string key :
        {"allow_partial_joints_goal", "allow_integration_in_goal_trajectories",
-        "allow_nonzero_velocity_at_trajectory_end", "use_sim_time",
-        "interpolate_from_desired_state", "is_async"}) {
+        "allow_nonzero_velocity_at_trajectory_end", "use_sim_time", "is_async",
+        "interpolate_from_desired_state", "open_loop_control", "allow_trajectory_replacement",
+        "use_external_measured_states", "set_current_state_as_first_setpoint",
+        "set_last_command_interface_value_as_state_on_activation"}) {
     check_field(load_gains, {both, key, "\n", {"true"}});
   }
   check_field(load_gains, {both, "interpolation_method", "\n"});
@@ -166,8 +184,17 @@ TEST_CASE("hostile values in every other parameter of a controller") {
                                 "update_rate", "stop_trajectory_duration", "cmd_timeout"}) {
     check_field(load_gains, {both, key, "\n", not_negative});
   }
-  check_field(load_gains, {both, "command_interfaces", "\n", {"[]"}});
-  check_field(load_gains, {both, "robot_description", "\n", words});
+  for (const std::string key : {"command_interfaces", "state_interfaces", "command_joints",
+                                "reference_and_state_dof_names", "fallback_controllers"}) {
+    check_field(load_gains, {both, key, "\n", {"[]"}});
+  }
+  for (const std::string key :
+       {"robot_description", "command_interface", "interface_name", "params_file"}) {
+    check_field(load_gains, {both, key, "\n", words});
+  }
+  for (const std::string key : {"async_parameters", "speed_scaling", "positions_upsampling"}) {
+    check_field(load_gains, {both, key, "\n", {"{}", "{a: 1}"}});
+  }
 }
 
 TEST_CASE("hostile values in every constraint") {
@@ -187,13 +214,18 @@ TEST_CASE("hostile values in every parameter of the controller manager") {
   check_field(load_manager, {before, "update_rate", "\n"});
   check_field(load_manager, {before, "thread_priority", "\n", {"0"}});
   check_field(load_manager, {before, "cpu_affinity", "\n", {"-1", "0", "[]", "[1]"}});
-  for (const std::string key : {"lock_memory", "enforce_command_limits", "use_sim_time"}) {
+  for (const std::string key : {"lock_memory", "enforce_command_limits", "use_sim_time",
+                                "handle_exceptions", "shutdown_on_initial_state_failure"}) {
     check_field(load_manager, {before, key, "\n", {"true"}});
   }
-  for (const std::string key : {"diagnostics", "overruns", "defaults"}) {
+  for (const std::string key : {"diagnostics", "overruns", "defaults", "hardware_synchronization",
+                                "hardware_components_initial_state"}) {
     check_field(load_manager, {before, key, "\n", {"{}", "{a: 1}"}});
   }
+  check_field(load_manager, {before, "robot_description", "\n", words});
+  check_field(load_manager, {before, "arm", "\n"});
   check_field(load_manager, {before + "arm: {", "type", "}\n", words});
+  check_field(load_manager, {before + "arm: {type: a/B, ", "update_rate", "}\n", not_negative});
 }
 
 TEST_CASE("hostile values in every waveform") {
@@ -222,4 +254,9 @@ TEST_CASE("hostile values in every waveform") {
   }
   check_field(load_waves, {before, "joint", sine});
   check_field(load_waves, {"", "waveforms", "\n", {"[]", "{}"}});
+  const std::string waves = "waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1}}\n";
+  for (const std::string key : {"joint", "joint_name", "joints", "target"}) {
+    check_field(load_waves, {waves, key, "\n"});
+  }
+  check_field(load_waves, {waves, "type", "\n", words});
 }

@@ -170,7 +170,7 @@ TEST_CASE("the UR10 lab's pid maps, one controller for each joint, make one set 
     CHECK(gains.integral_clamp_max == PidGains::infinity);
   }
   CHECK(config.type == "effort_controllers/JointPositionController");
-  REQUIRE(config.notes.size() == 6);  // that ROS 1 has no integral without i_clamp
+  REQUIRE(config.notes.size() == 8);  // ROS 1 has no integral without i_clamp; two sections
   CHECK(config.notes[0].find(":16: ") != std::string::npos);
   CHECK(config.notes[0].find("no i_clamp is given") != std::string::npos);
 
@@ -200,7 +200,7 @@ TEST_CASE("gains of trajectory controllers, in the robot's order whatever the fi
   for (std::size_t j = 0; j < 6; ++j) CHECK(config.gains[j].proportional == proportional[j]);
   CHECK(config.gains[2].velocity_feedforward == 1);
   CHECK(config.gains[0].velocity_feedforward == 0);
-  REQUIRE(config.notes.size() == 3);
+  REQUIRE(config.notes.size() == 4);
   CHECK(std::all_of(config.notes.begin(), config.notes.end(), [](const std::string& note) {
     return note.find("not used") != std::string::npos;
   }));
@@ -220,7 +220,7 @@ TEST_CASE("every key of pid_controller means what it says") {
   CHECK(elbow.anti_windup == AntiWindup::back_calculation);
   CHECK(elbow.tracking_time == 0.02);
   CHECK(config.type == "pid_controller/PidController");  // from the controller manager
-  CHECK(config.notes.size() == 3);
+  CHECK(config.notes.size() == 4);
 }
 
 TEST_CASE("what our gains have beyond ROS's can be given, too") {

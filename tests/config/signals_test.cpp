@@ -64,6 +64,16 @@ TEST_CASE("the layouts of waveforms mean the same") {
   }
 }
 
+TEST_CASE("signals whose sum is no number are refused in the file") {
+  const std::string step = "      - {type: step, target: position, height: ";
+  const auto load = [&](const std::string& second) {
+    return load_signals(Q2d(), yaml("waveforms:\n    elbow_active_joint:\n" + step + "1e308}\n" +
+                                    step + second + "}\n"));
+  };
+  CHECK_NOTHROW(load("1e307"));
+  CHECK_THROWS_WITH(load("1e308"), Contains("elbow_active_joint") && Contains("no number"));
+}
+
 TEST_CASE("waveforms of positions, and the other shapes") {
   const std::string text =
       "waves:\n"
@@ -100,7 +110,7 @@ TEST_CASE("waveforms that cannot be are refused") {
       complaint("waveforms: {elbow_active_joint: {amplitude: 10, frequency: 1, offset: -4}}"),
       Contains("offset: an effort of 14"));
   CHECK_THAT(complaint("waveforms: {elbow: {amplitude: 1, frequency: 1}}"),
-             Contains("robot 'q2d' has no free joint 'elbow'"));
+             Contains("robot 'q2d' has no joint 'elbow'"));
   CHECK_THAT(
       complaint("waveforms: {elbow_active_joint: {type: sawtooth, amplitude: 1}}"),
       Contains("the word 'sawtooth', expected one of sine, sin, sinusoid, step, ramp, chirp"));
@@ -116,4 +126,80 @@ TEST_CASE("waveforms that cannot be are refused") {
                        "frequency: 1e5}}"),
              Contains("the acceleration is infinite"));
   CHECK_THAT(complaint("gains: {p: 1}"), Contains("the key 'waveforms' is missing"));
+  CHECK_THAT(complaint("waveforms: {elbow_active_joint: {joint: elbow_active_joint, amplitude: 1, "
+                       "frequency: 1}}"),
+             Contains("unknown key 'joint'"));
+}
+
+TEST_CASE("waveforms of one joint may not add up to more than its drive gives") {
+  const auto complaint = [](const std::string& waves) -> std::string {
+    try {
+      static_cast<void>(load_signals(Q2d(), yaml("waveforms:\n  elbow_active_joint:\n" + waves)));
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  const std::string sine = "    - {amplitude: 10, frequency: 1}\n";
+  CHECK(complaint(sine) == "none");
+  CHECK(complaint(sine + sine) ==
+        "test:4:7: waveforms.elbow_active_joint[1]: the signals on joint 'elbow_active_joint' add "
+        "up to 20 N m or N, expected at most the drive's limit, 13.62");
+  CHECK_THAT(complaint(sine + "    - {type: step, height: -4, start: 9}\n"),
+             Contains("add up to 14 "));
+  CHECK_THAT(complaint(sine + "    - {type: ramp, height: 4, duration: 2}\n"),
+             Contains("add up to 14 "));
+  CHECK_THAT(complaint(sine + "    - {type: chirp, amplitude: 4, first_frequency: 1, "
+                              "last_frequency: 2, duration: 2}\n"),
+             Contains("add up to 14 "));
+  CHECK_THAT(complaint(sine + "    - {amplitude: 1, frequency: 1, offset: -3}\n"),
+             Contains("add up to 14 "));
+  // What takes itself back does not add up, and neither does what is a position.
+  CHECK(complaint("    - {type: step, height: 13, start: 1}\n"
+                  "    - {type: step, height: -13, start: 2}\n"
+                  "    - {type: ramp, height: -13, duration: 2, start: 2}\n"
+                  "    - {type: step, height: 13, start: 5}\n"
+                  "    - {type: step, height: 13, start: 6}\n") == "none");
+  CHECK_THAT(complaint("    - {type: step, height: 13, start: 1}\n"
+                       "    - {type: step, height: 13, start: 2}\n"
+                       "    - {type: step, height: -13, start: 3}\n"),
+             Contains("add up to 26 "));
+  CHECK(complaint(sine + "    - {amplitude: 10, frequency: 1, target: position}\n") == "none");
+  CHECK(
+      complaint("    - {amplitude: 6.81, frequency: 1}\n    - {amplitude: 6.81, frequency: 2}\n") ==
+      "none");
+}
+
+TEST_CASE("a controller's type and joints may stand beside its waveforms") {
+  const std::string wave = "amplitude: 2, frequency: 0.5";
+  const auto loaded = [](const std::string& text) { return load_signals(Q2d(), yaml(text)); };
+  const SignalConfig plugin =
+      loaded("elbow_sine: {type: pr2_controller/Sine, joint: elbow_active_joint, " + wave + "}");
+  REQUIRE(plugin.signals.size() == 1);
+  CHECK(plugin.signals[0].joint.view() == "elbow_active_joint");
+  REQUIRE(plugin.notes.size() == 1);
+  CHECK_THAT(plugin.notes[0], Contains("elbow_sine.type: not used: a plugin's name"));
+
+  for (const std::string key :
+       {"joint: elbow_active_joint", "joint_name: elbow_active_joint",
+        "joints: [elbow_active_joint]", "joints: [shoulder_active_joint, elbow_active_joint]"}) {
+    INFO(key);
+    CHECK(loaded("w: {" + key + ", waveforms: {elbow_active_joint: {" + wave + "}}}")
+              .signals.size() == 1);
+  }
+  CHECK(loaded("w: {joint: elbow_active_joint, waveforms: [{" + wave + "}]}")
+            .signals[0]
+            .joint.view() == "elbow_active_joint");
+  CHECK_THROWS_WITH(loaded("w:\n  joint: shoulder_active_joint\n"
+                           "  waveforms: {elbow_active_joint: {" +
+                           wave + "}}"),
+                    Contains("test:3:35: w.waveforms.elbow_active_joint: joint "
+                             "'elbow_active_joint' is not the section's, see line 2"));
+  CHECK_THROWS_WITH(loaded("w: {joints: [elbow], waveforms: {elbow_active_joint: {" + wave + "}}}"),
+                    Contains("w.joints[0]: robot 'q2d' has no joint 'elbow'"));
+  CHECK_THROWS_WITH(
+      loaded("w: {joint: elbow_active_joint, joints: [elbow_active_joint], waveforms: "
+             "{elbow_active_joint: {" +
+             wave + "}}}"),
+      Contains("joints a second time"));
 }

@@ -361,6 +361,44 @@ TEST_CASE(
   CHECK(law.integral() == Vector(0, 0));
 }
 
+TEST_CASE("an integral that could not take back soon what was no load begins with 0") {
+  // The error that a wrong load makes is gone as exp(-t i/p).
+  PidLaw<2> law({PidGains{.proportional = 1000, .integral = 1000},
+                 PidGains{.proportional = 1000, .integral = 999}},
+                joint_names(Arm()));
+  law.start({});
+  CHECK(law.prime({}, {}, dt, Vector(5, -5)) == Vector(5, 0));
+  CHECK(law.integral() == Vector(5, 0));
+  const PidGains alone{.integral = 1e-6};  // no p that it would have to outgrow
+  PidLaw<2> slow({alone, alone}, joint_names(Arm()));
+  slow.start({});
+  CHECK(slow.prime({}, {}, dt, Vector(5, -5)) == Vector(5, -5));
+}
+
+namespace {
+
+/// A law that remembers, and cannot be primed: it asks for one more each time.
+struct Climbing {
+  double effort_now = 0;
+
+  void start(const State&) noexcept { effort_now = 0; }
+  Vector effort(const State&, const Reference&, double) noexcept {
+    return Vector::Constant(++effort_now);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("laws that are asked what they leave to an integral start as if they had not been") {
+  JointPidGains<2> gains{};
+  gains[0].integral = gains[1].integral = 10;
+  EffortController<Arm, Climbing, PidLaw<2>> sum(Arm(), {}, PidLaw<2>(gains, joint_names(Arm())));
+  sum.start({});
+  CHECK(sum.prime({}, {}, dt, Vector(5, 5)) == Vector(4, 4));
+  CHECK(sum.update({}, {}, dt).effort == Vector(5, 5));
+  CHECK(sum.update({}, {}, dt).effort == Vector(6, 6));
+}
+
 TEST_CASE("in a sum the integral takes what the other laws leave, each joint by its own law") {
   JointPidGains<2> gains{};
   gains[0].integral = gains[1].integral = 10;

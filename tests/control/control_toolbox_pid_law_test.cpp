@@ -145,11 +145,16 @@ TEST_CASE("the current law's ways against windup") {
     static_cast<void>(output(law, 0.11, 0.1));
     CHECK(law.integral()[0] > 0);
   }
-  SECTION("no tracking time can be computed, and none is needed while nothing is cut off") {
-    PidGains i_only{.integral = 3, .anti_windup = AntiWindup::back_calculation};
-    auto law = law_of(ControlToolbox::current, i_only);
-    static_cast<void>(output(law, 1, 0.5));
-    CHECK(law.integral()[0] == 1.5);
+  SECTION("conditional integration rests only where the error pushes further") {
+    g.anti_windup = AntiWindup::conditional_integration;
+    g.derivative = 100;
+    auto law = law_of(ControlToolbox::current, g);
+    JointState<1> state;
+    JointReference<1> reference;
+    reference.position[0] = -0.01;
+    reference.velocity[0] = 1;  // 100 - 0.1 is cut off, while the error asks for less
+    CHECK(law.effort(state, reference, 0.1)[0] == 1);
+    CHECK(law.integral()[0] == Approx(0.1 * 100 * -0.01).epsilon(1e-15));
   }
 }
 
@@ -199,4 +204,78 @@ TEST_CASE("its gains are checked too") {
   g.integral = support::not_a_number;
   CHECK_THROWS_WITH(law_of(ControlToolbox::current, g), Catch::Matchers::Contains("'shoulder'") &&
                                                             Catch::Matchers::Contains("integral"));
+}
+
+TEST_CASE("a velocity that is no number changes nothing but one output") {
+  for (const auto version :
+       {ControlToolbox::current, ControlToolbox::humble, ControlToolbox::humble_antiwindup,
+        ControlToolbox::noetic, ControlToolbox::noetic_antiwindup}) {
+    for (const auto way :
+         {AntiWindup::none, AntiWindup::back_calculation, AntiWindup::conditional_integration}) {
+      for (const double wrong : {support::not_a_number, support::infinity, -support::infinity}) {
+        PidGains g = course;
+        g.output_clamp_min = -30;
+        g.output_clamp_max = 30;
+        g.anti_windup = way;
+        g.derivative_of = DerivativeOf::measured_velocity;
+        auto law = law_of(version, g);
+        JointState<1> state;
+        JointReference<1> reference;
+        reference.position[0] = 1e-3;
+        static_cast<void>(law.effort(state, reference, 1e-3));
+        const double before = law.integral()[0];
+        state.velocity[0] = wrong;
+        const double output = law.effort(state, reference, 1e-3)[0];
+        CAPTURE(static_cast<int>(version), static_cast<int>(way), wrong);
+        CHECK((version == ControlToolbox::current ? std::isnan(output) : output == 0));
+        CHECK(law.integral()[0] == before);
+        state.velocity[0] = 0;
+        CHECK(is_finite(law.effort(state, reference, 1e-3)));
+      }
+    }
+  }
+}
+
+TEST_CASE(
+    "an error that is too large for numbers costs that cycle, and the next one's derivative") {
+  for (const auto version : {ControlToolbox::current, ControlToolbox::humble_antiwindup}) {
+    for (const auto way :
+         {AntiWindup::none, AntiWindup::back_calculation, AntiWindup::conditional_integration}) {
+      for (const auto derivative : {DerivativeOf::error, DerivativeOf::measured_velocity}) {
+        for (const double clamp : {27.94, support::infinity}) {
+          PidGains g = course;
+          g.integral_clamp_max = -(g.integral_clamp_min = -clamp);
+          g.output_clamp_max = -(g.output_clamp_min = -clamp);
+          g.anti_windup = way;
+          g.derivative_of = derivative;
+          auto law = law_of(version, g);
+          static_cast<void>(output(law, 0.01));
+          static_cast<void>(output(law, 1e306));
+          CHECK(is_finite(law.integral()));
+          static_cast<void>(output(law, 0.01));
+          CHECK(is_finite(output(law, 0.01)));
+          CHECK(is_finite(law.integral()));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("negative gains are taken, as control_toolbox takes them") {
+  PidGains g = course;
+  g.proportional = -2;
+  g.integral = -100;
+  g.derivative = 0;
+  for (const auto version :
+       {ControlToolbox::humble_antiwindup, ControlToolbox::noetic_antiwindup}) {
+    auto law = law_of(version, g);
+    CHECK(output(law, 0.1, 0.1) == Approx(-0.2 - 1).epsilon(1e-15));
+    for (int k = 0; k < 100; ++k) static_cast<void>(output(law, 0.1, 0.1));
+    CHECK(law.integral()[0] == Approx(-27.94).epsilon(1e-15));  // the sum's clamps change places
+    static_cast<void>(output(law, -0.1, 0.1));
+    CHECK(law.integral()[0] == Approx(-26.94).epsilon(1e-12));
+  }
+  auto current = law_of(ControlToolbox::current, g);
+  static_cast<void>(output(current, 0.1, 0.1));
+  CHECK(current.integral()[0] == Approx(-1).epsilon(1e-15));
 }

@@ -11,6 +11,7 @@
 #include <articula/robots/q2d.hpp>
 
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -36,6 +37,7 @@ const Name shoulder = "shoulder_active_joint", elbow = "elbow_active_joint";
 template <int N>
 struct Counter {
   int starts = 0, updates = 0, told = 0;
+  bool has_failed = false;
   double period = 0, bad = 0;
   JointReference<N> reference{};
   JointVector<N> excess = JointVector<N>::Zero();
@@ -51,6 +53,18 @@ struct Counter {
   void limited(const JointVector<N>& cut_off) noexcept {
     ++told;
     excess = cut_off;
+  }
+  [[nodiscard]] bool failed() const noexcept { return has_failed; }
+};
+
+/// Asks for nothing, or for what is no number.
+template <class R>
+struct Faltering {
+  double bad = 0;
+
+  void start(const JointState<2>&) noexcept {}
+  EffortCommand<2> update(const JointState<2>&, const JointReference<2>&, double) noexcept {
+    return {Vector::Constant(bad)};
   }
 };
 
@@ -115,15 +129,93 @@ TEST_CASE("a group is told what was cut off on its joints, when it has been aske
   CHECK(groups.member<1>().excess == Vector(0, 2));
 }
 
-TEST_CASE("a command that is not finite is not held: the controller is asked again") {
-  Counters groups = counters(5, 5);
+TEST_CASE("a group that fails gets the safe command, the others go on, and it is told") {
+  for (const bool says_so : {false, true}) {
+    CAPTURE(says_so);
+    Counters groups = counters(1, 5);
+    JointState<2> state;
+    state.position = {0.3, -0.7};
+    const double safe = gravity(Arm(), state.position)[1];
+    REQUIRE(std::abs(safe) > 0.1);
+    const auto fails = [&](bool now) {
+      groups.member<1>().bad = now && !says_so ? not_a_number : 0;
+      groups.member<1>().has_failed = now && says_so;
+    };
+    groups.start(state);
+    for (int k = 1; k <= 5; ++k) {
+      CHECK(groups.update(state, {}, dt).effort == Vector(k, 1));
+      CHECK_FALSE(groups.failed());
+    }
+    fails(true);
+    for (int k = 6; k <= 8; ++k) {
+      CHECK(groups.update(state, {}, dt).effort == Vector(k, safe));
+      CHECK(groups.failed());
+      CHECK(groups.status_of(0) == ControllerStatus::active);
+      CHECK(groups.status_of(1) == ControllerStatus::failed);
+      // It is asked in every cycle now, each time with the time since the last one.
+      CHECK(groups.member<1>().updates == k - 4);
+      CHECK(groups.member<1>().period == (k == 6 ? 5 : 1) * dt);
+      groups.limited(Vector(1, 1));
+      CHECK(groups.member<1>().told == 0);  // the safe command was not its own
+    }
+    fails(false);
+    for (int k = 9; k <= 13; ++k) {
+      CHECK(groups.update(state, {}, dt).effort == Vector(k, 5));
+      CHECK_FALSE(groups.failed());
+      CHECK(groups.member<1>().period == dt);
+    }
+    CHECK(groups.update(state, {}, dt).effort == Vector(14, 6));
+    CHECK(groups.member<1>().period == 5 * dt);
+
+    fails(true);
+    for (int k = 0; k < 5; ++k) static_cast<void>(groups.update(state, {}, dt));
+    CHECK(groups.failed());
+    groups.start(state);
+    CHECK_FALSE(groups.failed());
+    CHECK(groups.update(state, {}, dt).effort[1] == safe);
+    CHECK(groups.member<1>().period == 5 * dt);
+  }
+}
+
+TEST_CASE("where state or reference are to blame there is no command, and no group has failed") {
+  Counters groups = counters(1, 1);
   groups.start({});
-  groups.member<1>().bad = not_a_number;
-  CHECK_FALSE(is_finite(groups.update({}, {}, dt)));
-  CHECK_FALSE(is_finite(groups.update({}, {}, dt)));
-  groups.member<1>().bad = 0;
-  CHECK(groups.update({}, {}, dt).effort == Vector(1, 3));
-  CHECK(groups.update({}, {}, dt).effort == Vector(1, 3));
+  JointState<2> state;
+  state.velocity[0] = not_a_number;
+  groups.member<0>().bad = not_a_number;
+  CHECK_FALSE(is_finite(groups.update(state, {}, dt)));
+  JointReference<2> reference;
+  reference.velocity[0] = not_a_number;
+  CHECK_FALSE(is_finite(groups.update({}, reference, dt)));
+  CHECK_FALSE(groups.failed());
+  groups.member<0>().bad = 0;
+  CHECK(groups.update({}, {}, dt).effort == Vector(3, 3));
+}
+
+TEST_CASE("a limited controller brakes its group, and a switch in one goes on from what was safe") {
+  using Parts = Groups<Arm, Limited<Arm, Faltering>, Switch<Arm, Faltering<Arm>>>;
+  CommandLimits<2> limits = command_limits(Arm());
+  limits.acceleration = {20, 40};
+  using Alone = Limited<Arm, Faltering>;
+  Parts parts({{{"s", {shoulder}}, {"e", {elbow}}}}, Alone(limits), Switch<Arm, Faltering<Arm>>());
+  Alone alone(limits);
+  JointState<2> state;
+  state.position = {0.5, -0.4};
+  state.velocity = {1, -1};
+  const double weight = gravity(Arm(), state.position)[1];
+  parts.start(state);
+  alone.start(state);
+  parts.member<0>().controller().bad = alone.controller().bad = not_a_number;
+  parts.member<1>().member<0>().bad = not_a_number;
+  for (int k = 0; k < 3; ++k) {
+    const Vector braking = alone.update(state, {}, dt).effort;
+    CHECK((parts.update(state, {}, dt).effort - Vector(braking[0], weight)).norm() < 1e-12);
+    CHECK(parts.status_of(0) == ControllerStatus::failed);
+    CHECK(parts.status_of(1) == ControllerStatus::failed);
+  }
+  parts.member<1>().member<0>() = {};
+  CHECK(std::abs(parts.update(state, {}, dt).effort[1] - weight) < 1e-12);
+  CHECK(parts.status_of(1) == ControllerStatus::active);
 }
 
 TEST_CASE("joints in two groups, in none, or unknown are refused by name") {

@@ -104,7 +104,19 @@ TEST_CASE(
   CHECK(pid.update(g, error_of(7), 0.5) == 0);
   CHECK(pid.update(g, error_of(8), 0.5) == 6);
   CHECK(pid.update(g, error_of(8), 0.5) == 0);
-  CHECK(pid.update(g, error_of(9), 0) == 0);  // a period of 0 says nothing
+}
+
+TEST_CASE("in a period of 0 the integral stays, and the derivative that is made of differences") {
+  const PidGains g{.integral = 7, .derivative = 1, .derivative_of = DerivativeOf::error};
+  JointPid pid;
+  for (int k = 0; k < 3; ++k) static_cast<void>(pid.update(g, error_of(0.01 * k), 0.01));
+  const double integral = pid.integral();
+  CHECK(pid.update(g, error_of(0.03), 0) == Approx(1 + integral).epsilon(rounding));
+  CHECK(pid.integral() == integral);
+  // What has changed since the last cycle that took time.
+  CHECK(pid.update(g, error_of(0.03), 0.01) - pid.integral() == Approx(1).epsilon(1e-12));
+  pid.start();
+  CHECK(pid.update(g, error_of(5), 0) == 0);  // nothing is left of it
 }
 
 TEST_CASE("the filter of the derivative is a low-pass of first order in backward Euler") {
@@ -194,7 +206,23 @@ TEST_CASE("the derivative of a continuous joint's error has no jump where the wa
   }
 }
 
-TEST_CASE("a PID of the velocity derives its error, whatever the gains say") {
+TEST_CASE("a PID of the velocity has no kick when its reference steps, unless it is asked for") {
+  for (const auto of : {DerivativeOf::measured_velocity, DerivativeOf::error}) {
+    PidLaw<1, PidOf::velocity> law(
+        {PidGains{.proportional = 10, .derivative = 0.25, .derivative_of = of}}, {"joint"});
+    JointState<1> state;
+    JointReference<1> reference;
+    static_cast<void>(law.effort(state, reference, 0.5));
+    reference.velocity[0] = 1;
+    const double kick = of == DerivativeOf::error ? 0.5 : 0;
+    CHECK(law.effort(state, reference, 0.5)[0] == 10 + kick);
+    CHECK(law.effort(state, reference, 0.5)[0] == 10);
+    state.velocity[0] = 0.5;  // and damping in both
+    CHECK(law.effort(state, reference, 0.5)[0] == 5 - 0.25);
+  }
+}
+
+TEST_CASE("a PID of the velocity derives its variable by differences") {
   PidLaw<1, PidOf::velocity> law({PidGains{.proportional = 2, .integral = 3, .derivative = 0.5}},
                                  {"joint"});
   JointState<1> state;
@@ -275,7 +303,7 @@ TEST_CASE("hostile inputs leave nothing behind, whatever the gains") {
                      .position_weight = random.one_in(2) ? 1.0 : 0.3,
                      .velocity_weight = random.one_in(2) ? 1.0 : 0.0};
     JointPid pid;
-    pid.start(g);
+    pid.start();
     static_cast<void>(pid.update(g, error_of(0.1), 1e-3));
     PidInput wild = error_of(0.1);
     double* const members[] = {&wild.error, &wild.measured, &wild.rate_error};
@@ -297,8 +325,8 @@ TEST_CASE("a second start is like the first, whatever was before") {
   g.velocity_weight = 0.25;
   JointPid first, second;
   for (int k = 0; k < 5; ++k) static_cast<void>(second.update(g, error_of(0.3 * k), 1e-3));
-  first.start(g);
-  second.start(g);
+  first.start();
+  second.start();
   for (int k = 0; k < 5; ++k) {
     const PidInput input{.error = 1 - 0.1 * k, .measured = 2 + 0.1 * k};
     CHECK(second.update(g, input, 1e-3) == first.update(g, input, 1e-3));
@@ -319,4 +347,36 @@ TEST_CASE("an excess that overflowed takes the last step back, whatever the anti
       CHECK(pid.integral() == before);
     }
   }
+}
+
+TEST_CASE("new clamps of the integral take force in the next cycle, also where it rests") {
+  for (const double error : {0.005, 0.0}) {
+    CAPTURE(error);
+    const JointNames<1> names{"joint"};
+    PidGains g{.integral = 100, .error_deadband = error};
+    PidLaw<1> law({g}, names);
+    JointReference<1> reference;
+    reference.position[0] = 1;
+    static_cast<void>(law.effort({}, reference, 0.2));
+    CHECK(law.integral()[0] == 20);
+    g.integral_clamp_max = 5;
+    law.set_gains({{g}, names});
+    reference.position[0] = error;
+    CHECK(law.effort({}, reference, 0.2)[0] == 5);
+    law.limited(JointVector<1>(-1.0));  // behind the other limit: what the clamp took is no step
+    CHECK(law.integral()[0] == 5);
+  }
+}
+
+TEST_CASE("an integral whose gain becomes 0 stays as a constant until the start") {
+  const JointNames<1> names{"joint"};
+  PidLaw<1> law({PidGains{.integral = 2}}, names);
+  JointReference<1> reference;
+  reference.position[0] = 1;
+  static_cast<void>(law.effort({}, reference, 0.5));
+  law.set_gains({{PidGains{}}, names});
+  reference.position[0] = -1;
+  for (int k = 0; k < 10; ++k) CHECK(law.effort({}, reference, 0.5)[0] == 1);
+  law.start({});
+  CHECK(law.effort({}, reference, 0.5)[0] == 0);
 }

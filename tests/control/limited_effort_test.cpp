@@ -30,6 +30,18 @@ using LimitedPid = Limited<R, PidPlusGravity>;
 template <class R>
 using LimitedImpedance = Limited<R, DriveImpedance>;
 
+/// Springs and dampers as a test wants them.
+template <class R>
+struct AnySprings {
+  MultiModeCommand<joint_count<R>> command{};
+  void start(const JointState<joint_count<R>>&) noexcept {}
+  [[nodiscard]] MultiModeCommand<joint_count<R>> update(const JointState<joint_count<R>>&,
+                                                        const JointReference<joint_count<R>>&,
+                                                        double) noexcept {
+    return command;
+  }
+};
+
 constexpr double dt = 1e-3;
 
 /// A random robot with drives that can give the accelerations A anywhere within the limits.
@@ -245,6 +257,36 @@ TEST_CASE("efforts change no faster than asked for") {
   }
 }
 
+TEST_CASE("where efforts change slowly, a jerk that they can follow lets joints brake in time") {
+  for (const bool jerk : {false, true}) {
+    const Model<1> robot = support::slider();  // 2 kg
+    CommandLimits<1> limits;
+    limits.upper[0] = 1;
+    limits.velocity[0] = 1;
+    limits.acceleration[0] = 10;
+    limits.effort[0] = 100;
+    limits.effort_rate[0] = 1000;
+    if (jerk) limits.jerk[0] = 1000.0 / 2;
+    Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+    Simulator<Model<1>> simulator(robot);
+    JointState<1> state;
+    JointReference<1> reference;
+    reference.effort[0] = 100;
+    static_cast<void>(simulator.read(state));
+    controller.start(state);
+    double furthest = 0;
+    for (int k = 0; k < 4000; ++k) {
+      static_cast<void>(simulator.read(state));
+      furthest = std::max(furthest, state.position[0]);
+      static_cast<void>(simulator.write(controller.update(state, reference, dt)));
+    }
+    CAPTURE(jerk, furthest);
+    if (jerk) CHECK(furthest <= 1 + 1e-9);
+    if (!jerk) CHECK(furthest > 1.001);  // as stated
+    CHECK(state.position[0] > 0.99);
+  }
+}
+
 TEST_CASE("the integral of a limited PID does not wind up") {
   CommandLimits<2> limits = command_limits(Q2d());
   limits.lower.setConstant(-0.5);
@@ -351,5 +393,47 @@ TEST_CASE("multi-mode: what is within the limits passes, what is no number brake
   c = controller.update(state, reference, dt);
   CHECK(is_finite(c));
   CHECK(c.stiffness == JointVector<2>(0, 0));
+  CHECK(controller.report()[0].non_finite);
+}
+
+TEST_CASE("multi-mode: a negative spring or damper does not pass, and is reported") {
+  const Model<1> robot = support::slider();
+  CommandLimits<1> limits;
+  limits.acceleration[0] = 1000;
+  limits.effort[0] = 100;
+  for (const double position : {1.0, 0.0}) {  // also where it pulls nothing
+    for (const bool spring : {true, false}) {
+      CAPTURE(position, spring);
+      Limited<Model<1>, AnySprings> controller(limits, {}, robot);
+      MultiModeCommand<1>& asked = controller.controller().command;
+      asked.stiffness[0] = spring ? -10 : 10;
+      asked.damping[0] = spring ? 1 : -1;
+      asked.position[0] = asked.velocity[0] = position;
+      controller.start({});
+      const MultiModeCommand<1> given = controller.update({}, {}, dt);
+      CHECK(given.stiffness[0] == (spring ? 0 : 10));
+      CHECK(given.damping[0] == (spring ? 1 : 0));
+      const JointLimitReport& report = controller.report()[0];
+      CHECK(report.stiffness == spring);
+      CHECK(report.damping == !spring);
+      CHECK(report.any());
+      asked.stiffness[0] = asked.damping[0] = 0;
+      static_cast<void>(controller.update({}, {}, dt));
+      CHECK_FALSE(controller.report()[0].any());
+    }
+  }
+}
+
+TEST_CASE("a state that is no number is reported, also where no effort was asked for") {
+  const Model<1> robot = support::slider();
+  CommandLimits<1> limits;
+  limits.acceleration[0] = 10;
+  Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+  JointState<1> state;
+  controller.start(state);
+  static_cast<void>(controller.update(state, {}, dt));
+  CHECK_FALSE(controller.report()[0].any());
+  state.velocity[0] = not_a_number;
+  CHECK(controller.update(state, {}, dt).effort[0] == 0);
   CHECK(controller.report()[0].non_finite);
 }

@@ -235,6 +235,9 @@ TEST_CASE("the report says which limit it was") {
   limits.soft_upper[0] = 0.5;
   limits.soft_rate[0] = 10;
   CHECK(report_of(1).soft_position);
+  limits.soft_rate[0] = infinity;
+  CHECK(report_of(1).soft_position);
+  CHECK_FALSE(report_of(1).position);
   CHECK(report_of(not_a_number).non_finite);
   CHECK_FALSE(report_of(not_a_number).position);
 }
@@ -255,6 +258,52 @@ TEST_CASE("a soft limit is approached with a speed proportional to the distance"
   CHECK(q == Approx(0.5).margin(0.5 * std::exp(-5)));
   q = controller.update(at(q), to_position(-2), dt).position[0];  // and back without delay
   CHECK(q == -2);
+}
+
+TEST_CASE("a joint brakes in time for its soft limit, and rests there") {
+  constexpr unsigned seed = 13;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 100; ++k) {
+    CommandLimits<1> limits = random_limits(random);
+    limits.soft_lower[0] = limits.lower[0] / 2;
+    limits.soft_upper[0] = limits.upper[0] / 2;
+    if (random.one_in(2)) limits.soft_rate[0] = std::pow(10, random.number(0, 4));
+    CAPTURE(k, limits.velocity[0], limits.acceleration[0], limits.jerk[0], limits.soft_rate[0]);
+    Positions controller = positions_within(limits);
+    Watch watch{limits};
+    controller.start(at(0));
+    const double side = random.one_in(2) ? 1 : -1;
+    const double end = side > 0 ? limits.soft_upper[0] : limits.soft_lower[0];
+    for (int cycle = 0; cycle < 30000; ++cycle) {
+      REQUIRE(watch.follow(controller.update(at(watch.q), to_position(2 * end), dt).position[0]));
+      REQUIRE(watch.q * side <= end * side + 1e-12);  // rounding
+    }
+    CHECK(watch.q == Approx(end).margin(1e-6));
+    CHECK(controller.report()[0].soft_position);
+    CHECK_FALSE(controller.report()[0].position);
+    for (int cycle = 0; cycle < 30000 && watch.q * side > 0; ++cycle) {  // the way back is open
+      REQUIRE(watch.follow(controller.update(at(watch.q), to_position(0), dt).position[0]));
+    }
+    CHECK(watch.q * side <= 0);
+  }
+}
+
+TEST_CASE("however high its rate, a soft limit is reached in a cycle and not passed") {
+  for (const double rate : {1e3, 5e3, 1e300, infinity}) {
+    CAPTURE(rate);
+    CommandLimits<1> limits;
+    limits.upper[0] = 1;
+    limits.soft_upper[0] = 0.5;
+    limits.soft_rate[0] = rate;
+    Positions controller = positions_within(limits);
+    controller.start(at(0));
+    for (int k = 0; k < 3; ++k) {
+      const double q = controller.update(at(0), to_position(2), dt).position[0];
+      REQUIRE(q == Approx(0.5).epsilon(1e-12));
+      REQUIRE(controller.report()[0].soft_position);
+    }
+  }
 }
 
 TEST_CASE("a joint that begins beyond its limits may come back, and go no further") {
@@ -358,6 +407,15 @@ TEST_CASE("numbers that are none never pass, and the joint brakes within its lim
   }
 }
 
+TEST_CASE("a wrong measurement is reported, also where nothing was asked for") {
+  Velocities velocities = velocities_within({});
+  velocities.start(at(0));
+  static_cast<void>(velocities.update(at(0), to_velocity(0), dt));
+  CHECK_FALSE(velocities.report()[0].any());
+  CHECK(velocities.update(at(not_a_number), to_velocity(0), dt).velocity[0] == 0);
+  CHECK(velocities.report()[0].non_finite);
+}
+
 TEST_CASE("before any position is known there is no position to command") {
   Positions positions = positions_within({});
   positions.start(at(not_a_number));
@@ -436,4 +494,17 @@ TEST_CASE("limits that make no sense are refused, naming joint, limit and value"
   CHECK_THROWS_WITH(Positions(limits, ForwardPosition<Slider>(robot), robot),
                     Catch::Matchers::Contains("deceleration 2 is above the limit 1"));
   CHECK_NOTHROW(Limited<Q2d, ForwardPosition>());  // the description's
+
+  // Soft limits that are all beyond the others leave no way.
+  for (const double side : {1.0, -1.0}) {
+    limits = command_limits(robot);
+    limits.soft_lower[0] = std::min(side * 5, side * 6);
+    limits.soft_upper[0] = std::max(side * 5, side * 6);
+    CHECK_THROWS_WITH(Positions(limits, ForwardPosition<Slider>(robot), robot),
+                      Catch::Matchers::Contains("'joint'") &&
+                          Catch::Matchers::Contains(side > 0 ? "soft_lower 5" : "soft_upper -5") &&
+                          Catch::Matchers::Contains("-1 .. 1"));
+    (side > 0 ? limits.soft_lower : limits.soft_upper)[0] = side * 1;
+    CHECK_NOTHROW(Positions(limits, ForwardPosition<Slider>(robot), robot));
+  }
 }

@@ -35,11 +35,18 @@ const std::vector<BadGain> bad_gains{
     {&PidGains::derivative, not_a_number, "derivative", "nan"},
     {&PidGains::derivative, infinity, "derivative", "inf"},
     {&PidGains::derivative, -infinity, "derivative", "-inf"},
+    {&PidGains::proportional, -1500, "proportional", "-1500"},
+    {&PidGains::integral, -1e-9, "integral ", "-1e-09"},
+    {&PidGains::derivative, -0.5, "derivative", "-0.5"},
     {&PidGains::integral_clamp_min, not_a_number, "integral_clamp_min", "nan"},
     {&PidGains::integral_clamp_max, not_a_number, "integral_clamp_max", "nan"},
-    {&PidGains::integral_clamp_min, 14, "integral_clamp_min", "14"},       // above the max, 13.62
-    {&PidGains::integral_clamp_max, -14.5, "integral_clamp_max", "-14.5"}  // below the min
-};
+    {&PidGains::integral_clamp_min, 14, "integral_clamp_min", "14"},        // above the max, 13.62
+    {&PidGains::integral_clamp_max, -14.5, "integral_clamp_max", "-14.5"},  // below the min
+    // A sign forgotten: in order, but a full effort at rest.
+    {&PidGains::integral_clamp_min, 13.62, "integral_clamp_min", "13.62"},
+    {&PidGains::integral_clamp_max, -1e-9, "integral_clamp_max", "-1e-09"},
+    {&PidGains::output_clamp_min, 1, "output_clamp_min", "1"},
+    {&PidGains::output_clamp_max, -1, "output_clamp_max", "-1"}};
 
 template <class Controller>
 void refuses(const JointPidGains<2>& gains, const BadGain& bad) {
@@ -69,8 +76,19 @@ TEST_CASE("the message names the first bad joint") {
 
 TEST_CASE("gains that look odd but work are accepted") {
   CHECK_NOTHROW(Pid<Q2d>({PidGains{}, PidGains{}}));  // clamps at -inf, inf: none
-  CHECK_NOTHROW(Pid<Q2d>({PidGains{.proportional = -1, .integral_clamp_max = 0},
-                          PidGains{.integral_clamp_min = 3, .integral_clamp_max = 3}}));
+  CHECK_NOTHROW(Pid<Q2d>({PidGains{.proportional = 0.0, .integral_clamp_max = 0},
+                          PidGains{.integral_clamp_min = 0, .integral_clamp_max = 0}}));
+}
+
+TEST_CASE("back-calculation without a time to compute is refused where it has an integral") {
+  PidGains alone{.integral = 5, .anti_windup = AntiWindup::back_calculation};
+  CHECK_THROWS_WITH(Pid<Q2d>({alone, PidGains{}}),
+                    Contains("'shoulder_active_joint'") && Contains("tracking_time"));
+  PidGains told = alone;
+  told.tracking_time = 0.1;
+  CHECK_NOTHROW(Pid<Q2d>({told, PidGains{}}));
+  alone.integral = 0;
+  CHECK_NOTHROW(Pid<Q2d>({alone, PidGains{}}));
 }
 
 // The integral lies between its clamps, so it would be infinite from the first cycle on.

@@ -73,6 +73,15 @@ TEST_CASE("settling time counts from the step, not from time 0") {
   CHECK(metrics.rise_time().value() == Approx(0.8));
 }
 
+TEST_CASE(
+    "a response that comes into the band from above settles where it crosses the upper edge") {
+  StepMetrics metrics(0, 1);
+  metrics.add(0, 0);
+  metrics.add(1, 1.5);
+  metrics.add(2, 1);
+  CHECK(metrics.settling_time().value() == Approx(1.96));  // at 1.02
+}
+
 TEST_CASE("a response that leaves the band again has not settled") {
   StepMetrics metrics(0, 1);
   for (double share : {0.0, 1.0, 1.0, 1.5}) metrics.add(share, share);

@@ -174,7 +174,10 @@ TEST_CASE("a request is answered, and done with the next update") {
        {A::done, A::unknown_name, A::already_active, A::not_active, A::occupied}) {
     CHECK_FALSE(to_string(answer).empty());
   }
-  CHECK_THROWS_AS((ControllerNames{"1", "2", "3", "4", "5", "6", "7", "8", "9"}),
+  const auto names = [](auto... k) { return ControllerNames{std::to_string(k)...}; };
+  const ControllerNames most = names(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16);
+  CHECK(most.end() - most.begin() == ControllerNames::capacity);
+  CHECK_THROWS_AS(names(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17),
                   std::length_error);
 }
 
@@ -246,7 +249,15 @@ TEST_CASE("with nothing active the command is the safe one that is declared") {
   controllers.start(state);
   const Vector damping = damping_effort(TiltedQ2d(), state.position, state.velocity, 0.2);
   CHECK(controllers.update(state, {}, dt).effort == damping);
+  // A decay within less than two periods would shake: it is that of two periods.
+  const Vector slow = damping_effort(TiltedQ2d(), state.position, state.velocity, 0.5);
+  REQUIRE((slow - damping).norm() > 1e-3);
+  controllers.start(state);
+  CHECK(controllers.update(state, {}, 0.25).effort == slow);
+  controllers.start(state);
+  CHECK(controllers.update(state, {}, 0.1).effort == damping);
   state.velocity = {1e9, -1e9};  // more than the drives can do
+  controllers.start(state);
   CHECK(controllers.update(state, {}, dt).effort.cwiseAbs() == Vector(27.94, 13.62));
   state.velocity.setConstant(not_a_number);
   CHECK(controllers.update(state, {}, dt).effort == Vector(0, 0));
@@ -334,6 +345,97 @@ TEST_CASE("without a fallback a failure is passed on, and what is good again goe
     CHECK((controllers.update(state, {}, dt).effort - weight).norm() < 1e-12);  // rounding
     CHECK(controllers.list()[0].status == ControllerStatus::active);
     CHECK(settled(controllers, state) == Vector(1, 1));
+  }
+}
+
+namespace {
+
+/// A Moody of a robot, for a Limited one.
+template <class>
+struct MoodyOf : Moody {};
+using CarefulMoody = Limited<TiltedQ2d, MoodyOf>;
+template <class R>
+using OfMoody = Switch<R, Moody>;
+
+CommandLimits<2> careful_limits() {
+  CommandLimits<2> limits = command_limits(TiltedQ2d());
+  limits.acceleration = {20, 40};
+  return limits;
+}
+
+}  // namespace
+
+TEST_CASE("a fallback takes over from a limited controller that fails, though that one brakes") {
+  for (const bool says_so : {false, true}) {
+    CAPTURE(says_so);
+    using C = Switch<TiltedQ2d, CarefulMoody, Moody>;
+    C controllers({.names = {"a", "b"}, .fallbacks = {{"a", {"b"}}}},
+                  CarefulMoody(careful_limits()), Moody{2});
+    controllers.start({});
+    static_cast<void>(controllers.update({}, {}, dt));
+    CHECK_FALSE(controllers.member<0>().failed());
+    controllers.member<0>().controller().effort = says_so ? 1 : not_a_number;
+    controllers.member<0>().controller().has_failed = says_so;
+    // Not where state or reference are to blame.
+    JointReference<2> bad;
+    bad.effort[0] = not_a_number;
+    static_cast<void>(controllers.update({}, bad, dt));
+    CHECK(controllers.active() == "a");
+    CHECK(is_finite(controllers.update({}, {}, dt)));
+    CHECK(controllers.active() == "b");
+    CHECK(controllers.status_of(0) == ControllerStatus::failed);
+    CHECK_FALSE(controllers.failed());
+    CHECK(settled(controllers) == Vector(2, 2));
+  }
+}
+
+TEST_CASE("without a fallback the limited controller brakes, and that is told") {
+  using C = Switch<TiltedQ2d, CarefulMoody, Moody>;
+  // A fallback that fails as well must not be in the way of braking.
+  C controllers({.names = {"a", "b"}, .fallbacks = {{"a", {"b"}}}}, CarefulMoody(careful_limits()),
+                Moody{not_a_number});
+  CarefulMoody alone(careful_limits());
+  JointState<2> state;
+  state.velocity = {1, -1};
+  controllers.start(state);
+  alone.start(state);
+  controllers.member<0>().controller().effort = alone.controller().effort = not_a_number;
+  for (int k = 0; k < 5; ++k) {
+    const Vector braking = alone.update(state, {}, dt).effort;
+    REQUIRE(braking.cwiseAbs().minCoeff() > 0.1);
+    CHECK(controllers.update(state, {}, dt).effort == braking);
+    CHECK(controllers.failed());
+    state.velocity *= 0.9;
+  }
+  controllers.member<0>().controller().effort = 0;
+  static_cast<void>(controllers.update(state, {}, dt));
+  CHECK_FALSE(controllers.failed());
+}
+
+TEST_CASE("limits around a switch: what is good again goes on from the effort that braked") {
+  for (const bool says_so : {false, true}) {
+    CAPTURE(says_so);
+    using One = Limited<TiltedQ2d, OfMoody>;
+    One controllers(careful_limits());
+    auto& member = controllers.controller().member<0>();
+    JointState<2> state;
+    state.velocity = {1, -1};
+    controllers.start(state);
+    member.effort = -1;
+    for (int k = 0; k < 5; ++k) static_cast<void>(controllers.update(state, {}, dt));
+    member.effort = says_so ? -1 : not_a_number;
+    member.has_failed = says_so;
+    Vector braking;
+    for (int k = 0; k < 5; ++k) braking = controllers.update(state, {}, dt).effort;
+    CHECK(controllers.failed());
+    member = {-1};
+    const Vector own = Vector::Constant(-1);
+    REQUIRE((braking - own).cwiseAbs().minCoeff() > 1);  // else there were nothing to jump
+    CHECK((controllers.update(state, {}, dt).effort - braking).norm() < 1e-12);
+    CHECK_FALSE(controllers.failed());
+    const Vector step = controllers.controller().slew() * dt;
+    const Vector next = controllers.update(state, {}, dt).effort;
+    CHECK(((next - braking).cwiseAbs() - step).maxCoeff() < 1e-12);
   }
 }
 

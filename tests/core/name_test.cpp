@@ -3,6 +3,7 @@
 
 #include <articula/core/name.hpp>
 
+#include <sstream>
 #include <string>
 
 using namespace articula;
@@ -28,6 +29,24 @@ TEST_CASE("a name gives back its text") {
   CHECK(Name("elbow_active_joint").view() == "elbow_active_joint");
   CHECK(std::string_view(Name(std::string("elbow"))) == "elbow");
   CHECK(Name(std::string_view("elbow").substr(0, 3)).view() == "elb");
+}
+
+TEST_CASE("a text of any kind is a name where one is asked for") {
+  const auto length = [](const Name& name) { return name.view().size(); };
+  const std::string text = "elbow";
+  CHECK(length(text) == 5);
+  CHECK(length(std::string_view(text)) == 5);
+  CHECK(length("elbow") == 5);
+  const std::initializer_list<Name> names{text, "shoulder", text.substr(1)};
+  CHECK(names.begin()[2] == "lbow");
+}
+
+TEST_CASE("a name is printed as its text") {
+  std::ostringstream out;
+  out << std::left;
+  out.width(6);
+  out << Name("elbow") << '|' << Name() << '|' << Name("knee");
+  CHECK(out.str() == "elbow ||knee");
 }
 
 TEST_CASE("a name holds 63 characters and refuses more, saying which") {

@@ -2,11 +2,15 @@
 // The inertia of the drives' rotors, as the joints feel it, in all equations of motion.
 #include "articula/dynamics/dynamics.hpp"
 
+#include "articula/hardware/four_bar_transmission.hpp"
 #include "articula/robots/q2d.hpp"
 #include "catch.hpp"
 #include "random_robots.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 using namespace articula;
 
@@ -29,6 +33,19 @@ struct LevelGearedQ2d {
     auto geared = GearedQ2d::description;
     geared.gravity = Q2d::description.gravity;
     return geared;
+  }();
+};
+
+/// The Q2D behind a four-bar transmission of 50 and 40 with rotors of 4e-5 and 2e-5 kg m^2: A^T diag(J) A
+/// with A = {50, 0; 40, 40}.
+struct FourBarQ2d {
+  static constexpr auto description = [] {
+    auto driven = Q2d::description;
+    driven.name = "four_bar_q2d";
+    driven.joints[1].reflected_inertia = 0.132;
+    driven.joints[3].reflected_inertia = 0.032;
+    driven.joints[3].shared_rotors = {"shoulder_active_joint", 0.032};
+    return driven;
   }();
 };
 
@@ -120,6 +137,62 @@ TEST_CASE("the rotors of mimic joints are felt by the square of their multiplier
     CHECK((forward_dynamics(geared, q, v, effort) - a).norm() < 1e-8);
     CHECK(kinetic_energy(geared, q, v) == Approx(v.dot(m * v) / 2).epsilon(1e-12));
   }
+}
+
+TEST_CASE("rotors that two joints share stand off the diagonal, also between branches") {
+  constexpr unsigned seed = 7;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int robot = 0; robot < 100; ++robot) {
+    CAPTURE(robot);
+    support::Blueprint blueprint = support::random_robot(random, 5, support::Shape::tree, 2);
+    const Model<3, 5> without = blueprint.model<3, 5>();
+    std::vector<Joint*> free;
+    for (Joint& joint : blueprint.joints) {
+      if (joint.type != JointType::fixed && joint.mimic.joint.empty()) free.push_back(&joint);
+    }
+    REQUIRE(free.size() == 3);
+    std::shuffle(free.begin(), free.end(), std::minstd_rand(static_cast<unsigned>(robot)));
+    // One rotor for both joints in every third robot: the rotors' matrix is singular then.
+    const double n = random.number(-2, 2), m = random.number(0.5, 2), own = random.integer(0, 2);
+    free[0]->reflected_inertia = n * n + own;
+    free[1]->reflected_inertia = m * m + own;
+    free[0]->shared_rotors = {free[1]->name, n * m};
+    REQUIRE(blueprint.fault().rule == Rule::none);
+    const int i = joint_index(without, free[0]->name.view());
+    const int j = joint_index(without, free[1]->name.view());
+    JointMatrix<3> rotors = JointMatrix<3>::Zero();
+    rotors(i, i) = free[0]->reflected_inertia;
+    rotors(j, j) = free[1]->reflected_inertia;
+    rotors(i, j) = rotors(j, i) = n * m;
+
+    const Model<3, 5> geared = blueprint.model<3, 5>();
+    const JointVector<3> q = random.vector<3>(3), v = random.vector<3>(2), a = random.vector<3>(5);
+    // Tolerances as above.
+    const JointMatrix<3> matrix = mass_matrix(without, q) + rotors;
+    CHECK((mass_matrix(geared, q) - matrix).norm() < 1e-11);
+    const JointVector<3> effort = inverse_dynamics(geared, q, v, a);
+    CHECK((effort - inverse_dynamics(without, q, v, a) - rotors * a).norm() < 1e-10);
+    CHECK((forward_dynamics(geared, q, v, effort) - a).norm() < 1e-8);
+    CHECK(kinetic_energy(geared, q, v) == Approx(v.dot(matrix * v) / 2).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("the rotors of a four-bar transmission in a robot known at compile time") {
+  const FourBarTransmission linkage{.actuator_reduction = {50, 40}};
+  const JointMatrix<2> rotors = reflected_inertia(linkage, JointVector<2>(4e-5, 2e-5));
+  const FourBarQ2d robot;
+  for (const Joint& joint : FourBarQ2d::description.joints) {
+    if (joint.name == Name("elbow_active_joint")) {
+      CHECK(joint.shared_rotors.inertia == Approx(rotors(0, 1)).epsilon(1e-14));
+    }
+  }
+  support::Random random(8);
+  const JointVector<2> q = random.vector<2>(3), v = random.vector<2>(3), a = random.vector<2>(9);
+  const JointVector<2> effort = inverse_dynamics(Q2d{}, q, v, a) + rotors * a;
+  CHECK((inverse_dynamics(robot, q, v, a) - effort).norm() < 1e-12);
+  CHECK((forward_dynamics(robot, q, v, effort) - a).norm() < 1e-11);
+  CHECK((mass_matrix(robot, q) - mass_matrix(Q2d{}, q) - rotors).norm() < 1e-13);
 }
 
 TEST_CASE("a rotor of any use is taken, a negative one is not") {

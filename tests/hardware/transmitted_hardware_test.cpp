@@ -180,6 +180,53 @@ TEST_CASE("actuators get no more than they can take") {
   }
 }
 
+TEST_CASE("springs and dampers keep the actuators' limit of effort at their last state") {
+  constexpr unsigned seed = 3;
+  CAPTURE(seed);
+  support::Random random(seed);
+  Simple weak = shoulder_gear;
+  weak.limits[0] = {.effort = 0.5};
+  using Springs = Fake<MultiModeCommand<2>>;
+  for (int k = 0; k < 1000; ++k) {
+    CAPTURE(k);
+    Springs drives;
+    drives.measured.position = random.vector<2>(50);
+    drives.measured.velocity = random.vector<2>(50);
+    Geared<Springs> arm(drives, weak, elbow_gear);
+    JointState<2> state;
+    REQUIRE(arm.read(state) == Status::ok);
+    MultiModeCommand<2> wild;
+    wild.position = random.vector<2>(3);
+    wild.velocity = random.vector<2>(3);
+    for (int j = 0; j < 2; ++j) {
+      wild.stiffness[j] = random.number(0, 1e3);
+      wild.damping[j] = random.number(0, 100);
+      wild.effort[j] = random.number(-200, 200);
+    }
+    REQUIRE(arm.write(wild) == Status::ok);
+    const MultiModeCommand<2>& given = arm.hardware().written;
+    const Vector total = spring_pull(given, arm.actuator_state()) + given.effort;
+    CHECK(std::abs(total[0]) <= 0.5 * (1 + 1e-9));
+    CHECK(std::abs(given.effort[0]) <= 0.5);
+    CHECK((given.stiffness.array() >= 0).all());
+    // What is asked for at the joints, as far as the limit lets it.
+    const Vector asked = spring_pull(wild, state) + wild.effort;
+    CHECK(total[0] == Approx(std::clamp(asked[0] / -100, -0.5, 0.5)).margin(1e-9));
+    CHECK(total[1] == Approx(asked[1] / 50).margin(1e-9));  // without limit
+  }
+  Springs lost;
+  lost.measured.position = {not_a_number, 0};
+  Geared<Springs> arm(lost, weak, elbow_gear);
+  JointState<2> state;
+  static_cast<void>(arm.read(state));
+  MultiModeCommand<2> command;
+  command.stiffness = {1e3, 0};
+  command.effort = {1e3, 0};
+  static_cast<void>(arm.write(command));
+  CHECK(is_finite(arm.hardware().written));
+  CHECK(arm.hardware().written.effort[0] == -0.5);
+}
+
 TEST_CASE("every joint and actuator is there once, or it is named") {
   CHECK(refusal(shoulder_gear, elbow_gear).empty());
   CHECK_THAT(refusal(shoulder_gear, shoulder_gear), Contains("joint 'shoulder_active_joint'"));
@@ -188,8 +235,9 @@ TEST_CASE("every joint and actuator is there once, or it is named") {
   CHECK_THAT(refusal(shoulder_gear, wrong),
              Contains("actuator 'shoulder_active_joint' is there twice"));
   wrong.actuators = {"motor"};
-  CHECK_THAT(refusal(shoulder_gear, wrong), Contains("motor"));
-  CHECK_THAT(refusal(shoulder_gear, {}), Contains("joint ''"));
+  CHECK_THAT(refusal(shoulder_gear, wrong),
+             Contains("'motor' is to be an actuator, which is a joint of the hardware below"));
+  CHECK_THAT(refusal(shoulder_gear, {}), Contains("'' is to be a joint of the transmission"));
   wrong = elbow_gear;
   wrong.transmission.reduction = 0;
   CHECK_THAT(refusal(shoulder_gear, wrong),
@@ -199,7 +247,9 @@ TEST_CASE("every joint and actuator is there once, or it is named") {
 TEST_CASE("limits of actuators that leave nothing to do are refused, and named") {
   for (const JointLimits& limits :
        {JointLimits{.lower = 1, .upper = -1}, JointLimits{.lower = not_a_number},
-        JointLimits{.velocity = -1}, JointLimits{.effort = not_a_number}}) {
+        JointLimits{.velocity = -1}, JointLimits{.effort = not_a_number},
+        JointLimits{.lower = infinity, .upper = infinity},
+        JointLimits{.lower = -infinity, .upper = -infinity}}) {
     Simple wrong = elbow_gear;
     wrong.limits[0] = limits;
     CHECK_THAT(refusal(shoulder_gear, wrong), Contains("limits of actuator 'elbow_active_joint'"));

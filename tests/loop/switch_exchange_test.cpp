@@ -133,6 +133,26 @@ TEST_CASE("groups and limited switches have an exchange as well") {
   CHECK(careful.controller().active() == "computed");
 }
 
+TEST_CASE("of a group with a divisor the outcome comes first, then the list shows it") {
+  Parts parts({{{"s", {"shoulder_active_joint"}}, {"e", {"elbow_active_joint"}, 10}}},
+              controllers(), controllers());
+  SwitchExchange exchange(parts);
+  parts.start({});
+  const auto cycle = [&] {
+    exchange.apply(parts);
+    static_cast<void>(parts.update({}, {}, 1e-3));
+  };
+  cycle();
+  exchange.request({.start = {"e/pid"}, .replace = true});
+  cycle();
+  cycle();
+  CHECK(exchange.outcome().has_value());
+  CHECK(exchange.list()[4].status == ControllerStatus::inactive);
+  for (int k = 3; k <= 10; ++k) cycle();  // the group is asked in the tenth cycle after its first
+  cycle();
+  CHECK(exchange.list()[4].status == ControllerStatus::active);
+}
+
 TEST_CASE("a running loop is switched, listed and watched by another thread") {
   Loop<Q2dSim, Controllers> loop(controllers());
   SwitchExchange exchange(loop.controller());

@@ -4,7 +4,9 @@
 #include <articula/hardware/mock_hardware.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "catch.hpp"
 #include "numbers.hpp"
@@ -79,6 +81,146 @@ TEST_CASE(
   CHECK(((loop.command().effort - safe).cwiseAbs() - step).maxCoeff() < 1e-12);
 }
 
+namespace {
+
+/// Passes the reference's effort, unless it is broken.
+template <class R>
+struct FragileBypass : Bypass<R> {
+  bool broken = false;
+
+  EffortCommand<2> update(const JointState<2>& state, const JointReference<2>& reference,
+                          double period) noexcept {
+    if (broken) return {Vector::Constant(not_a_number)};
+    return Bypass<R>::update(state, reference, period);
+  }
+};
+template <class R>
+using One = Switch<R, FragileBypass<R>>;
+template <class R>
+using Bypasses = Groups<R, FragileBypass<R>, FragileBypass<R>>;
+template <class R>
+using BypassAndPid = Switch<R, Bypass<R>, PidPlusGravity<R>>;
+
+template <class R>
+using OnePid = Switch<R, Pid<R>>;
+template <class R>
+using CarefulOnePid = Limited<R, OnePid>;
+template <class R>
+using TwoPids = Groups<R, Pid<R>, OnePid<R>>;
+template <class R>
+using OneSpring = Switch<R, DriveImpedance<R>>;
+
+CommandLimits<2> careful_limits() {
+  CommandLimits<2> limits = command_limits(Arm());
+  limits.acceleration = {200, 400};
+  return limits;
+}
+
+TwoPids<Arm> two_pids() {
+  return TwoPids<Arm>({{{"s", {"shoulder_active_joint"}}, {"e", {"elbow_active_joint"}}}}, {},
+                      OnePid<Arm>());
+}
+
+template <class LoopType>
+void have_no_reference(LoopType& loop, int cycles) {
+  const auto kept = loop.reference();
+  loop.reference().velocity[0] = not_a_number;
+  for (int k = 0; k < cycles; ++k) CHECK(loop.update() == Status::non_finite_reference);
+  loop.reference() = kept;
+}
+
+/// The integral carries the arm; after cycles without a reference it goes on carrying it.
+template <template <class> class C>
+void carries_on(C<Arm> controller) {
+  Loop<Simulator<Arm>, C> loop(std::move(controller));
+  loop.reference().position = {0.3, -0.7};
+  for (int k = 0; k < 4000; ++k) REQUIRE(loop.update() == Status::ok);
+  const Vector place = loop.state().position;
+  have_no_reference(loop, 10);
+  const Vector safe = loop.command().effort;
+  REQUIRE(safe.cwiseAbs().minCoeff() > 0.1);
+  double off = 0;
+  for (int k = 0; k < 500; ++k) {
+    REQUIRE(loop.update() == Status::ok);
+    if (k == 0) CHECK((loop.command().effort - safe).cwiseAbs().maxCoeff() < 0.1);
+    off = std::max(off, (loop.state().position - place).norm());
+  }
+  CHECK(off < 1e-4);  // without its load it sags by load/p = 3e-3 rad
+}
+
+}  // namespace
+
+TEST_CASE("however many cycles were bad, a switch goes on from the command that was written") {
+  for (const int bad : {1, 3, 4, 10}) {
+    CAPTURE(bad);
+    Loop<Simulator<Arm>, One> loop;
+    loop.reference().effort = {12, 5};
+    for (int k = 0; k < 5; ++k) REQUIRE(loop.update() == Status::ok);
+    loop.controller().member<0>().broken = true;
+    for (int k = 0; k < bad; ++k) CHECK(loop.update() == Status::non_finite_command);
+    loop.controller().member<0>().broken = false;
+    const Vector step = loop.controller().slew() * loop.period();
+    Vector before = loop.command().effort;
+    REQUIRE((before - loop.reference().effort).cwiseAbs().minCoeff() > 1);
+    for (int k = 0; k < 200; ++k) {
+      REQUIRE(loop.update() == Status::ok);
+      REQUIRE(((loop.command().effort - before).cwiseAbs() - step).maxCoeff() < 1e-12);
+      before = loop.command().effort;
+    }
+    CHECK(before == loop.reference().effort);
+  }
+}
+
+TEST_CASE("after many cycles without a reference integrals in switches and groups carry on") {
+  carries_on<Pid>(Pid<Arm>());
+  carries_on<OnePid>(OnePid<Arm>());
+  carries_on<CarefulOnePid>(CarefulOnePid<Arm>(careful_limits()));
+  carries_on<TwoPids>(two_pids());
+}
+
+TEST_CASE("after many cycles without a reference a switch of springs goes on from the effort") {
+  using Hardware = MockHardware<Arm, MultiModeCommand<2>>;
+  Loop<Hardware, OneSpring> loop(OneSpring<Arm>({}, DriveImpedance<Arm>({{{20, 1}, {20, 1}}})));
+  loop.reference().position = Vector(0.5, -0.5);
+  for (int k = 0; k < 5; ++k) REQUIRE(loop.update() == Status::ok);
+  have_no_reference(loop, 10);
+  const Vector safe = numbers_of(loop.command(), loop.state());
+  REQUIRE(loop.update() == Status::ok);
+  const Vector next = numbers_of(loop.command(), loop.state());
+  const Vector step = loop.controller().slew() * loop.period();
+  CHECK(((next - safe).cwiseAbs() - step).maxCoeff() < 1e-12);
+}
+
+TEST_CASE("a group's failure is no other's, and the loop reports it") {
+  Loop<Simulator<Arm>, Bypasses> loop(Bypasses<Arm>(
+      {{{"s", {"shoulder_active_joint"}}, {"e", {"elbow_active_joint"}, 10}}}, {}, {}));
+  loop.reference().effort = {12, 1};
+  for (int k = 0; k < 20; ++k) REQUIRE(loop.update() == Status::ok);
+  loop.controller().member<1>().broken = true;
+  for (int k = 0; k < 10; ++k) {
+    CHECK(loop.update() == Status::non_finite_command);
+    CHECK(loop.command().effort == Vector(12, gravity(Arm(), loop.state().position)[1]));
+  }
+  loop.controller().member<1>().broken = false;
+  CHECK(loop.update() == Status::ok);
+  CHECK(loop.command().effort == Vector(12, 1));
+}
+
+TEST_CASE("a passing push is no load: a weak integral leaves it to the transfer") {
+  const PidGains weak{.proportional = 1000, .integral = 0.01, .derivative = 10};
+  using C = Loop<Simulator<Arm>, BypassAndPid>;
+  C loop(BypassAndPid<Arm>({}, {}, PidPlusGravity<Arm>({weak, weak})));
+  loop.reference().effort = {20, 8};
+  for (int k = 0; k < 60; ++k) REQUIRE(loop.update() == Status::ok);
+  loop.reference() = {};
+  loop.reference().position = loop.state().position;
+  CHECK(loop.controller().request(instead("pid_plus_gravity")).answer == SwitchAnswer::done);
+  for (int k = 0; k < 5000; ++k) REQUIRE(loop.update() == Status::ok);
+  CHECK(loop.controller().carried().isZero(0));
+  // 20 N m that were taken for load would be an error of 0.02 rad, for days.
+  CHECK((loop.state().position - loop.reference().position).norm() < 1e-4);
+}
+
 TEST_CASE("under supervision a fallback keeps the loop active, and without one there is a fault") {
   using MockLoop = SupervisedLoop<MockHardware<Arm>, Controllers>;
   for (const bool falls_back : {true, false}) {
@@ -122,6 +264,7 @@ TEST_CASE("limits around a switch hold whatever is switched, and a failure brake
   Loop<Simulator<Arm>, Careful> loop{Careful<Arm>(limits)};
   auto& controllers = loop.controller().controller();
   const char* const names[] = {"fragile", "pid_plus_gravity", "computed_torque"};
+  int failures = 0;
   for (int k = 0; k < 4000; ++k) {
     CAPTURE(k);
     if (k % 200 == 0) loop.reference().position = random.vector<2>(0.5);
@@ -132,10 +275,14 @@ TEST_CASE("limits around a switch hold whatever is switched, and a failure brake
       static_cast<void>(controllers.request({.stop = {controllers.active()}}));
     }
     controllers.member<0>().broken = k > 2000 && k % 100 < 3;  // there is no fallback
-    REQUIRE(loop.update() == Status::ok);
+    // Braking is the limits' doing; that there was a failure is told all the same.
+    const Status status = loop.update();
+    REQUIRE(status == (controllers.failed() ? Status::non_finite_command : Status::ok));
+    failures += controllers.failed() ? 1 : 0;
     // The model is exact but for the effort being held over a period.
     REQUIRE((loop.state().velocity.cwiseAbs() - limits.velocity).maxCoeff() < 1e-3);
   }
+  CHECK(failures > 5);
   GainsExchange<PidGains, 2> exchange(Arm{});
   exchange.offer(Q2d::pid_gains);
   CHECK(exchange.apply(controllers.member<PidPlusGravity<Arm>>()));

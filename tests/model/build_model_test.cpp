@@ -261,7 +261,20 @@ TEST_CASE("joints and links are found by name, and what is missing is named") {
   CHECK(effort_limits(model)[0] == 4);
   CHECK(joint_values(model, [](const JointProperties& p) { return p.limits.effort + 1; })[0] == 5);
   CHECK_THROWS_AS(joint_index(model, "weld"), std::invalid_argument);
-  CHECK_THROWS_WITH(joint_index(model, "k"), "robot 'arm' has no free joint 'k'");
+  CHECK_THROWS_WITH(joint_index(model, "weld"), "robot 'arm': joint 'weld' is fixed; joints: j");
+  CHECK_THROWS_WITH(joint_index(model, "k"), "robot 'arm' has no joint 'k'; joints: j");
+  CHECK_THROWS_WITH(joint_index(model, ""), "robot 'arm' has no joint ''; joints: j");
   CHECK_THROWS_AS(link_index(model, ""), std::invalid_argument);
-  CHECK_THROWS_WITH(link_index(model, "j"), "robot 'arm' has no link 'j'");
+  CHECK_THROWS_WITH(link_index(model, "j"), "robot 'arm' has no link 'j'; links: root, link, tip");
+}
+
+TEST_CASE("who asks for a mimic joint is told which one it follows") {
+  Blueprint robot{
+      .name = "hand",
+      .links = {ball("palm"), ball("left"), ball("right")},
+      .joints = {turning("a_right", "palm", "right"), turning("left_joint", "palm", "left")}};
+  robot.joints[0].mimic = {.joint = "left_joint"};
+  const Model<1, 2> model = robot.model<1, 2>();
+  CHECK_THROWS_WITH(joint_index(model, "a_right"),
+                    "robot 'hand': joint 'a_right' mimics 'left_joint': ask for that");
 }

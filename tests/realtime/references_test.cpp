@@ -62,10 +62,16 @@ TEST_CASE("following, replacing, canceling and aborting do not touch the heap") 
       follower.check(loop.state());
     }
   };
-  TrajectoryOutcome outcomes[4];
+  const Trajectory<Q2d> too_soon({{.time_from_start = 1e-3, .position = {0, 0}}});
+  TrajectoryOutcome outcomes[6];
+  TrajectoryRefusal refusals[2];
   CHECK(heap_calls_in([&] {
           outcomes[0] = follower.start(there);
           run(300);
+          outcomes[4] = follower.start(there, {.path_velocity = {-1, 0}});
+          refusals[0] = follower.refusal();
+          outcomes[5] = follower.start(too_soon);
+          refusals[1] = follower.refusal();
           outcomes[1] = follower.start(back, {.path_position = {1, 1}}, loop.time() + 0.2);
           run(600);
           follower.set_speed(0.5);
@@ -82,4 +88,8 @@ TEST_CASE("following, replacing, canceling and aborting do not touch the heap") 
   CHECK(outcomes[1] == active);
   CHECK(outcomes[2] == active);
   CHECK(outcomes[3] == path_tolerance_violated);
+  CHECK(outcomes[4] == invalid_goal);
+  CHECK(refusals[0].what == "path_velocity");
+  CHECK(outcomes[5] == invalid_goal);
+  CHECK(refusals[1].joint == 0);
 }

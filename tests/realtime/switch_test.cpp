@@ -59,7 +59,7 @@ TEST_CASE("switching does not touch the heap, with everything composed and hosti
   JointState<2> state;
   JointReference<2> reference;
   std::size_t calls = 0;
-  int done = 0, events = 0;
+  int done = 0, events = 0, failures = 0;
   for (int k = 0; k < 3000; ++k) {
     const double size = random.one_in(20) ? 1e300 : random.one_in(3) ? 10 : 0.5;
     state.position = random.vector<2>(size);
@@ -75,10 +75,13 @@ TEST_CASE("switching does not touch the heap, with everything composed and hosti
       const double bad = fails ? support::not_a_number : 1;
       c.member<0>().controller().member<0>().effort = bad;
       c.member<1>().member<0>().effort = bad;
-      if (k % 500 == 0) c.start(state);
+      if (k % 100 == 0) c.start(state);
+      if (k % 200 == 0) c.prime(state, reference, 1e-3, reference.effort);
       exchange.request(request);
       exchange.apply(c);
       c.limited(c.update(state, reference, k % 50 == 0 ? 2e-3 : 1e-3).effort);
+      c.given(reference.effort);
+      failures += c.failed() ? 1 : 0;
       while (const auto outcome = exchange.outcome()) {
         done += outcome->outcome.answer == SwitchAnswer::done ? 1 : 0;
       }
@@ -89,6 +92,7 @@ TEST_CASE("switching does not touch the heap, with everything composed and hosti
   CHECK(calls == 0);
   CHECK(done > 100);
   CHECK(events > 100);
+  CHECK(failures > 10);
 }
 
 TEST_CASE("nor does it in a supervised loop") {

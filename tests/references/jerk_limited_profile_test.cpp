@@ -40,12 +40,14 @@ Limits random_limits(support::Random& random) {
 /// is off by at most J h^2 / 4 from acceleration to velocity, J h^3 / 12 from velocity to position;
 /// what it must not exceed that by is rounding, some hundred units in the last place of what is
 /// added up.
-std::string fault_of(const JerkMotion& motion, double V, double A, double J, int count) {
+/// @param sample  the JointMotion at a time from 0 to T
+template <class Sample>
+std::string fault_of(const Sample& sample, double T, double V, double A, double J, int count) {
   constexpr double rounding = 1e-13;
-  const double T = motion.duration(), h = T / count;
-  JointMotion last = motion.sample(0);
+  const double h = T / count;
+  JointMotion last = sample(0.0);
   for (int k = 1; k <= count; ++k) {
-    const JointMotion now = motion.sample(k == count ? T : k * h);
+    const JointMotion now = sample(k == count ? T : k * h);
     if (!(std::abs(now.velocity) <= V)) return "velocity";
     if (!(std::abs(now.acceleration) <= A)) return "acceleration";
     const double jerk_step = std::abs(now.acceleration - last.acceleration);
@@ -58,8 +60,11 @@ std::string fault_of(const JerkMotion& motion, double V, double A, double J, int
     if (!(std::abs(q_error) <= J * h * h * h / 12 + rounding * size)) return "position integral";
     last = now;
   }
-  const JointMotion end = motion.sample(T);
-  return end.velocity == 0 && end.acceleration == 0 ? "" : "does not rest";
+  return last.velocity == 0 && last.acceleration == 0 ? "" : "does not rest";
+}
+std::string fault_of(const JerkMotion& motion, double V, double A, double J, int count) {
+  const auto sample = [&](double t) { return motion.sample(t); };
+  return fault_of(sample, motion.duration(), V, A, J, count);
 }
 
 /// The integral of f over [0, T], where f is a polynomial of degree three at most between `kinks`:
@@ -251,8 +256,56 @@ TEST_CASE("all joints arrive together, and the slowest is not held up") {
   const auto end = profile.sample(T);
   CHECK(end.position == JointVector<2>(-1, 0.1));
   CHECK(end.velocity.isZero(0));
-  CHECK(profile.sample(infinity).position == end.position);
+  CHECK(profile.sample(1e300).position == end.position);
   CHECK(profile.sample(-1).position == JointVector<2>(0, 0));
+}
+
+TEST_CASE("times that are no numbers give no position") {
+  const JerkLimitedProfile<Q2d> profile({0, 0}, {-1, 0.1}, limits), nowhere({0, 0}, {0, 0}, limits);
+  for (const double t : {not_a_number, infinity, -infinity}) {
+    CHECK(!is_finite(profile.sample(t)));
+    CHECK(!is_finite(nowhere.sample(t)));
+  }
+}
+
+// The slower of two joints keeps its pace; the other's is slower by the ratio of their times, and
+// its jerk by the third power of that, which bounds the error of the trapezoidal rule.
+TEST_CASE("all joints of random profiles keep their limits, and each derivative is one") {
+  constexpr unsigned seed = 13;
+  CAPTURE(seed);
+  support::Random random(seed);
+  int stretched = 0;
+  for (int k = 0; k < 50'000; ++k) {
+    MotionLimits<2> l;
+    Limits own[2];
+    JointVector<2> from, to;
+    for (int j = 0; j < 2; ++j) {
+      own[j] = random_limits(random);
+      l.velocity[j] = own[j].V;
+      l.acceleration[j] = own[j].A;
+      l.jerk[j] = own[j].J;
+      from[j] = random.number(-1.5, 1.5);
+      to[j] = from[j] + log_uniform(random, 1e-6, 1e2) * (random.one_in(2) ? 1 : -1);
+    }
+    if (random.one_in(50)) to[1] = from[1];
+    const auto profile = JerkLimitedProfile<Q2d>::move(from, to, l);
+    const double T = profile.duration();
+    for (int j = 0; j < 2; ++j) {
+      const auto sample = [&](double t) {
+        const auto r = profile.sample(t);
+        return JointMotion{r.position[j], r.velocity[j], r.acceleration[j]};
+      };
+      const auto alone = rest_to_rest(from[j], to[j], own[j].V, own[j].A, own[j].J);
+      const double pace = alone.duration() / T;
+      stretched += pace > 0.01 && pace < 0.9;
+      const double J = own[j].J * pace * pace * pace * (1 + 1e-9);  // rounding of the pace
+      const auto fault = fault_of(sample, T, own[j].V, own[j].A, J, 48);
+      if (fault.empty() && sample(0).position == from[j] && sample(T).position == to[j]) continue;
+      CAPTURE(k, j, fault, own[j].V, own[j].A, own[j].J, from[j], to[j], pace);
+      FAIL("profile");
+    }
+  }
+  CHECK(stretched > 1000);
 }
 
 TEST_CASE("a stop goes on from the reference and keeps its effort") {

@@ -9,6 +9,7 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
+#include "random.hpp"
 #include "slope.hpp"
 
 using namespace articula;
@@ -151,10 +152,57 @@ TEST_CASE("signals that cannot be evaluated are refused by name") {
   refuses(RampSignal{.duration = 0}, "duration");
   refuses(RampSignal{.height = 1e300, .duration = 1e-300}, "slope");
   refuses(SineSignal{.amplitude = 1, .frequency = 1e200}, "acceleration");
+  refuses(SineSignal{.amplitude = 1e308, .offset = 1e308}, "offset");
   refuses(ChirpSignal{.first_frequency = 0}, "frequency");
   refuses(ChirpSignal{.last_frequency = -1}, "frequency");
   refuses(ChirpSignal{.duration = -1}, "duration");
   refuses(ChirpSignal{.amplitude = 1, .last_frequency = 1e200}, "acceleration");
+}
+
+TEST_CASE("signals whose sum overflows are refused by name") {
+  const auto refuses = [](const Signal& signal, SignalTarget target) {
+    CHECK_NOTHROW(JointSignals<Q2d>({{elbow, signal, target}, {shoulder, signal, target}}));
+    CHECK_THROWS_WITH(
+        JointSignals<Q2d>(
+            {{shoulder, StepSignal{}}, {elbow, signal, target}, {elbow, signal, target}}),
+        Contains("number 3") && Contains("'elbow_active_joint'") && Contains("overflow"));
+  };
+  for (const auto target : {SignalTarget::effort, SignalTarget::position}) {
+    refuses(StepSignal{.height = -1e308}, target);
+    refuses(RampSignal{.height = 1e308}, target);
+    refuses(SineSignal{.offset = 1e308}, target);
+  }
+  refuses(RampSignal{.height = 1, .duration = 1e-308}, SignalTarget::position);
+  refuses(SineSignal{.amplitude = 3, .frequency = 1e153}, SignalTarget::position);
+  refuses(ChirpSignal{.amplitude = 3, .first_frequency = 1e153, .last_frequency = 1e153},
+          SignalTarget::position);
+  CHECK_THROWS_WITH(JointSignals<Q2d>({{elbow, StepSignal{.height = 1e308}, SignalTarget::effort}},
+                                      {{0, 0}, {0, 0}, {0, 0}, {0, 1e308}}),
+                    Contains("number 1") && Contains("overflow"));
+}
+
+TEST_CASE("no signal exceeds its peak") {
+  constexpr unsigned seed = 16;
+  CAPTURE(seed);
+  support::Random random(seed);
+  const auto check = [&](const auto& signal) {
+    const SignalValue peak = signal.peak();
+    for (int k = 0; k < 1000; ++k) {
+      const SignalValue x = signal.sample(random.number(-1, 3));
+      // 1e-15: where a sine is 1, its products round up
+      REQUIRE(std::abs(x.value) <= peak.value * (1 + 1e-15));
+      REQUIRE(std::abs(x.rate) <= peak.rate * (1 + 1e-15));
+      REQUIRE(std::abs(x.acceleration) <= peak.acceleration * (1 + 1e-15));
+    }
+  };
+  for (int k = 0; k < 50; ++k) {
+    const double a = random.number(-2, 2), f = random.number(0.1, 9), g = random.number(0.1, 9);
+    const double T = random.number(0.1, 2);
+    check(StepSignal{.height = a});
+    check(RampSignal{.height = a, .duration = T});
+    check(SineSignal{.amplitude = a, .frequency = random.number(-9, 9), .offset = a - f});
+    check(ChirpSignal{.amplitude = a, .first_frequency = f, .last_frequency = g, .duration = T});
+  }
 }
 
 TEST_CASE("unknown joints, too many signals and impossible poses are refused") {

@@ -6,6 +6,7 @@
 #include "random.hpp"
 
 using namespace articula;
+using Catch::Matchers::Contains;
 using support::infinity;
 using support::not_a_number;
 
@@ -18,8 +19,17 @@ TEST_CASE("at speed 1 time is time") {
   CHECK(clock.apply(r).acceleration[0] == 3);
 }
 
+TEST_CASE("no speed above the highest is taken") {
+  SpeedOverride usual(1e9), fast(1e9, 1.5);
+  for (SpeedOverride* clock : {&usual, &fast}) {
+    clock->set(50);
+    clock->advance(1);
+    CHECK(clock->speed() == (clock == &fast ? 1.5 : 1));
+  }
+}
+
 TEST_CASE("the speed changes at its rate and the time is its integral") {
-  SpeedOverride clock(2);
+  SpeedOverride clock(2, 1.5);
   clock.set(0);
   clock.advance(0.25);
   CHECK(clock.speed() == 0.5);
@@ -77,7 +87,10 @@ TEST_CASE("hostile speeds pause, hostile periods are no time") {
   }
 }
 
-TEST_CASE("a rate out of range is refused") {
+TEST_CASE("a rate or a highest speed out of range is refused") {
+  for (const double bad : {0.0, 0.99, -1.0, 1e10, infinity, not_a_number}) {
+    CHECK_THROWS_WITH(SpeedOverride(2, bad), Contains("highest speed"));
+  }
   for (const double bad : {0.0, -1.0, 1e10, infinity, not_a_number}) {
     CHECK_THROWS_AS(SpeedOverride(bad), std::invalid_argument);
   }

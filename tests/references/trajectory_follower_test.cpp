@@ -319,6 +319,55 @@ TEST_CASE("points that cannot be reached in time are left out, or refused") {
   CHECK(follower.sample(1.5).position.norm() < 1e-9);  // half way, in a straight line
 }
 
+TEST_CASE("a refusal says which figure of which joint breaks which rule") {
+  Follower follower(zero, limits);
+  const auto why = [&] { return to_string(follower.refusal(), Q2d()); };
+  CHECK(why().empty());
+
+  CHECK(follower.start(there, {.path_velocity = {0, -1}}) == invalid_goal);
+  CHECK(follower.refusal().what == "path_velocity");
+  CHECK(follower.refusal().joint == 1);
+  CHECK(follower.refusal().value == -1);
+  CHECK(follower.refusal().rule == "is not a number >= 0");
+  CHECK(why() == "path_velocity -1 of joint 'elbow_active_joint' is not a number >= 0");
+  CHECK(follower.start(there, {.goal_time = -5}) == invalid_goal);
+  CHECK(why() == "goal_time -5 is not a number >= 0");
+  CHECK(follower.start(there, {}, infinity) == invalid_goal);
+  CHECK(why() == "start_time inf is not a finite number");
+
+  CHECK(follower.start(there) == active);
+  CHECK(why().empty());
+  run(follower, 0, 3);
+  CHECK(follower.start(there, {}, 0.5) == old_header_timestamp);
+  CHECK(why() == "time_from_start of the last point 2 has passed");
+
+  // At (-1, 1) now, and 0.1 s are not enough: the shoulder would need 10 m/s, and has 2.
+  const Points near({{.time_from_start = 0.1, .position = {0, 0.9}}});
+  CHECK(follower.start(near) == invalid_goal);
+  CHECK(why() ==
+        "mean velocity to the last point 10 of joint 'shoulder_active_joint' is above its limit 2");
+
+  // In motion there is a trajectory that the mean velocity lets through, but not the acceleration.
+  REQUIRE(follower.start(Points({{.time_from_start = 1, .position = {0.5, 1}}})) == active);
+  run(follower, 3, 3.5);
+  const Points back({{.time_from_start = 0.2, .position = {-0.5, 1}}});
+  CHECK(follower.start(back) == invalid_goal);
+  CHECK(follower.refusal().joint == 0);
+  CHECK_THAT(why(), Contains("on the way to the last point") && Contains("is above its limit"));
+  CHECK(follower.refusal().value > follower.refusal().limit);
+  follower.cancel();
+  CHECK(!why().empty());  // until the next start
+
+  // One that waits and cannot begin says why when it is due.
+  const Points far({{.time_from_start = 0.1, .position = {-1, 1}}});
+  REQUIRE(follower.start(far, {}, 10) == active);
+  CHECK(why().empty());
+  run(follower, 3.5, 11);
+  CHECK(follower.outcome() == invalid_goal);
+  CHECK(follower.refusal().joint == 0);
+  CHECK_THAT(why(), Contains("mean velocity"));
+}
+
 TEST_CASE("start times and tolerances that are no numbers are refused") {
   Follower follower(zero, limits);
   CHECK(follower.start(there, {}, not_a_number) == invalid_goal);
@@ -367,6 +416,142 @@ TEST_CASE("a last point that moves is followed by a stop") {
   }
   CHECK(follower.outcome() == successful);
   CHECK(follower.reference().position[0] < -0.51);
+}
+
+TEST_CASE("a last point with an acceleration is held, however slowly that could fade") {
+  for (const double jerk : {20.0, 100.0, 400.0}) {
+    for (const double a : {-15.0, -4.0, 30.0}) {
+      for (const double v : {0.0, 1e-7}) {  // as good as none, as a file may have it
+        CAPTURE(jerk, a, v);
+        const Points points({{.time_from_start = 2, .position = {1, 0.5}, .velocity = zero},
+                             {.time_from_start = 3,
+                              .position = {1.4, 0},
+                              .velocity = Vector(v, 0),
+                              .acceleration = Vector(a, -a)}});
+        Follower follower(zero, {{2, 10}, {20, 50}, {jerk, jerk}});
+        REQUIRE(follower.start(points) == active);
+        run(follower, 0, 3.001);
+        CHECK(follower.outcome() == successful);
+        for (const double t : {3.001, 3.1, 5.0}) {
+          const auto r = follower.sample(t);
+          CHECK(r.position == Vector(1.4, 0));
+          CHECK(r.velocity.isZero(0));
+          CHECK(r.acceleration.isZero(0));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a stop beyond the joint's limits is followed by the way back to them") {
+  const double limit = std::numbers::pi / 2;
+  const MotionLimits<2> soft{{2, 10}, {2, 2}, {20, 20}};
+  const auto check = [&](Follower& follower, double t, double highest) {
+    JumpDetector detector(follower.reference(), highest);
+    double furthest = 0;
+    for (int k = 1; k < 9000; ++k) {
+      detector.check(follower.sample(t + k * h));
+      follower.check(obedient(follower));
+      furthest = std::max(furthest, follower.reference().position[0]);
+    }
+    CHECK(furthest > limit);  // as documented: no stop within A would be shorter
+    CHECK(follower.reference().position[0] == limit);
+    CHECK(follower.reference().velocity.isZero(0));
+  };
+  SECTION("canceled") {
+    const Points points({{.time_from_start = 3, .position = {-1.5, 0}, .velocity = zero},
+                         {.time_from_start = 4.5, .position = {1.5, 0}, .velocity = zero}});
+    Follower follower(zero, soft);
+    REQUIRE(follower.start(points) == active);
+    const double t = run(follower, 0, 3.9);
+    follower.cancel();
+    check(follower, t, 9);
+    CHECK(follower.outcome() == canceled);
+  }
+  SECTION("at the end of a trajectory that moves there") {
+    const Points points({{.time_from_start = 3, .position = {1, 0}, .velocity = Vector(1.5, 0)}},
+                        {.allow_motion_at_end = true});
+    Follower follower(zero, soft);
+    REQUIRE(follower.start(points) == active);
+    check(follower, run(follower, 0, 2.9), 3);
+    CHECK(follower.outcome() == successful);
+  }
+  SECTION("where it was outside before, it stays") {
+    Follower follower({limit + 0.1, 0}, soft);
+    const Points back({{.time_from_start = 4, .position = {1, 0}, .velocity = zero}});
+    REQUIRE(follower.start(back) == active);
+    const double t = run(follower, 0, 0.01);
+    const double before = follower.reference().position[0];
+    follower.cancel();
+    run(follower, t, t + 5);
+    CHECK(follower.reference().position[0] == Approx(before).margin(1e-3));
+    CHECK(before > limit + 0.09);
+  }
+}
+
+TEST_CASE("goal_time counts from where a last point that moves has come to rest") {
+  // the stop takes v/A + A/J = 0.6 s
+  const MotionLimits<2> soft{{2, 10}, {2, 2}, {20, 20}};
+  const Points moving({{.time_from_start = 2, .position = {-0.5, 0}, .velocity = Vector(-1, 0)}},
+                      {.allow_motion_at_end = true});
+  Follower follower(zero, soft);
+  REQUIRE(follower.start(moving, {.goal_position = {0.01, 0.01}, .goal_time = 0.2}) == active);
+  int k = 0;
+  for (; follower.outcome() == active; ++k) {
+    static_cast<void>(follower.sample(k * h));
+    JointState<2> late = obedient(follower);
+    late.position[0] += 0.1;
+    follower.check(late);
+    REQUIRE(k < 4000);
+  }
+  CHECK(follower.outcome() == goal_tolerance_violated);
+  CHECK(k * h == Approx(2.8).margin(0.005));
+}
+
+TEST_CASE("a trajectory that begins during the stop of another is held at its own end") {
+  Follower follower(zero, limits, {.tolerances = {.path_position = {0.1, 0.1}}});
+  REQUIRE(follower.start(there) == active);
+  double t = run(follower, 0, 0.7);
+  JointState<2> blocked = obedient(follower);
+  blocked.position[0] += 0.2;
+  CHECK(follower.check(blocked) == path_tolerance_violated);
+  REQUIRE(follower.reference().velocity.norm() > 0.1);
+  const Points on({{.time_from_start = 1.5, .position = {-0.6, 0.6}, .velocity = zero}});
+  REQUIRE(follower.start(on) == active);
+  t = run(follower, t, t + 1.6);
+  CHECK(follower.outcome() == successful);
+  run(follower, t, t + 1);
+  CHECK(follower.reference().position == Vector(-0.6, 0.6));
+}
+
+TEST_CASE("no speed above the highest is taken") {
+  for (const double highest : {1.0, 1.5}) {
+    Follower follower(zero, limits, {.speed_rate = 1e9, .highest_speed = highest});
+    follower.set_speed(50);
+    run(follower, 0, 2 * h);
+    CHECK(follower.speed() == highest);
+  }
+  CHECK_THROWS_WITH(Follower(zero, limits, {.highest_speed = 0.5}), Contains("highest speed"));
+}
+
+TEST_CASE("a stop is not taken over by a clock so slow that it would be too fast in it") {
+  Follower follower(zero, limits, {.speed_rate = 100});
+  const Points far({{.time_from_start = 2, .position = {1.5, 0.5}, .velocity = zero}});
+  REQUIRE(follower.start(far) == active);
+  double t = run(follower, 0, 1);
+  follower.set_speed(0.02);
+  follower.cancel();
+  REQUIRE(follower.reference().velocity[0] > 1);
+  t = run(follower, t, t + 0.012);  // slow now, and still stopping
+  REQUIRE(follower.reference().velocity[0] > 0.5);
+  REQUIRE(follower.start(far) == active);
+  for (int k = 1; k < 6000; ++k) {
+    if (k == 20) follower.set_speed(1);
+    const auto r = follower.sample(t + k * h);
+    REQUIRE(std::abs(r.velocity[0]) <= limits.velocity[0]);
+    follower.check(obedient(follower));
+  }
+  CHECK(follower.outcome() == successful);
 }
 
 TEST_CASE("a paused trajectory stands still and goes on where it was") {
@@ -433,7 +618,8 @@ TEST_CASE("whatever is done to it at random, nothing jumps") {
   constexpr unsigned seed = 8;
   CAPTURE(seed);
   support::Random random(seed);
-  Follower follower(zero, limits, {.tolerances = {.path_position = {0.2, 0.2}}});
+  Follower follower(zero, limits,
+                    {.tolerances = {.path_position = {0.2, 0.2}}, .highest_speed = 1.2});
   double t = 0;
   JumpDetector detector(follower.sample(t), 80);
   CHECK(is_finite(follower.reference()));

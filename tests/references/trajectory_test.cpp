@@ -13,7 +13,7 @@
 #include "slope.hpp"
 
 using namespace articula;
-using Catch::Matchers::Contains;
+using Catch::Matchers::Contains, Catch::Matchers::Equals;
 using support::infinity;
 using support::not_a_number;
 
@@ -264,7 +264,10 @@ TEST_CASE("names that do not fit are invalid joints, arrays that do not an inval
   using enum TrajectoryOutcome;
   const std::string s = "shoulder_active_joint", e = "elbow_active_joint";
   CHECK(outcome({{s, "wrist"}, {{.positions = {0, 0}}}}, "'wrist'") == invalid_joints);
-  CHECK(outcome({{s, "base_joint"}, {{.positions = {0, 0}}}}, "'base_joint'") == invalid_joints);
+  CHECK(outcome({{s, "wrist"}, {{.positions = {0, 0}}}}, "joints: shoulder_active_joint, elbow") ==
+        invalid_joints);
+  CHECK(outcome({{s, "base_joint"}, {{.positions = {0, 0}}}}, "'base_joint' is fixed") ==
+        invalid_joints);
   CHECK(outcome({{s, e, s}, {{.positions = {0, 0, 0}}}}, "twice") == invalid_joints);
   CHECK(outcome({{s}, {{.positions = {0}}}}, "'elbow_active_joint'") == invalid_joints);
   CHECK(outcome({{}, {}}, "not named") == invalid_joints);
@@ -281,23 +284,48 @@ TEST_CASE("joints that are not named stay, where that is allowed") {
   const NamedTrajectory named{{"elbow_active_joint"},
                               {{.time_from_start = 1, .positions = {1}, .velocities = {0}}}};
   const auto trajectory =
-      arrange(named, Q2d(), {.allow_partial_joints = true, .from = {{0.3, 0.4}}});
+      arrange(named, Q2d(), {.allow_partial_joints = true, .from = JointReference<2>{{0.3, 0.4}}});
   CHECK(trajectory.points()[0].position == Vector(0.3, 1));
   CHECK(trajectory.points()[0].velocity == Vector(0, 0));
 }
 
+TEST_CASE("what stays or is integrated needs to be told where it is") {
+  const auto refusal = [](const NamedTrajectory& named, const ArrangeOptions<2>& options) {
+    try {
+      static_cast<void>(arrange(named, Q2d(), options));
+    } catch (const TrajectoryError& error) {
+      return std::string(to_string(error.outcome())) + ", " + error.what();
+    }
+    return std::string();
+  };
+  const std::string s = "shoulder_active_joint", e = "elbow_active_joint";
+  const NamedTrajectory partial{{e}, {{.time_from_start = 1, .positions = {1}}}};
+  CHECK_THAT(
+      refusal(partial, {.allow_partial_joints = true}),
+      Equals(
+          "invalid joints, trajectory: joint 'shoulder_active_joint' is not named; give `from`"));
+  const NamedTrajectory velocities{{s, e}, {{.time_from_start = 1, .velocities = {0, 0}}}};
+  CHECK_THAT(refusal(velocities, {.allow_integration = true}),
+             Equals("invalid goal, trajectory: point 1 has no positions; give `from`"));
+  // What leaves nothing open needs none.
+  const NamedTrajectory whole{{s, e}, {{.time_from_start = 1, .positions = {0, 1}}}};
+  CHECK(refusal(whole, {.allow_partial_joints = true, .allow_integration = true}).empty());
+}
+
 TEST_CASE("positions are integrated where that is allowed") {
   const std::vector<std::string> names{"shoulder_active_joint", "elbow_active_joint"};
-  const auto by_velocity = arrange({names,
-                                    {{.time_from_start = 1, .velocities = {0.2, 0.4}},
-                                     {.time_from_start = 2, .velocities = {0, 0}}}},
-                                   Q2d(), {.allow_integration = true, .from = {{0.1, 0}}});
+  const auto by_velocity =
+      arrange({names,
+               {{.time_from_start = 1, .velocities = {0.2, 0.4}},
+                {.time_from_start = 2, .velocities = {0, 0}}}},
+              Q2d(), {.allow_integration = true, .from = JointReference<2>{{0.1, 0}}});
   CHECK(near(by_velocity.points()[0].position, Vector(0.2, 0.2)));
   CHECK(near(by_velocity.points()[1].position, Vector(0.3, 0.4)));
-  const auto by_acceleration = arrange({names,
-                                        {{.time_from_start = 1, .accelerations = {0.4, 0.8}},
-                                         {.time_from_start = 2, .accelerations = {-0.8, -1.6}}}},
-                                       Q2d(), {.allow_integration = true});
+  const auto by_acceleration =
+      arrange({names,
+               {{.time_from_start = 1, .accelerations = {0.4, 0.8}},
+                {.time_from_start = 2, .accelerations = {-0.8, -1.6}}}},
+              Q2d(), {.allow_integration = true, .from = JointReference<2>{}});
   CHECK(near(*by_acceleration.points()[0].velocity, Vector(0.2, 0.4)));
   CHECK(near(by_acceleration.points()[1].position, Vector(0.1 + 0.1, 0.4)));
 }

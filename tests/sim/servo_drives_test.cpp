@@ -118,6 +118,27 @@ TEST_CASE("a drive at its limit gives it all, and the other joint does not feel 
   CHECK(at_limit > 3);
 }
 
+TEST_CASE("a wish too large for numbers leaves the other drives theirs") {
+  Arm arm = support::free_arm();
+  arm.joints[0].limits.effort = 20;  // no limit of velocity
+  for (const double wish : {1e308, -1e308, 1e200}) {
+    CAPTURE(wish);
+    for (const bool by_position : {true, false}) {
+      Simulator<Arm> simulator(arm, servos(1e-3, {100, 100}));
+      for (int k = 0; k < 200; ++k) {
+        const Status status = by_position ? simulator.write(PositionCommand<2>{Vector(wish, 0.5)})
+                                          : simulator.write(VelocityCommand<2>{Vector(wish, 0.5)});
+        REQUIRE(status == Status::ok);
+        REQUIRE(std::abs(simulator.true_state().effort[0]) == 20);  // as far as it can
+      }
+      const JointState<2>& state = simulator.true_state();
+      CHECK(state.velocity[0] * wish > 0);
+      // After 20/w what is left of the step is exp(-20), but for the other joint's turning.
+      CHECK((by_position ? state.position : state.velocity)[1] == Approx(0.5).epsilon(1e-4));
+    }
+  }
+}
+
 TEST_CASE("commands beyond a stop end at the stop, without pushing") {
   Arm arm = sticky_arm();
   arm.joints[1].limits.upper = 0.5;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a loop is made of has to fit.
+#include <articula/control/pid_plus_gravity.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -26,6 +27,9 @@ using Command = PositionCommand<N>;
 #elif defined(CONTROLLER_OF_ANOTHER_SIZE)
 template <int N>
 using Command = EffortCommand<N + 1>;
+#elif defined(UPDATE_GIVES_A_VECTOR)
+template <int N>
+using Command = JointVector<N>;
 #else
 template <int N>
 using Command = EffortCommand<N>;
@@ -34,10 +38,16 @@ using Command = EffortCommand<N>;
 template <Robot R>
 struct Limp {
   static constexpr int N = joint_count<R>;
+#ifndef CONTROLLER_WITHOUT_START
   void start(const JointState<N>&) START_NOEXCEPT {}
+#endif
+#ifdef UPDATE_WITHOUT_PERIOD
+  Command<N> update(const JointState<N>&, const JointReference<N>&) noexcept { return {}; }
+#else
   Command<N> update(const JointState<N>&, const JointReference<N>&, double) UPDATE_NOEXCEPT {
     return {};
   }
+#endif
 };
 
 struct Drives {
@@ -54,7 +64,24 @@ struct Drives {
   Q2d robot_;
 };
 
+/// The Q2D as somebody describes it who has no gains for it yet.
+struct Bare {
+  static constexpr auto description = Q2d::description;
+};
+struct BareDrives : Drives {
+  using RobotType = Bare;
+  [[nodiscard]] const Bare& robot() const noexcept { return bare_; }
+
+  Bare bare_;
+};
+
 int main() {
+#ifdef WITHOUT_GAINS
+  Loop<BareDrives, PidPlusGravity> mistake;
+#endif
+#ifdef HARDWARE_WITHOUT_GAINS
+  Loop<BareDrives, PidPlusGravity> mistake{BareDrives()};
+#endif
   Loop<Drives, Limp> loop;
 #ifdef STATUS_IGNORED
 #pragma GCC diagnostic error "-Wunused-result"

@@ -63,6 +63,7 @@ inline constexpr articula::RobotDescription pendulum_and_table{
       return "rod";
     case Rule::name_is_used_twice:
     case Rule::mimics_leave_no_position:
+    case Rule::rotors_are_shared_twice:
       return "pivot";
     case Rule::links_have_more_than_one_root:
       return "table";
@@ -80,6 +81,8 @@ inline constexpr articula::RobotDescription pendulum_and_table{
     case Rule::joint_moves_no_mass:
     case Rule::mimicked_joint_does_not_exist:
     case Rule::mimicked_joint_is_not_free:
+    case Rule::rotors_are_shared_with_no_free_joint:
+    case Rule::shared_inertia_is_too_large:
       return "knee";
   }
   return "a rule without a test";
@@ -172,6 +175,18 @@ template <articula::Rule rule>
         knee.type = JointType::revolute;
         knee.limits = {.lower = 1, .upper = 2};
         knee.mimic.joint = "pivot";
+        break;
+      case Rule::rotors_are_shared_with_no_free_joint:
+        knee.shared_rotors = {"hip", 0.1};
+        break;
+      case Rule::rotors_are_shared_twice:
+        pivot.reflected_inertia = knee.reflected_inertia = 0.2;
+        pivot.shared_rotors = {"knee", 0.1};
+        knee.shared_rotors = {"pivot", 0.1};
+        break;
+      case Rule::shared_inertia_is_too_large:
+        pivot.reflected_inertia = knee.reflected_inertia = 0.2;
+        knee.shared_rotors = {"pivot", -0.21};
         break;
     }
     return robot;

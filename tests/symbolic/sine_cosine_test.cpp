@@ -83,6 +83,21 @@ TEST_CASE("An angle that is not finite has no sine, and its neighbours keep thei
   }
 }
 
+TEST_CASE("A large angle in one pack leaves the others right") {
+  const double large = 1e12;
+  const std::array<double, 6> numbers{0.5, -1.0, large, 2.0, 3.0, not_a_number};
+  std::array<Pack<2>, 3> angle, sine, cosine;
+  for (std::size_t i = 0; i < 3; ++i) angle[i] = Pack<2>::load(&numbers[2 * i]);
+  sine_cosine(angle, sine, cosine);
+  for (std::size_t i = 0; i < 5; ++i) {
+    CAPTURE(i);
+    const int lane = static_cast<int>(i % 2);
+    CHECK(sine[i / 2][lane] == std::sin(numbers[i]));
+    CHECK(cosine[i / 2][lane] == std::cos(numbers[i]));
+  }
+  CHECK(std::isnan(sine[2][1]));
+}
+
 TEMPLATE_TEST_CASE_SIG("Packs compute lane by lane", "", ((int Lanes), Lanes), 2,
                        lanes_of_a_register) {
   using P = Pack<Lanes>;

@@ -65,8 +65,7 @@ TEST_CASE("Files that cannot be read") {
 TEST_CASE("The file is named") {
   const auto file = std::filesystem::temp_directory_path() / "articula_error_test.urdf";
   std::ofstream(file) << inertial("-0.3");
-  CHECK(refusal(file.string()) ==
-        file.string() + ": link 'rod': the mass is negative (-0.3 kg)");
+  CHECK(refusal(file.string()) == file.string() + ": link 'rod': the mass is negative (-0.3 kg)");
   std::filesystem::remove(file);
 }
 

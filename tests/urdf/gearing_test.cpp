@@ -56,6 +56,50 @@ TEST_CASE("Joints and actuators of a differential stand by their roles") {
                     Contains("'wrist' has 2 joints instead of 1"));
 }
 
+TEST_CASE("Roles that do not tell which end is which are refused") {
+  const auto wrist = [](const std::string& joint, const std::string& actuator) {
+    return described_with(
+        "<transmission name=\"wrist\"><actuator name=\"b\"><role>actuator2</role></actuator>"
+        "<actuator name=\"a\">" +
+        actuator + "</actuator><joint name=\"roll\"><role>joint2</role></joint>" +
+        "<joint name=\"pivot\">" + joint + "</joint></transmission>");
+  };
+  const auto refusal_of = [](const UrdfDescription& description, const char* kind) {
+    CHECK_THROWS_WITH(
+        gearing_of<DifferentialTransmission>(description, "wrist"),
+        Contains("'wrist'") && Contains("each " + std::string(kind) + " must have a role"));
+  };
+  const std::string first_joint = "<role>joint1</role>", first = "<role>actuator1</role>";
+  CHECK_NOTHROW(gearing_of<DifferentialTransmission>(wrist(first_joint, first), "wrist"));
+  refusal_of(wrist("", first), "joint");
+  refusal_of(wrist("<role>joint2</role>", first), "joint");
+  refusal_of(wrist(first_joint, ""), "actuator");
+  refusal_of(wrist(first_joint, "<role>actuator2</role>"), "actuator");
+
+  const UrdfDescription without = described_with(
+      "<transmission name=\"wrist\"><actuator name=\"b\"/><actuator name=\"a\"/>"
+      "<joint name=\"roll\"/><joint name=\"pivot\"/></transmission>");
+  const auto as_written = gearing_of<DifferentialTransmission>(without, "wrist");
+  CHECK(as_written.joints == std::array<Name, 2>{"roll", "pivot"});
+  CHECK(as_written.actuators == std::array<Name, 2>{"b", "a"});
+}
+
+TEST_CASE("A transmission of another type than the file's is refused") {
+  const auto typed = [](const std::string& type) {
+    return described_with("<transmission name=\"wrist\"><type>" + type +
+                          "</type><actuator name=\"a\"/><actuator name=\"b\"/>"
+                          "<joint name=\"pivot\"/><joint name=\"roll\"/></transmission>");
+  };
+  const UrdfDescription differential = typed("transmission_interface/DifferentialTransmission");
+  CHECK_NOTHROW(gearing_of<DifferentialTransmission>(differential, "wrist"));
+  CHECK_THROWS_WITH(gearing_of<FourBarTransmission>(differential, "wrist"),
+                    Contains("'wrist' is a DifferentialTransmission, not a FourBarLinkage"));
+  const UrdfDescription linkage = typed("transmission_interface/FourBarLinkageTransmission");
+  CHECK_NOTHROW(gearing_of<FourBarTransmission>(linkage, "wrist"));
+  CHECK_THROWS_AS(gearing_of<DifferentialTransmission>(linkage, "wrist"), std::invalid_argument);
+  CHECK_NOTHROW(gearing_of<FourBarTransmission>(typed("mine/WristTransmission"), "wrist"));
+}
+
 TEST_CASE("Transmissions that are missing or make no sense are refused, and named") {
   const UrdfDescription description = described_with(
       "<transmission name=\"stuck\"><actuator name=\"a\"/><joint name=\"pivot\"/>"

@@ -238,13 +238,36 @@ TEST_CASE("Unphysical inertias are accepted when asked for, and reported") {
 }
 
 TEST_CASE("Limits that leave no room are reported") {
-  const UrdfDescription robot = read_urdf(support::pendulum(
+  const std::string file = support::pendulum(
       support::solid("rod"),
-      support::joint("pivot", "revolute", "base", "rod", "<limit effort=\"0\" velocity=\"0\"/>")));
+      support::joint("pivot", "revolute", "base", "rod", "<limit effort=\"0\" velocity=\"0\"/>"));
+  const UrdfDescription robot = read_urdf(file);
   REQUIRE(robot.notices.size() == 3);
   CHECK(robot.notices[0] == "joint 'pivot': it has no room to move, lower and upper limit are 0");
-  CHECK(robot.notices[1] == "joint 'pivot': its velocity limit is 0");
+  CHECK(robot.notices[1] == "joint 'pivot': its velocity limit is 0, so it must not move");
   CHECK(robot.notices[2] == "joint 'pivot': its effort limit is 0, so it cannot be driven");
+  CHECK(read_urdf(
+            support::robot("<link name=\"base\"/>" + support::solid("rod") + support::solid("bob") +
+                           support::joint("pivot", "revolute", "base", "rod",
+                                          "<limit effort=\"0\" velocity=\"0\"/>") +
+                           support::joint("knee", "continuous", "rod", "bob")),
+            {.locked = {"pivot"}})
+            .notices.empty());
+}
+
+TEST_CASE("A link that moves without a mass of its own is reported") {
+  const std::string base = "<link name=\"base\"/>", frame = "<link name=\"frame\"/>";
+  const auto notices = [&](const std::string& first, const std::string& second) {
+    return read_urdf(support::robot(base + frame + support::solid("rod") +
+                                    support::joint("i", first, "base", "frame") +
+                                    support::joint("j", second, "frame", "rod")))
+        .notices;
+  };
+  CHECK(notices("continuous", "fixed") ==
+        std::vector<std::string>{"link 'frame': it has no <inertial>, so it counts as massless, "
+                                 "though joint 'i' moves it"});
+  CHECK(notices("continuous", "continuous").size() == 1);
+  CHECK(notices("fixed", "continuous").empty());  // a mere frame
 }
 
 TEST_CASE("Numbers are read the same in every locale") {

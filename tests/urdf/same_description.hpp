@@ -38,10 +38,12 @@ class Bits {
   const auto bits = [](const articula::Joint& j) {
     return Bits{} << j.origin << j.orientation << j.axis << j.limits.lower << j.limits.upper
                   << j.limits.velocity << j.limits.effort << j.damping << j.friction
-                  << j.reflected_inertia << j.mimic.multiplier << j.mimic.offset;
+                  << j.reflected_inertia << j.mimic.multiplier << j.mimic.offset
+                  << j.shared_rotors.inertia;
   };
   return a.name == b.name && a.type == b.type && a.parent == b.parent && a.child == b.child &&
-         a.mimic.joint == b.mimic.joint && bits(a) == bits(b);
+         a.mimic.joint == b.mimic.joint && a.shared_rotors.joint == b.shared_rotors.joint &&
+         bits(a) == bits(b);
 }
 
 /// True if a description known at compile time and one read at run time are the same.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/config/controller_config.hpp"
+#include "articula/config/robot_joints.hpp"
 #include "articula/config/scalar.hpp"
 #include "articula/model/robot.hpp"
 
@@ -17,26 +18,15 @@
 
 namespace articula::detail {
 
-template <Robot R>
-[[nodiscard]] std::string robot_text(const R& robot) {
-  return "robot '" + std::string(model_of(robot).name.view()) + "'";
-}
-
 /// The joints of a configuration in the order of a robot's, nullptr where one is not configured.
 /// @throws ConfigError if the robot lacks a joint
 template <Robot R>
 [[nodiscard]] std::array<const ConfiguredJoint*, static_cast<std::size_t>(joint_count<R>)>
 arranged_joints(const ControllerConfig& config, const R& robot) {
   std::array<const ConfiguredJoint*, static_cast<std::size_t>(joint_count<R>)> arranged{};
-  const auto names = joint_names(robot);
+  const RobotJoints joints = joints_of(robot);
   for (const ConfiguredJoint& joint : config.joints) {
-    const auto found = std::find(names.begin(), names.end(), joint.name);
-    if (found == names.end()) {
-      throw ConfigError(joint.place,
-                        robot_text(robot) + " has no free joint '" + shown(joint.name) + "'",
-                        choice_text({names.begin(), names.end()}, joint.name));
-    }
-    arranged[static_cast<std::size_t>(found - names.begin())] = &joint;
+    arranged[joints.index(joint.name, joint.place)] = &joint;
   }
   return arranged;
 }
@@ -64,7 +54,7 @@ template <Robot R>
                     choice_text(names, name));
 }
 
-/// A chain must begin at the base and have all joints of the robot in it.
+/// A chain must begin at the base and have all joints of the configuration in it.
 template <Robot R>
 void check_chain(const ControllerConfig& config, const R& robot) {
   const std::string &root = config.chain_root, &tip = config.chain_tip;
@@ -73,15 +63,20 @@ void check_chain(const ControllerConfig& config, const R& robot) {
                       "a link of the base of " + robot_text(robot));
   }
   if (tip.empty()) return;
-  const auto& bodies = model_of(robot).mechanism.bodies;
-  std::size_t count = 0;
+  const auto& model = model_of(robot);
+  std::vector<std::string_view> chain;  // its joints
   int body = link_of_chain(robot, tip, config.chain_tip_place).body;
-  for (; body >= 0; body = bodies[static_cast<std::size_t>(body)].parent) ++count;
-  if (count == bodies.size()) return;
-  throw ConfigError(config.chain_tip_place,
-                    "the chain to '" + shown(tip) + "' has " + std::to_string(count) + " of the " +
-                        std::to_string(bodies.size()) + " moving bodies of " + robot_text(robot),
-                    "a tip beyond all of them");
+  while (body >= 0) {
+    chain.push_back(model.moving_joints[static_cast<std::size_t>(body)].view());
+    body = model.mechanism.bodies[static_cast<std::size_t>(body)].parent;
+  }
+  for (const ConfiguredJoint& joint : config.joints) {
+    if (std::find(chain.begin(), chain.end(), joint.name) != chain.end()) continue;
+    throw ConfigError(config.chain_tip_place,
+                      "the chain to '" + shown(tip) + "' of " + robot_text(robot) +
+                          " leaves joint '" + shown(joint.name) + "' out",
+                      "a tip beyond all joints");
+  }
 }
 
 /// The robot's own gravity is what counts, so the file must have the same.

@@ -19,7 +19,10 @@ struct ConfiguredJoint {
   std::optional<PidGains> gains{};
   double path_tolerance = 0;  ///< constraints.<joint>.trajectory [rad or m]; 0: not checked
   double goal_tolerance = 0;  ///< constraints.<joint>.goal [rad or m]; 0: not checked
+  /// angle_wraparound: the error is that of the short way round
+  std::optional<bool> short_way{};
   ConfigPlace place{};
+  ConfigPlace short_way_place{};
 };
 
 /// A controller's parameters as a file has them. What is not in the file keeps its default.
@@ -46,6 +49,7 @@ struct ControllerConfig {
   ConfigPlace gravity_place{};
   ConfigPlace chain_root_place{};
   ConfigPlace chain_tip_place{};
+  ConfigPlace priority_place{};
 };
 
 }  // namespace articula

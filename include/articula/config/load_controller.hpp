@@ -5,13 +5,16 @@
 
 #include "articula/config/controller_config.hpp"
 #include "articula/config/read_controller.hpp"
+#include "articula/config/robot_joints.hpp"
 #include "articula/config/section.hpp"
 #include "articula/config/source.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -32,44 +35,104 @@ namespace detail {
   return section.parameters.find("constraints") != nullptr;
 }
 
+/// A broadcaster has joints as well, and controls none.
+[[nodiscard]] inline bool is_broadcaster(const ConfigSection& section) {
+  return section.type.ends_with("Broadcaster") || section.name.ends_with("_broadcaster") ||
+         section.type.ends_with("JointStateController");
+}
+
 [[nodiscard]] inline bool has_joints(const ConfigSection& section) {
   return has_gains(section) || has_constraints(section) ||
-         section.parameters.find("joints") != nullptr;
+         (section.parameters.find("joints") != nullptr && !is_broadcaster(section));
+}
+
+/// Adds what another controller says to a configuration. There is one robot and one control thread:
+/// what both say about them must be the same.
+inline void put_together(ControllerConfig& config, ControllerConfig more) {
+  const auto refuse = [&](const ConfigPlace& place, const std::string& what,
+                          const std::string& expected) {
+    throw ConfigError(place, what, expected);
+  };
+  const std::string several = "the name or the type of the controllers that are meant";
+  if (more.type != config.type) {
+    refuse(more.place,
+           "its type is '" + shown(more.type) + "', that of the controller in line " +
+               std::to_string(config.place.line) + " is '" + shown(config.type) + "'",
+           several);
+  }
+  const auto same = [&](const std::string& what, auto& first, ConfigPlace& first_place,
+                        const auto& second, const ConfigPlace& second_place) {
+    if (second_place.file.empty()) return;
+    if (first_place.file.empty()) {
+      first = second;
+      first_place = second_place;
+    } else if (!(first == second)) {
+      refuse(second_place,
+             "the " + what + " is another one in line " + std::to_string(first_place.line),
+             "the same for controllers that are put together");
+    }
+  };
+  same("gravity", config.gravity, config.gravity_place, more.gravity, more.gravity_place);
+  same("root", config.chain_root, config.chain_root_place, more.chain_root, more.chain_root_place);
+  same("tip", config.chain_tip, config.chain_tip_place, more.chain_tip, more.chain_tip_place);
+  same("priority", config.priority, config.priority_place, more.priority, more.priority_place);
+  const auto options = [](const ControllerConfig& c) {
+    return std::tuple(c.stopped_velocity_tolerance, c.goal_time, c.trajectory.interpolation,
+                      c.trajectory.allow_motion_at_end, c.allow_partial_joints,
+                      c.allow_integration);
+  };
+  if (options(config) != options(more)) {
+    refuse(more.place,
+           "its options of trajectories are not those in line " + std::to_string(config.place.line),
+           "the same for controllers that are put together");
+  }
+  for (ConfiguredJoint& joint : more.joints) {
+    for (const ConfiguredJoint& known : config.joints) {
+      if (known.name != joint.name) continue;
+      refuse(
+          joint.place,
+          "joint '" + shown(joint.name) + "' is also in line " + std::to_string(known.place.line),
+          several);
+    }
+    config.joints.push_back(std::move(joint));
+  }
+  for (std::string& note : more.notes) {
+    const auto& notes = config.notes;
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) {
+      config.notes.push_back(std::move(note));
+    }
+  }
 }
 
 /// One controller, or single-joint controllers as if they were one.
 /// @param relevant  see chosen_sections
 /// @param what      is looked for, for messages
+/// @param robot     whose joints they are; nullptr: of any robot
 [[nodiscard]] inline ControllerConfig load_controller(
     const ConfigSource& source, std::string_view name,
-    const std::function<bool(const ConfigSection&)>& relevant, const std::string& what) {
-  const ConfigSections all = find_sections(source);
-  const std::vector<ConfigSection> chosen = chosen_sections(all, name, relevant, what);
+    const std::function<bool(const ConfigSection&)>& relevant, const std::string& what,
+    const RobotJoints* robot = nullptr) {
+  ConfigSections all = find_sections(source);
+  const std::vector<ConfigSection> chosen = chosen_sections(all, name, relevant, what, all.notes);
   std::vector<std::string> names;
+  std::string found;
   bool single_joints = true;
   for (const ConfigSection& section : chosen) {
-    names.push_back(section.name);
+    names.push_back(section.full_name());
+    found += (found.empty() ? "" : ", ") + shown(names.back()) + " in line " +
+             std::to_string(section.line());
     for (const char* key : {"joints", "dof_names", "joint_names", "gains"}) {
       single_joints = single_joints && section.parameters.find(key) == nullptr;
     }
   }
   if (chosen.size() > 1 && !single_joints) {
-    throw ConfigError({.file = all.file}, "there are several", choice_text(names, "") + " by name");
+    const ConfigSection& second = chosen[1];
+    throw ConfigError({all.file, second.line(), second.parameters.key_mark.column, second.path},
+                      "there are several: " + found, choice_text(names, "") + " by name");
   }
-  ControllerConfig config = ControllerReader(all.file, chosen.front()).take();
+  ControllerConfig config = ControllerReader(all.file, chosen.front(), robot).take();
   for (std::size_t k = 1; k < chosen.size(); ++k) {
-    ControllerConfig more = ControllerReader(all.file, chosen[k]).take();
-    for (ConfiguredJoint& joint : more.joints) {
-      for (const ConfiguredJoint& known : config.joints) {
-        if (known.name != joint.name) continue;
-        throw ConfigError(
-            joint.place,
-            "joint '" + shown(joint.name) + "' is also in line " + std::to_string(known.place.line),
-            "the name or the type of the controllers that are meant");
-      }
-      config.joints.push_back(std::move(joint));
-    }
-    config.notes.insert(config.notes.end(), more.notes.begin(), more.notes.end());
+    put_together(config, ControllerReader(all.file, chosen[k], robot).take());
   }
   config.notes.insert(config.notes.end(), all.notes.begin(), all.notes.end());
   return config;

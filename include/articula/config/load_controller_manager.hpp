@@ -3,9 +3,10 @@
 /// articula::config (yaml-cpp).
 #pragma once
 
-#include "articula/config/read_controller.hpp"
+#include "articula/config/reader.hpp"
 #include "articula/config/section.hpp"
 #include "articula/config/source.hpp"
+#include "articula/config/unused_parameters.hpp"
 
 #include <optional>
 #include <string>
@@ -73,7 +74,10 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
       continue;
     }
     if (section != nullptr) {
-      throw ConfigError({.file = all.file}, "there are several controller managers", "one");
+      throw ConfigError({all.file, each.line(), each.parameters.key_mark.column, each.path},
+                        "there are several controller managers, another one in line " +
+                            std::to_string(section->line()),
+                        "one");
     }
     section = &each;
   }
@@ -102,11 +106,15 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
   if (const auto value = map.find("lock_memory")) config.lock_memory = value->truth();
   detail::take_unused_manager_parameters(map);
   for (const detail::ConfigNode& item : section->parameters.items) {
-    if (item.find("type") == nullptr) continue;
-    ConfigMap controller = map.need_map(item.key);
-    config.controllers.push_back({item.key, controller.need("type").word()});
+    // What is neither a parameter nor almost one is a controller, which has a type.
+    const bool other = map.knows(item.key) || map.nearly_knows(item.key) || item.inherited;
+    const bool value = !item.is_map() && item.kind != detail::ConfigNode::Kind::nothing;
+    if (item.find("type") == nullptr && (other || value)) continue;
+    ConfigMap controller = *map.find_map(item.key);
+    const auto type = controller.expect("type");
     detail::take_unused_controller_parameters(controller);
     controller.finish();
+    config.controllers.push_back({item.key, type->word()});
   }
   map.finish();
   return config;

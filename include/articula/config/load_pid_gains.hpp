@@ -4,32 +4,60 @@
 
 #include "articula/config/arrange_joints.hpp"
 #include "articula/config/load_controller.hpp"
+#include "articula/core/name.hpp"
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace articula {
+
+/// Whose gains a file must have.
+enum class GainsOf : unsigned char {
+  all_joints,   ///< those of every joint of the robot
+  some_joints,  ///< those of the joints that the controller lists: a group with its own controller
+};
 
 /// A controller's parameters, with the gains of a robot of N joints.
 template <int N>
 struct PidConfig : ControllerConfig {
-  JointPidGains<N> gains{};  ///< in the order of the robot's joints
+  JointPidGains<N> gains{};   ///< in the order of the robot's joints; 0 where the file has none
+  std::vector<Name> group{};  ///< joints that have gains in the file, for Groups and OnJoints
 };
 
 /// Puts gains in the order of a robot's joints, and makes sure that the file means this robot.
+/// @param config  from load_controller
+/// @param robot   whose joints they are
+/// @param whose   gains there must be
 /// @throws ConfigError if the robot lacks a joint of the file, a joint of it has no gains, the
 ///         chain leaves a joint out, or the file's gravity is not the robot's
 /// Real-time: no (allocates, throws).
 template <Robot R>
-[[nodiscard]] PidConfig<joint_count<R>> pid_gains(ControllerConfig config, const R& robot) {
+[[nodiscard]] PidConfig<joint_count<R>> pid_gains(ControllerConfig config, const R& robot,
+                                                  GainsOf whose = GainsOf::all_joints) {
   PidConfig<joint_count<R>> result;
   const auto joints = detail::arranged_joints(config, robot);
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (joints[j] == nullptr || !joints[j]->gains) {
+    const ConfiguredJoint* joint = joints[j];
+    if (joint == nullptr) {
+      if (whose == GainsOf::some_joints && !config.joints.empty()) continue;
       detail::refuse_missing(config, robot, j, "gains");
     }
-    result.gains[j] = *joints[j]->gains;
+    if (!joint->gains) {
+      throw ConfigError(joint->place, "joint '" + detail::shown(joint->name) + "' has no gains",
+                        "them, such as " + detail::shown(joint->name) + ": {p: ...}");
+    }
+    result.gains[j] = *joint->gains;
+    result.group.emplace_back(joint->name);
+    const bool turns = model_of(robot).joints[j].type == JointType::continuous;
+    if (joint->short_way && *joint->short_way != turns) {
+      config.notes.push_back(joint->short_way_place.file + ":" +
+                             std::to_string(joint->short_way_place.line) + ": " +
+                             joint->short_way_place.key + ": not used: continuous joints " +
+                             "take the short way round, others do not");
+    }
   }
   detail::check_chain(config, robot);
   detail::check_gravity(config, robot);
@@ -43,18 +71,30 @@ template <Robot R>
 ///     Loop<Q2dSim, PidPlusGravity> loop(PidPlusGravity<Q2d>(config.gains));
 ///     run(loop, RealtimeOptions{.thread = {.priority = config.priority.value_or(99)}});
 ///
+/// A controller of some joints, such as those of an arm without its gripper:
+///
+///     const auto arm = load_pid_gains(GripperArm(), "controllers.yaml", "arm", GainsOf::some_joints);
+///     Groups<R, Pid<R>, Bypass<R>> parts({{{"arm", arm.group}, {"gripper", ...}}}, arm.gains, ...);
+///
 /// Layouts, keys and their meaning: docs/configuration.md.
 /// @param robot   whose joints they are
 /// @param source  a file, or a ConfigSource::text
 /// @param name    of the controller, of a namespace, or the type of the controllers that are meant;
 ///                need not be given where there is but one with gains
+/// @param whose   gains there must be
 /// @throws ConfigError with file, line, key and what was expected, see load_controller and pid_gains
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] PidConfig<joint_count<R>> load_pid_gains(const R& robot, const ConfigSource& source,
-                                                       std::string_view name = {}) {
+                                                       std::string_view name = {},
+                                                       GainsOf whose = GainsOf::all_joints) {
+  const detail::RobotJoints joints = detail::joints_of(robot);
+  const auto relevant = [&](const detail::ConfigSection& section) {
+    return detail::has_gains(section) || detail::is_joint(section, joints);
+  };
   return pid_gains(
-      detail::load_controller(source, name, detail::has_gains, "controller with gains"), robot);
+      detail::load_controller(source, name, relevant, "controller with gains", &joints), robot,
+      whose);
 }
 
 }  // namespace articula

@@ -8,6 +8,7 @@
 #include "articula/reference/trajectory_tolerances.hpp"
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -24,6 +25,8 @@ struct TrajectoryConfig : ControllerConfig {
 ///     const TrajectoryConfig<2> config = load_trajectory_tolerances(Q2d(), "controllers.yaml");
 ///     TrajectoryFollower<Q2d> follower(position, limits, {.tolerances = config.tolerances});
 ///
+/// Joints that the file does not list, such as those of a gripper with a controller of its own, are
+/// not checked, which is noted.
 /// @param robot   whose joints they are
 /// @param source  a file, or a ConfigSource::text
 /// @param name    of the controller; need not be given where there is but one with constraints
@@ -32,13 +35,21 @@ struct TrajectoryConfig : ControllerConfig {
 template <Robot R>
 [[nodiscard]] TrajectoryConfig<joint_count<R>> load_trajectory_tolerances(
     const R& robot, const ConfigSource& source, std::string_view name = {}) {
-  ControllerConfig config =
-      detail::load_controller(source, name, detail::has_constraints, "controller with constraints");
+  const detail::RobotJoints known = detail::joints_of(robot);
+  ControllerConfig config = detail::load_controller(source, name, detail::has_constraints,
+                                                    "controller with constraints", &known);
   TrajectoryConfig<joint_count<R>> result;
+  if (config.joints.empty()) detail::refuse_missing(config, robot, 0, "an entry in 'joints'");
   const auto joints = detail::arranged_joints(config, robot);
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (joints[j] == nullptr) detail::refuse_missing(config, robot, j, "an entry in 'joints'");
     const auto k = static_cast<Eigen::Index>(j);
+    if (joints[j] == nullptr) {
+      result.tolerances.stopped_velocity[k] = 0;
+      config.notes.push_back(config.place.file + ":" + std::to_string(config.place.line) +
+                             ": no tolerances for joint '" + known.names[j] +
+                             "', which is not in 'joints': it is not checked");
+      continue;
+    }
     result.tolerances.path_position[k] = joints[j]->path_tolerance;
     result.tolerances.goal_position[k] = joints[j]->goal_tolerance;
     result.tolerances.stopped_velocity[k] = config.stopped_velocity_tolerance;

@@ -21,9 +21,11 @@ struct ConfigNode {
   enum class Kind : unsigned char { nothing, scalar, list, map };
 
   Kind kind = Kind::nothing;
-  bool quoted = false;  ///< a scalar that is text whatever it looks like
-  std::string text{};   ///< of a scalar
-  std::string key{};    ///< in a map
+  bool quoted = false;     ///< a scalar that is text whatever it looks like
+  std::string text{};      ///< of a scalar
+  std::string key{};       ///< in a map
+  std::string from{};      ///< the keys from the top where it comes from another section, /** or so
+  bool inherited = false;  ///< likewise, and a parameter that the section may not know
   ConfigMark mark{};
   ConfigMark key_mark{};
   std::vector<ConfigNode> items{};  ///< of a list or map

@@ -5,9 +5,10 @@
 #include "articula/config/controller_config.hpp"
 #include "articula/config/read_gains.hpp"
 #include "articula/config/reader.hpp"
+#include "articula/config/robot_joints.hpp"
 #include "articula/config/section.hpp"
+#include "articula/config/unused_parameters.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -16,74 +17,6 @@
 #include <vector>
 
 namespace articula::detail {
-
-/// A parameter that ROS's controllers have and that has no effect here.
-struct UnusedParameter {
-  enum class Kind : unsigned char { number, truth, word, words, any_map };
-  std::string_view key;
-  Kind kind;
-  std::string_view why;
-};
-
-/// Takes parameters that have no effect, if they are there: of the right type, and noted.
-inline void take_unused(ConfigMap& map, const std::vector<UnusedParameter>& parameters) {
-  for (const UnusedParameter& parameter : parameters) {
-    const auto value = map.find(parameter.key);
-    if (!value) continue;
-    switch (parameter.kind) {
-      case UnusedParameter::Kind::number:
-        static_cast<void>(value->not_negative());
-        break;
-      case UnusedParameter::Kind::truth:
-        static_cast<void>(value->truth());
-        break;
-      case UnusedParameter::Kind::word:
-        static_cast<void>(value->word());
-        break;
-      case UnusedParameter::Kind::words:
-        for (const ConfigValue& item : value->list()) static_cast<void>(item.word());
-        break;
-      case UnusedParameter::Kind::any_map:
-        if (!value->node().is_map()) value->refuse("a map");
-        break;
-    }
-    map.note(*value, "not used: " + std::string(parameter.why));
-  }
-}
-
-inline void take_unused_controller_parameters(ConfigMap& map) {
-  using enum UnusedParameter::Kind;
-  constexpr std::string_view interfaces = "the types in the program decide what is commanded";
-  constexpr std::string_view topics = "nothing is published or received here";
-  constexpr std::string_view loop = "a loop has one period and one thread";
-  constexpr std::string_view follower = "see docs/references.md for what the follower does";
-  take_unused(map, {{"command_interfaces", words, interfaces},
-                    {"state_interfaces", words, interfaces},
-                    {"command_interface", word, interfaces},
-                    {"interface_name", word, interfaces},
-                    {"command_joints", words, interfaces},
-                    {"reference_and_state_dof_names", words, interfaces},
-                    {"use_external_measured_states", truth, topics},
-                    {"publish_rate", number, topics},
-                    {"state_publish_rate", number, topics},
-                    {"action_monitor_rate", number, topics},
-                    {"robot_description", word, topics},
-                    {"use_sim_time", truth, topics},
-                    {"update_rate", number, loop},
-                    {"is_async", truth, loop},
-                    {"async_parameters", any_map, loop},
-                    {"params_file", word, "this file is all that is read"},
-                    {"fallback_controllers", words, "see SupervisedLoop"},
-                    {"set_current_state_as_first_setpoint", truth, "it always is"},
-                    {"set_last_command_interface_value_as_state_on_activation", truth, follower},
-                    {"interpolate_from_desired_state", truth, follower},
-                    {"open_loop_control", truth, follower},
-                    {"allow_trajectory_replacement", truth, follower},
-                    {"stop_trajectory_duration", number, follower},
-                    {"cmd_timeout", number, follower},
-                    {"speed_scaling", any_map, follower},
-                    {"positions_upsampling", any_map, follower}});
-}
 
 /// Names of joints, none of them twice.
 [[nodiscard]] inline std::vector<ConfiguredJoint> read_joint_list(const ConfigValue& value) {
@@ -115,7 +48,8 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
     const auto found = map.find(key);
     return found ? found->number() : 0;
   };
-  const double x = part("x"), y = part("y"), z = map.need("z").number();
+  static_cast<void>(map.expect("z"));
+  const double x = part("x"), y = part("y"), z = part("z");
   map.finish();
   return {x, y, z};
 }
@@ -123,8 +57,9 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
 /// Reads the parameters of one controller.
 class ControllerReader {
  public:
-  ControllerReader(const std::string& file, const ConfigSection& section)
-      : map_(ConfigValue(file, section.parameters, section.path), config_.notes) {
+  /// @param robot  whose joints they are; nullptr: of any robot
+  ControllerReader(const std::string& file, const ConfigSection& section, const RobotJoints* robot)
+      : robot_(robot), map_(ConfigValue(file, section.parameters, section.path), config_.notes) {
     config_.name = section.name;
     config_.type = section.type;
     config_.place = map_.value().place();
@@ -134,6 +69,8 @@ class ControllerReader {
     read_mechanics();
     read_trajectory();
     take_unused_controller_parameters(map_);
+    refuse_common_gains();
+    if (config_.joints.empty() && map_.has_unknown()) static_cast<void>(map_.expect("joints"));
     map_.finish();
   }
 
@@ -141,6 +78,14 @@ class ControllerReader {
 
  private:
   void read_joints(const std::string& section) {
+    find_joints(section);
+    if (robot_ == nullptr) return;
+    for (const ConfiguredJoint& joint : config_.joints) {
+      static_cast<void>(robot_->index(joint.name, joint.place));
+    }
+  }
+
+  void find_joints(const std::string& section) {
     std::optional<ConfigValue> given;
     for (const std::string_view key : {"joints", "dof_names", "joint_names"}) {
       const auto value = map_.find(key);
@@ -157,20 +102,45 @@ class ControllerReader {
     }
     if (given) return;
     const ConfigNode& node = map_.value().node();
-    if (const ConfigNode* gains = node.find("gains")) {
+    if (const ConfigNode* gains = node.find("gains"); gains != nullptr && gains->is_map()) {
       const ConfigValue by_joint = map_.value().at(*gains);
       for (const ConfigNode& item : gains->items) {
         config_.joints.push_back({.name = item.key, .place = by_joint.at(item).place()});
       }
-    } else if (!section.empty() && (node.find("p") != nullptr || node.find("pid") != nullptr)) {
+    } else if (!section.empty() && (node.find("p") != nullptr || node.find("pid") != nullptr ||
+                                    (robot_ != nullptr && robot_->has(section)))) {
       config_.joints = {{.name = section, .place = config_.place}};
     }
   }
 
-  void give(ConfiguredJoint& joint, const PidGains& gains, const ConfigValue& where) {
-    if (joint.gains)
-      where.refuse("gains of '" + shown(joint.name) + "' a second time", "one place");
-    joint.gains = gains;
+  /// Takes the gains of a joint from a map, which must have no other keys.
+  void give(ConfiguredJoint& joint, ConfigMap map, bool has_velocity = false) {
+    refuse_second(joint, map.value());
+    static_cast<void>(map.expect("p"));
+    read_gains(map, joint, has_velocity);
+    map.finish();
+  }
+  static void refuse_second(const ConfiguredJoint& joint, const ConfigValue& where) {
+    if (!joint.gains) return;
+    where.refuse("gains of '" + shown(joint.name) + "' a second time", "one place");
+  }
+  /// Ends a map whose keys are joints. Without joints it is they that are missing.
+  void finish_by_joint(const ConfigMap& map) {
+    if (config_.joints.empty() && map.has_unknown()) {
+      static_cast<void>(map_.expect("joints"));
+    } else {
+      map.finish();
+    }
+  }
+  /// A list p, or one p or pid for several joints, is no gain.
+  void refuse_common_gains() {
+    for (const std::string_view key : {"p", "pid"}) {
+      const ConfigNode* gain = map_.value().node().find(key);
+      if (gain == nullptr || config_.joints.size() < 2 || map_.knows(key)) continue;
+      map_.value().at(*gain).refuse(
+          "gains of several joints at once",
+          "those of each below its name, such as " + shown(config_.joints[0].name) + ": {p: ...}");
+    }
   }
 
   void read_all_gains() {
@@ -184,30 +154,24 @@ class ControllerReader {
     }
     if (auto gains = map_.find_map("gains")) {
       for (ConfiguredJoint& joint : config_.joints) {
-        if (const auto one = gains->find_map(joint.name)) {
-          give(joint, read_gains(*one, joint.name, has_velocity), one->value());
-        }
+        if (const auto one = gains->find_map(joint.name)) give(joint, *one, has_velocity);
       }
-      gains->finish();
+      finish_by_joint(*gains);
     }
-    const bool single = config_.joints.size() == 1;
-    if (single && map_.value().node().find("p") != nullptr) {
-      read_own_gains();
-    } else if (single) {
-      if (const auto pid = map_.find_map("pid")) {
-        give(config_.joints[0], read_gains(*pid, config_.joints[0].name), pid->value());
-      }
+    if (config_.joints.size() == 1) {
+      if (const auto pid = map_.find_map("pid")) give(config_.joints[0], *pid);
     }
     for (ConfiguredJoint& joint : config_.joints) {
-      auto own = map_.find_map(joint.name);
-      if (!own) continue;
-      if (auto pid = own->find_map("pid")) {
-        give(joint, read_gains(*pid, joint.name), pid->value());
-        own->finish();
-      } else {
-        give(joint, read_gains(ConfigMap(own->value(), config_.notes), joint.name), own->value());
+      if (auto own = map_.find_map(joint.name)) {
+        if (auto pid = own->find_map("pid")) {
+          give(joint, *pid);
+          own->finish();
+        } else {
+          give(joint, *own);
+        }
       }
     }
+    if (config_.joints.size() == 1) read_own_gains(config_.joints[0]);
     read_matrices();
     if (auto feedforward = map_.find_map("velocity_ff")) {
       for (ConfiguredJoint& joint : config_.joints) {
@@ -216,28 +180,28 @@ class ControllerReader {
           value->refuse("a factor without gains", "gains of the joint, too");
         if (value) joint.gains->velocity_feedforward = value->number();
       }
-      feedforward->finish();
+      finish_by_joint(*feedforward);
     }
   }
 
   /// A controller of one joint may have p, i, d and their like among its other parameters.
-  void read_own_gains() {
-    ConfigNode gains = map_.value().node();
-    std::erase_if(gains.items, [](const ConfigNode& item) {
-      return std::find(gain_keys.begin(), gain_keys.end(), item.key) == gain_keys.end();
-    });
-    for (const std::string_view key : gain_keys) static_cast<void>(map_.find(key));
-    const ConfigPlace& place = config_.place;
-    const ConfigMap own(ConfigValue(place.file, gains, place.key), config_.notes);
-    give(config_.joints[0], read_gains(own, config_.joints[0].name), map_.value());
+  void read_own_gains(ConfiguredJoint& joint) {
+    ConfiguredJoint own{.name = joint.name};
+    const std::size_t before = map_.found();
+    read_gains(map_, own, false);
+    if (map_.found() == before) return;
+    refuse_second(joint, map_.value());
+    static_cast<void>(map_.expect("p"));
+    own.place = joint.place;
+    joint = own;
   }
 
   /// Kp and Kd of computed torque controllers: matrices by rows, of which the diagonal counts.
   void read_matrices() {
     const auto proportional = map_.find("Kp"), derivative = map_.find("Kd");
-    if (!proportional && !derivative) return;
-    if (!proportional) static_cast<void>(map_.need("Kp"));
-    if (!derivative) static_cast<void>(map_.need("Kd"));
+    if (!proportional && derivative) static_cast<void>(map_.expect("Kp"));
+    if (!derivative && proportional) static_cast<void>(map_.expect("Kd"));
+    if (!proportional || !derivative) return;
     const std::size_t n = config_.joints.size();
     const auto diagonal = [&](const ConfigValue& value) {
       const auto items = value.list();
@@ -247,10 +211,9 @@ class ControllerReader {
       const std::size_t step = items.size() == n ? 1 : n + 1;
       std::vector<double> numbers;
       for (std::size_t k = 0; k < items.size(); ++k) {
-        const double number = items[k].number();
         if (k % step == 0) {
-          numbers.push_back(number);
-        } else if (number != 0) {
+          numbers.push_back(items[k].not_negative());
+        } else if (items[k].number() != 0) {
           items[k].refuse("0 off the diagonal, since every joint has a controller of its own");
         }
       }
@@ -258,7 +221,8 @@ class ControllerReader {
     };
     const auto p = diagonal(*proportional), d = diagonal(*derivative);
     for (std::size_t k = 0; k < n; ++k) {
-      give(config_.joints[k], {.proportional = p[k], .derivative = d[k]}, *proportional);
+      refuse_second(config_.joints[k], *proportional);
+      config_.joints[k].gains = PidGains{.proportional = p[k], .derivative = d[k]};
     }
   }
 
@@ -278,7 +242,10 @@ class ControllerReader {
       }
       chain->finish();
     }
-    if (const auto value = map_.find("priority")) config_.priority = value->integer(0, 99);
+    if (const auto value = map_.find("priority")) {
+      config_.priority = value->integer(0, 99);
+      config_.priority_place = value->place();
+    }
   }
 
   void read_trajectory() {
@@ -309,13 +276,11 @@ class ControllerReader {
       take_unused(*own, {{"max_deceleration_on_cancel", UnusedParameter::Kind::number, stop}});
       own->finish();
     }
-    constraints->finish();
+    finish_by_joint(*constraints);
   }
 
-  static inline const std::vector<std::string_view> gain_keys = {
-      "p", "i", "d", "i_clamp", "i_clamp_min", "i_clamp_max", "antiwindup", "publish_state"};
-
   ControllerConfig config_{};
+  const RobotJoints* robot_;
   ConfigMap map_;
 };
 

@@ -2,6 +2,7 @@
 /// @file The gains of one joint in a configuration file.
 #pragma once
 
+#include "articula/config/controller_config.hpp"
 #include "articula/config/reader.hpp"
 #include "articula/control/pid_gains.hpp"
 
@@ -14,18 +15,15 @@
 
 namespace articula::detail {
 
-/// A pair of clamps: `name`_min and `name`_max.
+/// A pair of clamps: `name`_min and `name`_max. Without 0 between them a joint would be pushed at rest.
 inline void read_clamps(ConfigMap& map, const std::string& name, double& low, double& high) {
   if (const auto value = map.find(name + "_min")) {
     low = value->number_or_infinity();
-    if (low == PidGains::infinity) value->refuse("a number, or -.inf");
+    if (low > 0) value->refuse("a number <= 0, or -.inf");
   }
   if (const auto value = map.find(name + "_max")) {
     high = value->number_or_infinity();
-    if (high == -PidGains::infinity) value->refuse("a number, or .inf");
-    if (high < low) value->refuse("a number >= " + name + "_min");
-  } else if (high < low) {
-    map.need(name + "_min").refuse("a number <= " + name + "_max");
+    if (high < 0) value->refuse("a number >= 0, or .inf");
   }
 }
 
@@ -49,12 +47,22 @@ inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
   }
 }
 
-/// Reads the gains of one joint; p must be there.
-/// @param map           whose keys they are; other keys are unknown
-/// @param joint         for messages
+/// Whether the error of a turning joint is that of the short way round. Here the joint's type says it.
+inline void read_short_way(ConfigMap& map, ConfiguredJoint& joint) {
+  for (const std::string_view key : {"angle_wraparound", "normalize_error"}) {
+    const auto value = map.find(key);
+    if (!value) continue;
+    if (joint.short_way) value->refuse("the same a second time", "one of them");
+    joint.short_way = value->truth();
+    joint.short_way_place = value->place();
+  }
+}
+
+/// Reads the gains of one joint.
+/// @param map           what else is in it stays unknown; who needs p expects it
+/// @param joint         receives them
 /// @param has_velocity  the reference has a velocity, which feedforward_gain then multiplies
-[[nodiscard]] inline PidGains read_gains(ConfigMap map, std::string_view joint,
-                                         bool has_velocity = false) {
+inline void read_gains(ConfigMap& map, ConfiguredJoint& joint, bool has_velocity) {
   PidGains gains;
   const auto read = [&](std::string_view key, double& to) {
     if (const auto value = map.find(key)) to = value->number();
@@ -62,10 +70,9 @@ inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
   const auto read_not_negative = [&](std::string_view key, double& to) {
     if (const auto value = map.find(key)) to = value->not_negative();
   };
-  gains.proportional = map.need("p").number();
-  const auto integral = map.find("i");
-  if (integral) gains.integral = integral->number();
-  read("d", gains.derivative);
+  read_not_negative("p", gains.proportional);
+  read_not_negative("i", gains.integral);
+  read_not_negative("d", gains.derivative);
 
   if (const auto clamp = map.find("i_clamp")) {
     gains.integral_clamp_max = clamp->number_or_infinity();
@@ -75,7 +82,7 @@ inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
   read_clamps(map, "i_clamp", gains.integral_clamp_min, gains.integral_clamp_max);
   if (gains.integral != 0 && gains.integral_clamp_max == PidGains::infinity &&
       gains.integral_clamp_min == -PidGains::infinity) {
-    map.note(*integral,
+    map.note(*map.find("i"),
              "no i_clamp is given: none here, as from ROS 2 Jazzy on; ROS 1 and Humble "
              "take 0, that is no integral");
   }
@@ -108,9 +115,7 @@ inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
   read_weight("position_weight", gains.position_weight);
   read_weight("velocity_weight", gains.velocity_weight);
 
-  if (const auto value = map.find("angle_wraparound"); value && value->truth()) {
-    map.note(*value, "not used: what is followed is a trajectory's way round");
-  }
+  read_short_way(map, joint);
   for (const std::string_view key :
        {"save_i_term", "save_iterm", "activate_state_publisher", "publish_state"}) {
     if (const auto value = map.find(key)) {
@@ -118,13 +123,12 @@ inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
       map.note(*value, "not used");
     }
   }
-  map.finish();
   try {
-    validate<1>({gains}, {joint});
+    validate<1>({gains}, {joint.name});
   } catch (const std::invalid_argument& error) {
     map.value().refuse(error.what(), "gains of a controller");
   }
-  return gains;
+  joint.gains = gains;
 }
 
 }  // namespace articula::detail

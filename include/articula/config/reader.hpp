@@ -75,8 +75,9 @@ class ConfigValue {
   }
   /// A name: text that is no number and no truth value, unless it is quoted.
   [[nodiscard]] std::string word() const {
-    const bool good = node_->kind == ConfigNode::Kind::scalar && !node_->text.empty() &&
-                      (node_->quoted || (!as_number(node_->text) && !as_truth(node_->text)));
+    const bool good =
+        node_->kind == ConfigNode::Kind::scalar && !node_->text.empty() &&
+        (node_->quoted || (!parse_number(node_->text).is_number && !as_truth(node_->text)));
     if (!good) refuse("a name");
     return node_->text;
   }
@@ -97,6 +98,7 @@ class ConfigValue {
   }
   /// The value under a key of this map.
   [[nodiscard]] ConfigValue at(const ConfigNode& item) const {
+    if (!item.from.empty()) return {file_, item, item.from};
     return {file_, item, (path_.empty() ? "" : path_ + ".") + shown(item.key)};
   }
 
@@ -125,17 +127,18 @@ class ConfigMap {
 
   /// The value under a key, if there is one.
   [[nodiscard]] std::optional<ConfigValue> find(std::string_view key) {
-    known_.emplace_back(key);
+    if (!knows(key)) known_.emplace_back(key);
     const ConfigNode* item = value_.node().find(key);
     if (item == nullptr) return {};
+    ++found_;
     return value_.at(*item);
   }
-  /// The value under a key.
-  /// @throws ConfigError if there is none
-  [[nodiscard]] ConfigValue need(std::string_view key) {
-    const auto found = find(key);
-    if (!found) value_.refuse("the key '" + std::string(key) + "' is missing", "it here");
-    return *found;
+  /// The value under a key that must be there; if it is not, finish() throws. That may wait: what
+  /// seems to be missing may be misspelt.
+  [[nodiscard]] std::optional<ConfigValue> expect(std::string_view key) {
+    auto found = find(key);
+    if (!found) missing_.emplace_back(key);
+    return found;
   }
   /// The map under a key, if there is one.
   [[nodiscard]] std::optional<ConfigMap> find_map(std::string_view key) {
@@ -143,13 +146,20 @@ class ConfigMap {
     if (!found) return {};
     return ConfigMap(*found, *notes_);
   }
-  /// The map under a key.
-  [[nodiscard]] ConfigMap need_map(std::string_view key) { return {need(key), *notes_}; }
 
-  /// Takes a key that has no effect here, and says so.
-  void unused(std::string_view key, std::string_view why) {
-    if (const auto found = find(key)) note(*found, why);
+  /// How many keys were asked for and there.
+  [[nodiscard]] std::size_t found() const noexcept { return found_; }
+  /// True if a key was asked for.
+  [[nodiscard]] bool knows(std::string_view key) const {
+    return std::find(known_.begin(), known_.end(), key) != known_.end();
   }
+  /// True if a key is near to one that was asked for.
+  [[nodiscard]] bool nearly_knows(std::string_view key) const {
+    return nearest_name(known_, key) != nullptr;
+  }
+  /// True if there are keys that nobody asked for, what is inherited aside.
+  [[nodiscard]] bool has_unknown() const { return !unknown().empty(); }
+
   /// Says something about a value.
   void note(const ConfigValue& at, std::string_view text) const {
     const ConfigPlace place = at.place();
@@ -157,22 +167,44 @@ class ConfigMap {
                       std::string(text));
   }
 
-  /// @throws ConfigError if the map has a key that nobody asked for
+  /// @throws ConfigError if the map has a key that nobody asked for, or lacks one that it must have
   void finish() const {
+    constexpr std::size_t listed = 3, tried = 16;
     for (const ConfigNode& item : value_.node().items) {
-      if (std::find(known_.begin(), known_.end(), item.key) != known_.end()) continue;
-      ConfigPlace place = value_.at(item).place();
-      place.line = item.key_mark.line;
-      place.column = item.key_mark.column;
-      throw ConfigError(place, "unknown key '" + shown(item.key) + "'",
-                        choice_text(known_, item.key));
+      if (item.inherited && !knows(item.key)) note(value_.at(item), "not used here");
     }
+    const auto others = unknown();
+    const ConfigNode* wrong = others.empty() ? nullptr : others.front();
+    if (!missing_.empty()) {
+      // What is almost a key is a slip, and the likely reason why another one is missing.
+      const auto last =
+          others.begin() + static_cast<std::ptrdiff_t>(std::min(others.size(), tried));
+      const auto slip = std::find_if(
+          others.begin(), last, [&](const ConfigNode* item) { return nearly_knows(item->key); });
+      if (slip == last) value_.refuse("the key '" + missing_.front() + "' is missing", "it here");
+      wrong = *slip;
+    }
+    if (wrong == nullptr) return;
+    ConfigPlace place = value_.at(*wrong).place();
+    place.line = wrong->key_mark.line;
+    place.column = wrong->key_mark.column;
+    throw ConfigError(place, "unknown key '" + shown(wrong->key) + "'",
+                      choice_text(known_, wrong->key, listed));
   }
 
  private:
+  [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
+    std::vector<const ConfigNode*> items;
+    for (const ConfigNode& item : value_.node().items) {
+      if (!item.inherited && !knows(item.key)) items.push_back(&item);
+    }
+    return items;
+  }
+
   ConfigValue value_;
   std::vector<std::string>* notes_;
-  std::vector<std::string> known_{};
+  std::vector<std::string> known_{}, missing_{};
+  std::size_t found_ = 0;
 };
 
 }  // namespace articula::detail

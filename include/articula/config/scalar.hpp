@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace articula::detail {
@@ -42,14 +43,23 @@ namespace articula::detail {
   });
 }
 
+/// What a text is as a number.
+struct ParsedNumber {
+  bool is_number = false;  ///< it is written as one
+  bool in_range = false;   ///< and a double can hold it
+  double value = 0;
+};
+
 /// A number as YAML writes it; .inf and .nan are numbers, too. Whoever reads 010 in octal and
 /// whoever does not may be both right, so it is none.
-[[nodiscard]] inline std::optional<double> as_number(std::string_view text) {
+[[nodiscard]] inline ParsedNumber parse_number(std::string_view text) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (is_one_of(text, {".nan"})) return std::numeric_limits<double>::quiet_NaN();
+  if (is_one_of(text, {".nan"})) {
+    return {true, true, std::numeric_limits<double>::quiet_NaN()};
+  }
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
-  if (is_one_of(text, {".inf"})) return negative ? -infinity : infinity;
+  if (is_one_of(text, {".inf"})) return {true, true, negative ? -infinity : infinity};
   if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string_view::npos)
     return {};
   if (text.find_first_of("+-") == 0) return {};
@@ -58,8 +68,14 @@ namespace articula::detail {
   }
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return negative ? -value : value;
+  if (error == std::errc::invalid_argument || end != text.data() + text.size()) return {};
+  return {true, error == std::errc(), negative ? -value : value};
+}
+
+/// A number that a double can hold.
+[[nodiscard]] inline std::optional<double> as_number(std::string_view text) {
+  const ParsedNumber number = parse_number(text);
+  return number.in_range ? std::optional(number.value) : std::nullopt;
 }
 
 /// True or false; yes, no, on and off are likewise, as in YAML 1.1.
@@ -82,8 +98,10 @@ namespace articula::detail {
       break;
   }
   if (node.quoted) return "the quoted text '" + shown(node.text) + "'";
-  const bool number = as_number(node.text).has_value();
-  return (number ? "the number " : "the word '") + shown(node.text) + (number ? "" : "'");
+  const ParsedNumber number = parse_number(node.text);
+  if (!number.is_number) return "the word '" + shown(node.text) + "'";
+  return "the number " + shown(node.text) +
+         (number.in_range ? "" : ", which is out of the range of numbers");
 }
 
 /// How many letters must be put in, left out or changed to make one word of the other [Levenshtein
@@ -103,21 +121,56 @@ namespace articula::detail {
   return row.back();
 }
 
-/// "one of a, b, c", with the nearest of them first if one is near to what was written.
-[[nodiscard]] inline std::string choice_text(const std::vector<std::string>& names,
-                                             std::string_view written) {
-  std::string list;
+/// How many letters a name is from what was written, whatever the case; none where either is long.
+[[nodiscard]] inline std::optional<std::size_t> distance_of(std::string_view name,
+                                                            std::string_view written) {
+  constexpr std::size_t longest = 64;
+  if (written.size() > longest || name.size() > longest) return {};
+  std::string a(name), b(written);
+  for (std::string* text : {&a, &b}) {
+    for (char& c : *text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return letters_apart(a, b);
+}
+
+/// The name that was probably meant; nullptr if none is near to what was written.
+[[nodiscard]] inline const std::string* nearest_name(const std::vector<std::string>& names,
+                                                     std::string_view written) {
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, written.size() / 3) + 1;
   for (const std::string& name : names) {
-    list += (list.empty() ? "" : ", ") + shown(name);
-    if (written.size() > 64 || name.size() > 64) continue;
-    const std::size_t apart = letters_apart(name, written);
-    if (apart >= least || apart >= name.size()) continue;
-    least = apart;
+    const auto apart = distance_of(name, written);
+    if (!apart || *apart >= least) continue;
+    // One letter in place of another means nothing, but kp means p.
+    if (*apart >= name.size() && !(*apart == 1 && written.ends_with(name))) continue;
+    least = *apart;
     nearest = &name;
   }
-  return (nearest != nullptr ? "'" + shown(*nearest) + "'? One of " : "one of ") + list;
+  return nearest;
+}
+
+/// "one of a, b, c", with the nearest of them first if one is near to what was written.
+/// @param most  names listed; if there are more, the nearest are
+[[nodiscard]] inline std::string choice_text(
+    const std::vector<std::string>& names, std::string_view written,
+    std::size_t most = std::numeric_limits<std::size_t>::max()) {
+  const std::string* nearest = nearest_name(names, written);
+  const std::string begin =
+      nearest != nullptr ? "'" + shown(*nearest) + "'? One of " : std::string("one of ");
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // per cent that are other letters, index
+  const bool too_many = names.size() > most;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto apart = too_many ? distance_of(names[k], written) : std::nullopt;
+    const std::size_t longer = std::max({names[k].size(), written.size(), std::size_t{1}});
+    order.emplace_back(apart ? 100 * *apart / longer : 100, k);
+  }
+  if (too_many) {
+    std::sort(order.begin(), order.end());
+    order.resize(most);
+  }
+  std::string list;
+  for (const auto& [share, k] : order) list += (list.empty() ? "" : ", ") + shown(names[k]);
+  return begin + list + (too_many ? ", ..." : "");
 }
 
 }  // namespace articula::detail

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "articula/config/document.hpp"
+#include "articula/config/merge.hpp"
 #include "articula/config/reader.hpp"
+#include "articula/config/robot_joints.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,7 +24,16 @@ struct ConfigSection {
   std::string group{};  ///< the namespaces around it, with slashes
   std::string type{};   ///< that the section or the controller manager gives it; may be empty
   ConfigNode parameters{};
+
+  [[nodiscard]] std::string full_name() const { return group.empty() ? name : group + "/" + name; }
+  /// Where it begins, for messages.
+  [[nodiscard]] int line() const noexcept { return parameters.key_mark.line; }
 };
+
+/// True if a section is named after a joint, not a controller that is.
+[[nodiscard]] inline bool is_joint(const ConfigSection& section, const RobotJoints& joints) {
+  return section.type.empty() && joints.has(section.name);
+}
 
 /// The sections of a file, and the place of the file's top.
 struct ConfigSections {
@@ -33,62 +44,12 @@ struct ConfigSections {
 
 inline constexpr std::string_view ros_parameters = "ros__parameters";
 
-/// Entries of `weak` that `strong` does not have are added to it; maps are merged. Both are maps.
-inline void merge_into(ConfigNode& strong, const ConfigNode& weak) {
-  for (const ConfigNode& item : weak.items) {
-    const auto same = std::find_if(strong.items.begin(), strong.items.end(),
-                                   [&](const ConfigNode& mine) { return mine.key == item.key; });
-    if (same == strong.items.end()) {
-      strong.items.push_back(item);
-    } else if (same->is_map() && item.is_map()) {
-      merge_into(*same, item);
-    }
-  }
-}
-
-/// Puts a value into a map under a key, in which dots go down: ROS 2 takes the key `gravity.z` for
-/// `z` in the map `gravity`.
-/// @throws ConfigError if a value is given both ways
-inline void insert_dotted(const ConfigPlace& place, ConfigNode& map, std::string_view key,
-                          const ConfigNode& item, std::size_t depth = 0) {
-  if (depth > ConfigBuilder::deepest) {
-    throw ConfigError(place, "the key '" + shown(item.key) + "' has too many dots", "fewer");
-  }
-  const std::size_t dot = key.find('.');
-  const bool inner = dot != std::string_view::npos;
-  const std::string_view first = key.substr(0, dot);
-  auto same = std::find_if(map.items.begin(), map.items.end(),
-                           [&](const ConfigNode& node) { return node.key == first; });
-  const bool is_new = same == map.items.end();
-  if (is_new) {
-    map.items.push_back({.kind = ConfigNode::Kind::map,
-                         .key = std::string(first),
-                         .mark = item.mark,
-                         .key_mark = item.key_mark});
-    same = map.items.end() - 1;
-  }
-  if (same->is_map() && inner) {
-    insert_dotted(place, *same, key.substr(dot + 1), item, depth + 1);
-  } else if (same->is_map() && item.is_map()) {
-    for (const ConfigNode& part : item.items) {
-      insert_dotted(place, *same, part.key, part, depth + 1);
-    }
-  } else if (is_new) {
-    *same = item;
-    same->key = first;
-  } else {
-    throw ConfigError(
-        {place.file, item.key_mark.line, item.key_mark.column, place.key},
-        "'" + shown(item.key) + "' is also in line " + std::to_string(same->key_mark.line),
-        "every key once");
-  }
-}
-
 /// Finds the sections of a file.
 class SectionFinder {
  public:
   explicit SectionFinder(const ConfigSource& source)
       : root_(read_document(source)), found_{.file = source.name()} {
+    check_spelling(root_, "");
     if (is_namespace(root_) || is_of_maps(root_)) {
       search(root_, "", "");
     } else {
@@ -105,6 +66,22 @@ class SectionFinder {
   [[nodiscard]] static bool has_type(const ConfigNode& node) {
     const ConfigNode* type = node.find("type");
     return type != nullptr && type->text.find('/') != std::string::npos;
+  }
+  /// A slip here would make other parameters of a file, and no message would name the reason.
+  void check_spelling(const ConfigNode& map, const std::string& path) const {
+    for (const ConfigNode& item : map.items) {
+      const std::string here = joined(path, shown(item.key), ".");
+      const std::size_t apart = distance_of(ros_parameters, item.key).value_or(3);
+      const ConfigPlace place{found_.file, item.key_mark.line, item.key_mark.column, here};
+      const std::string expected = "'" + std::string(ros_parameters) + "'";
+      if (apart <= 2 && item.key != ros_parameters) {
+        throw ConfigError(place, "unknown key '" + shown(item.key) + "'", expected);
+      }
+      if (apart == 0 && path.empty()) {
+        throw ConfigError(place, expected + " at the top", "it below a controller's name, or /**");
+      }
+      check_spelling(item, here);
+    }
   }
   [[nodiscard]] static bool is_namespace(const ConfigNode& map) {
     return std::any_of(map.items.begin(), map.items.end(), [](const ConfigNode& item) {
@@ -132,8 +109,7 @@ class SectionFinder {
       while (name.starts_with('/')) name.erase(0, 1);
       while (name.ends_with('/')) name.pop_back();
       if (!item.is_map()) {
-        found_.notes.push_back(found_.file + ":" + std::to_string(item.key_mark.line) + ": " +
-                               here + ": not used, it belongs to no controller");
+        note(item, here, "not used, it belongs to no controller");
       } else if (const ConfigNode* parameters = item.find(ros_parameters)) {
         if (!parameters->is_map()) {
           ConfigValue(found_.file, *parameters, here + "." + std::string(ros_parameters))
@@ -162,46 +138,86 @@ class SectionFinder {
     const ConfigPlace place{found_.file, parameters.mark.line, parameters.mark.column, path};
     for (const ConfigNode& item : parameters.items) insert_dotted(place, nested, item.key, item);
     if (last == "**" || last == "*") {
-      wildcards_.push_back(std::move(nested));
+      // The nearer to the controllers, the earlier, since what is there first is stronger.
+      const std::string within = joined(group, first, "/");
+      const auto next = std::find_if(wildcards_.begin(), wildcards_.end(), [&](const auto& each) {
+        return each.group.size() < within.size();
+      });
+      wildcards_.insert(next, {within, last == "**", path, std::move(nested)});
     } else {
       found_.sections.push_back({last, path, joined(group, first, "/"), "", std::move(nested)});
     }
   }
 
-  /// What stands under /** is every controller's, but weaker than what is its own.
+  /// What stands under /** is every controller's and under /ns/** that of those in ns, but weaker
+  /// than what is nearer to a controller.
   void apply_wildcards() {
     if (found_.sections.empty() && !wildcards_.empty()) {
-      found_.sections.push_back({.path = "/**", .parameters = wildcards_.front()});
+      Wildcard& first = wildcards_.front();
+      found_.sections.push_back(
+          {.path = first.path, .group = first.group, .parameters = std::move(first.parameters)});
+      wildcards_.erase(wildcards_.begin());
     }
     std::size_t nodes = 0;
-    for (const ConfigNode& wildcard : wildcards_) {
-      nodes += node_count(wildcard) * found_.sections.size();
-      if (nodes > ConfigBuilder::most_nodes) {
-        throw ConfigError({.file = found_.file}, "it is too large, wildcards included",
-                          "at most " + std::to_string(ConfigBuilder::most_nodes) + " values");
+    for (const Wildcard& wildcard : wildcards_) {
+      bool used = false;
+      for (ConfigSection& section : found_.sections) {
+        if (!wildcard.covers(section.group)) continue;
+        used = true;
+        nodes += node_count(wildcard.parameters);
+        if (nodes > ConfigBuilder::most_nodes) {
+          throw ConfigError({.file = found_.file}, "it is too large, wildcards included",
+                            "at most " + std::to_string(ConfigBuilder::most_nodes) + " values");
+        }
+        merge_into(section.parameters, wildcard.parameters, wildcard.path);
       }
-      for (ConfigSection& section : found_.sections) merge_into(section.parameters, wildcard);
+      if (!used)
+        note(wildcard.parameters, wildcard.path, "not used, no section is in this namespace");
     }
   }
 
-  /// A controller's type stands with its parameters in ROS 1, with the controller manager in ROS 2.
+  /// A controller's type stands with its parameters in ROS 1, with the controller manager in ROS 2:
+  /// that of its namespace if there is one.
   void find_types() {
-    const auto manager =
-        std::find_if(found_.sections.begin(), found_.sections.end(),
-                     [](const auto& section) { return section.name == "controller_manager"; });
+    const auto manager_of = [&](const ConfigSection& section) {
+      const ConfigNode* manager = nullptr;
+      for (const ConfigSection& each : found_.sections) {
+        const bool own = each.group == section.group;
+        if (each.name == "controller_manager" && (own || manager == nullptr)) {
+          manager = &each.parameters;
+        }
+      }
+      return manager;
+    };
     for (ConfigSection& section : found_.sections) {
       const ConfigNode* type = section.parameters.find("type");
-      const ConfigNode* entry = type == nullptr && manager != found_.sections.end()
-                                    ? manager->parameters.find(section.name)
-                                    : nullptr;
+      const ConfigNode* manager = type == nullptr ? manager_of(section) : nullptr;
+      const ConfigNode* entry = manager != nullptr ? manager->find(section.name) : nullptr;
       if (entry != nullptr) type = entry->find("type");
       if (type != nullptr && type->kind == ConfigNode::Kind::scalar) section.type = type->text;
     }
   }
 
+  void note(const ConfigNode& node, const std::string& path, const std::string& text) {
+    found_.notes.push_back(found_.file + ":" + std::to_string(node.key_mark.line) + ": " + path +
+                           ": " + text);
+  }
+
+  /// Parameters of all sections in a namespace.
+  struct Wildcard {
+    std::string group;  ///< the namespace
+    bool below;         ///< **: namespaces inside of it as well
+    std::string path;
+    ConfigNode parameters;
+
+    [[nodiscard]] bool covers(const std::string& other) const {
+      return other == group || (below && (group.empty() || other.starts_with(group + "/")));
+    }
+  };
+
   ConfigNode root_;
   ConfigSections found_;
-  std::vector<ConfigNode> wildcards_{};
+  std::vector<Wildcard> wildcards_{};
 };
 
 /// All sections of a file.
@@ -212,30 +228,38 @@ class SectionFinder {
 
 /// Those sections of a file that are meant.
 /// @param name      of a controller, a namespace or a type of controllers; empty: any
-/// @param relevant  without a name, sections for which this is false are left out
+/// @param relevant  without a name, sections for which this is false are left out, and noted
 /// @param what      is looked for, for the message
+/// @param notes     receives what was left out
 /// @throws ConfigError if there is none
 [[nodiscard]] inline std::vector<ConfigSection> chosen_sections(
     const ConfigSections& all, std::string_view name,
-    const std::function<bool(const ConfigSection&)>& relevant, const std::string& what) {
+    const std::function<bool(const ConfigSection&)>& relevant, const std::string& what,
+    std::vector<std::string>& notes) {
   while (name.starts_with('/')) name.remove_prefix(1);
-  std::vector<std::string> names;
-  std::vector<ConfigSection> exact, chosen;
+  std::vector<std::string> names, left_out;
+  std::vector<ConfigSection> full, exact, chosen;
   for (const ConfigSection& section : all.sections) {
     if (section.name == "controller_manager") continue;
-    const std::string full =
-        section.group.empty() ? section.name : section.group + "/" + section.name;
-    names.push_back(full);
-    if (!name.empty() && (section.name == name || full == name)) exact.push_back(section);
+    names.push_back(section.full_name());
+    if (!name.empty() && section.full_name() == name) full.push_back(section);
+    if (!name.empty() && section.name == name) exact.push_back(section);
     const bool within = name.empty() || section.type == name || section.group == name ||
                         section.group.starts_with(std::string(name) + "/");
-    if (within && relevant(section)) chosen.push_back(section);
+    if (within && relevant(section)) {
+      chosen.push_back(section);
+    } else if (name.empty()) {
+      left_out.push_back(all.file + ":" + std::to_string(section.line()) + ": " + section.path +
+                         ": not used, it is no " + what);
+    }
   }
+  if (!full.empty()) return full;
   if (!exact.empty()) return exact;
   // A file that is nothing but parameters is anybody's.
   if (chosen.empty() && all.sections.size() == 1 && all.sections[0].name.empty()) {
     return all.sections;
   }
+  notes.insert(notes.end(), left_out.begin(), left_out.end());
   if (!chosen.empty()) return chosen;
   if (name.empty()) {
     throw ConfigError({.file = all.file}, "there is no " + what + " in it", "one");

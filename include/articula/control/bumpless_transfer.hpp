@@ -2,6 +2,7 @@
 /// @file Commands that go on where the last one left off.
 #pragma once
 
+#include "articula/control/command_numbers.hpp"
 #include "articula/control/sum_controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
@@ -80,16 +81,15 @@ class BumplessTransfer {
   /// Lets the next command go on from the last one. Real-time: yes.
   void take_over() noexcept { takes_over_ = true; }
 
-  /// Lets the next command go on from one that was given by others. Real-time: yes.
-  void take_over_from(const C& command, const State& state) noexcept {
-    const Vector values = numbers(command, state);
-    if (is_finite(values)) given_ = bounded(values);
-    takes_over_ = true;
+  /// Hears what was given in the end in place of the last command, or by others, N x 1; not what is
+  /// not finite. Real-time: yes.
+  void set_given(const Vector& given) noexcept {
+    if (is_finite(given)) given_ = bounded(given);
   }
 
   /// Whether a command can be passed on: whether its numbers are finite. Real-time: yes.
   [[nodiscard]] static bool passable(const C& command, const State& state) noexcept {
-    return is_finite(command) && is_finite(numbers(command, state));
+    return is_finite(command) && is_finite(numbers_of(command, state));
   }
 
   /// The command that is given.
@@ -98,7 +98,7 @@ class BumplessTransfer {
   /// @param period   dt [s]; one that is no time lets nothing decay
   /// Real-time: yes.
   [[nodiscard]] C pass(const C& command, const State& state, double period) noexcept {
-    const Vector own = bounded(numbers(command, state));
+    const Vector own = bounded(numbers_of(command, state));
     if (takes_over_) {
       carried_ = given_ - own;
     } else {
@@ -112,9 +112,7 @@ class BumplessTransfer {
   }
 
   /// Hears what was cut off from the last command afterwards. Real-time: yes.
-  void limited(const Vector& excess) noexcept {
-    if (is_finite(excess)) given_ = bounded(given_ - excess);
-  }
+  void limited(const Vector& excess) noexcept { set_given(given_ - excess); }
 
   /// What was given last, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& given() const noexcept { return given_; }
@@ -124,25 +122,12 @@ class BumplessTransfer {
   [[nodiscard]] const Vector& slew() const noexcept { return slew_; }
   /// The controller's own command that is cut off by the robot's limits, N x 1. Real-time: yes.
   [[nodiscard]] Vector excess(const C& command, const State& state) const noexcept {
-    const Vector own = numbers(command, state);
+    const Vector own = numbers_of(command, state);
     return own - bounded(own);
   }
 
  private:
   static constexpr double huge = 1e300;
-
-  [[nodiscard]] static Vector pull(const C& command, const State& state) noexcept {
-    return command.stiffness.cwiseProduct(command.position - state.position) +
-           command.damping.cwiseProduct(command.velocity - state.velocity);
-  }
-
-  [[nodiscard]] static Vector numbers(const C& command, const State& state) noexcept {
-    if constexpr (requires { command.stiffness; }) {
-      return pull(command, state) + command.effort;
-    } else {
-      return values_of(command);
-    }
-  }
 
   [[nodiscard]] Vector bounded(const Vector& values) const noexcept {
     return values.cwiseMax(lowest_).cwiseMin(highest_);
@@ -153,7 +138,7 @@ class BumplessTransfer {
                              const State& state) const noexcept {
     if constexpr (requires { command.stiffness; }) {
       C given = command;
-      const Vector springs = pull(command, state);
+      const Vector springs = spring_pull(command, state);
       for (int j = 0; j < joint_count; ++j) {
         if (given_[j] == own[j]) continue;
         given.effort[j] = std::clamp(given_[j] - springs[j], lowest_[j], highest_[j]);

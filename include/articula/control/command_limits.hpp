@@ -34,7 +34,8 @@ struct CommandLimits {
 
   Vector soft_lower = Vector::Constant(-infinity);  ///< soft limit of position [rad or m], N x 1
   Vector soft_upper = Vector::Constant(infinity);   ///< likewise
-  /// k: towards a soft limit at a distance x, the speed is at most k x; beyond it, 0 [1/s], N x 1
+  /// k: towards a soft limit at a distance x, the speed is at most k x; beyond it, 0 [1/s], N x 1;
+  /// infinite: as fast as the joint can still brake before it
   Vector soft_rate = Vector::Constant(infinity);
 };
 
@@ -81,6 +82,10 @@ void validate(const CommandLimits<joint_count<R>>& limits, const R& robot) {
     constexpr double infinity = CommandLimits<1>::infinity;
     check_range("", limits.lower[j], limits.upper[j], joint.limits.lower, joint.limits.upper);
     check_range("soft_", limits.soft_lower[j], limits.soft_upper[j], -infinity, infinity);
+    if (!(limits.soft_lower[j] <= limits.upper[j] && limits.soft_upper[j] >= limits.lower[j])) {
+      refuse("soft_lower ", limits.soft_lower[j], " and soft_upper ", limits.soft_upper[j],
+             " are beyond the limits ", limits.lower[j], " .. ", limits.upper[j]);
+    }
     check("soft_rate", limits.soft_rate[j], infinity);
     if (limits.velocity[j] != 0) check("velocity", limits.velocity[j], joint.limits.velocity);
     check("acceleration", limits.acceleration[j], infinity);

@@ -39,8 +39,9 @@ enum class ControlToolbox : unsigned char {
 ///     noetic:   with antiwindup, i E itself is kept between the clamps, else it goes on
 ///
 /// e_last is 0 at the start, so that the first e' kicks; noetic alone leaves the first one out. A
-/// period of 0 gives the last output again (current) or 0. An error that is not finite gives NaN
-/// (current) or 0. The other gains are not used. It is not told what is cut off from the total.
+/// period of 0 gives the last output again (current) or 0. An error or e' that is not finite gives NaN
+/// (current) or 0, and the integral stays. The other gains are not used. It is not told what is cut off
+/// from the total. Negative gains are taken, as control_toolbox takes them.
 /// Source: control_toolbox, pid.cpp of the branches named.
 /// @tparam N  number of joints
 template <int N>
@@ -52,7 +53,9 @@ class ControlToolboxPidLaw {
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   ControlToolboxPidLaw(ControlToolbox version, const JointPidGains<N>& gains,
                        const JointNames<N>& names)
-      : version_(version), gains_(gains, names) {}
+      : version_(version), gains_(gains) {
+    validate(gains, names, GainSigns::any);
+  }
 
   /// Forgets the past. Real-time: yes.
   void start(const JointState<N>&) noexcept { memories_ = {}; }
@@ -72,8 +75,8 @@ class ControlToolboxPidLaw {
     return output;
   }
 
-  /// Goes on with other gains. Real-time: yes.
-  void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains; }
+  /// Goes on with other gains, none of them negative. Real-time: yes.
+  void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains.values(); }
 
   /// The integral terms that the next (current) or the last (humble, noetic) output contains
   /// [output], N x 1. Real-time: yes.
@@ -100,13 +103,20 @@ class ControlToolboxPidLaw {
     return std::clamp(integral, g.integral_clamp_min, g.integral_clamp_max);
   }
 
+  /// A step that overflows is not taken.
+  static void advance(double& integral, double step) noexcept {
+    if (is_finite(integral + step)) integral += step;
+  }
+
   [[nodiscard]] static double current(const PidGains& g, Memory& memory, double error, double rate,
                                       double period) noexcept {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     if (!(period > epsilon)) return memory.last_output;
-    if (!is_finite(error)) return memory.last_output = std::numeric_limits<double>::quiet_NaN();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!is_finite(error)) return memory.last_output = none;
     if (g.derivative_of == DerivativeOf::error) rate = (error - memory.last_error) / period;
     memory.last_error = error;
+    if (!is_finite(rate)) return memory.last_output = none;
     const double wanted = g.proportional * error + memory.integral + g.derivative * rate;
     const double output = std::clamp(wanted, g.output_clamp_min, g.output_clamp_max);
     if (std::abs(error) > g.error_deadband) {
@@ -117,7 +127,7 @@ class ControlToolboxPidLaw {
                  std::abs(wanted - output) > epsilon && error * wanted > 0) {
         step = 0;
       }
-      memory.integral += period * step;
+      advance(memory.integral, period * step);
     }
     memory.integral = clamped(g, memory.integral);
     return memory.last_output = output;
@@ -125,14 +135,16 @@ class ControlToolboxPidLaw {
 
   [[nodiscard]] double legacy(const PidGains& g, Memory& memory, double error, double rate,
                               double period) const noexcept {
-    const bool of_error = g.derivative_of == DerivativeOf::error;
-    if (!(period > 0) || !is_finite(error) || (!of_error && !is_finite(rate))) return 0;
+    if (!(period > 0) || !is_finite(error)) return 0;
     const bool noetic =
         version_ == ControlToolbox::noetic || version_ == ControlToolbox::noetic_antiwindup;
-    if (of_error) rate = memory.fresh && noetic ? 0 : (error - memory.last_error) / period;
+    if (g.derivative_of == DerivativeOf::error) {
+      rate = memory.fresh && noetic ? 0 : (error - memory.last_error) / period;
+    }
     memory.fresh = false;
     memory.last_error = error;
-    memory.integral += period * error;
+    if (!is_finite(rate)) return 0;
+    advance(memory.integral, period * error);
     const bool antiwindup = version_ == ControlToolbox::humble_antiwindup ||
                             version_ == ControlToolbox::noetic_antiwindup;
     if (antiwindup && g.integral != 0) {
@@ -144,7 +156,7 @@ class ControlToolboxPidLaw {
   }
 
   ControlToolbox version_;
-  ValidPidGains<N> gains_;
+  JointPidGains<N> gains_;
   std::array<Memory, static_cast<std::size_t>(N)> memories_{};
 };
 

@@ -37,6 +37,14 @@ concept LimitAware = requires(L law, const JointVector<N>& excess) {
   noexcept;
 };
 
+/// What goes on from the command that was given in the end: after `update`, `given(command)` tells the
+/// numbers of that command, N x 1 (see numbers_of), whatever became of the controller's own.
+template <class L, int N>
+concept TakesGiven = requires(L law, const JointVector<N>& command) {
+  { law.given(command) }
+  noexcept;
+};
+
 /// What can take over from another controller without a jump: after `start` and before the first
 /// `effort` (or a controller's `update`), `prime(state, reference, period, effort)` tells which effort
 /// (or command) was given last, so that what the part remembers can begin there: an integral takes it

@@ -3,31 +3,26 @@
 #pragma once
 
 #include "articula/control/effort_law.hpp"
+#include "articula/control/joint_group.hpp"
+#include "articula/control/safe_command.hpp"
 #include "articula/control/switch_board.hpp"
+#include "articula/control/tells_failure.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/name.hpp"
 #include "articula/model/robot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace articula {
-
-/// A group of a robot's joints.
-struct JointGroup {
-  Name name{};
-  std::vector<Name> joints{};
-  int divisor = 1;  ///< its controller is asked in every cycle of this number, >= 1
-};
 
 /// Controllers for groups of a robot's joints, each at its own rate. Together they are one controller:
 ///
@@ -41,8 +36,11 @@ struct JointGroup {
 ///   says for its own. It sees the whole state, and a reference that asks nothing of the other
 ///   joints: their position and velocity as measured, no acceleration, no effort.
 /// - The controller of a group with the divisor k is asked in the first cycle and every k-th from
-///   then on, with the period k dt. In between its command is held; one that is not finite is not,
-///   the controller is asked again.
+///   then on, with the period k dt. In between its command is held.
+/// - A group has failed if its command is not finite although state and reference are, or if its
+///   controller says so (TellsFailure). Its joints, and no others, get the safe command (see
+///   safe_command), or the controller's own if that is safe. `failed` and `status_of` tell; Loop
+///   reports it. The controller is asked again in the next cycle, with the time since the last one.
 /// - Controllers in a Switch, or a Limited one, go by the group's name and theirs, "arm/pid".
 ///   A strict request may be about several groups.
 /// @tparam R            the robot
@@ -50,6 +48,8 @@ struct JointGroup {
 template <Robot R, Controller<joint_count<R>>... Controllers>
 class Groups {
  public:
+  /// The command counts even where `failed` tells: a group's failure is no other's.
+  static constexpr bool safe_in_failure = true;
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr std::size_t group_count = sizeof...(Controllers);
   /// How many controllers can be switched.
@@ -72,33 +72,14 @@ class Groups {
   ///         groups or in none, the divisor below 1, the name that is empty or there twice
   explicit Groups(const std::array<JointGroup, group_count>& groups, Controllers... controllers,
                   const R& robot = described<R>())
-      : controllers_(std::move(controllers)...) {
-    std::array<const JointGroup*, static_cast<std::size_t>(joint_count)> owners{};
+      : controllers_(std::move(controllers)...), robot_(robot) {
+    const std::array<std::size_t, static_cast<std::size_t>(joint_count)> owners =
+        group_of_each_joint(groups, robot);
     for (std::size_t g = 0; g < group_count; ++g) {
-      const JointGroup& group = groups[g];
-      if (group.name.empty()) refuse("group " + std::to_string(g + 1) + " has no name");
-      for (std::size_t other = 0; other < g; ++other) {
-        if (groups[other].name == group.name) refuse("two are named " + quoted(group.name));
+      parts_[g].divisor = parts_[g].since = groups[g].divisor;
+      for (int j = 0; j < joint_count; ++j) {
+        parts_[g].chosen[j] = owners[static_cast<std::size_t>(j)] == g ? 1 : 0;
       }
-      if (group.divisor < 1) {
-        refuse("divisor " + std::to_string(group.divisor) + " of group " + quoted(group.name) +
-               " is below 1");
-      }
-      parts_[g].divisor = group.divisor;
-      for (const Name& joint : group.joints) {
-        const int j = joint_index(robot, joint.view());
-        const JointGroup*& owner = owners[static_cast<std::size_t>(j)];
-        if (owner != nullptr) {
-          refuse("joint " + quoted(joint) + " of group " + quoted(group.name) + " is in group " +
-                 quoted(owner->name) + " already");
-        }
-        owner = &group;
-        parts_[g].chosen[j] = 1;
-      }
-    }
-    const auto names = joint_names(robot);
-    for (std::size_t j = 0; j < names.size(); ++j) {
-      if (owners[j] == nullptr) refuse("joint " + quoted(names[j]) + " is in no group");
     }
     std::size_t entry = 0;
     for_each_switch([&](const auto& own, std::size_t g) noexcept {
@@ -116,7 +97,11 @@ class Groups {
 
   /// Starts all controllers anew. Real-time: yes.
   void start(const State& state) noexcept {
-    for (Part& part : parts_) part.wait = 0;
+    for (Part& part : parts_) {
+      part.wait = 0;
+      part.since = part.divisor;
+      part.status = ControllerStatus::active;
+    }
     for_each([&](auto& controller, std::size_t) noexcept { controller.start(state); });
   }
 
@@ -124,25 +109,73 @@ class Groups {
   /// Real-time: yes, if the controllers' are.
   [[nodiscard]] Command update(const State& state, const Reference& reference,
                                double period) noexcept {
+    const bool usable = is_finite(state) && is_finite(reference);
+    bool complete = true;
     for_each([&](auto& controller, std::size_t g) noexcept {
       Part& part = parts_[g];
       part.updated = part.wait == 0;
       if (part.updated) {
         const Command own = controller.update(state, of_group(part, state, reference),
-                                              static_cast<double>(part.divisor) * period);
-        if (take_over(own, part)) part.wait = part.divisor;
+                                              static_cast<double>(part.since) * period);
+        part.since = 0;
+        Command next = merged(own, part);
+        const bool counts = is_finite(next) && command_counts(controller);
+        const bool well = counts && !has_failed(controller);
+        if (usable) part.status = well ? ControllerStatus::active : ControllerStatus::failed;
+        if (!counts) next = merged(safe_command(robot_, state.position, command_), part);
+        if (counts || usable) command_ = next;
+        complete = complete && (counts || usable);
+        if (well) part.wait = part.divisor;
       }
+      ++part.since;
       if (part.wait > 0) --part.wait;
     });
-    return command_;
+    return complete ? command_ : no_command<Command>();
+  }
+
+  /// Whether a group has failed when it was asked last. Real-time: yes.
+  [[nodiscard]] bool failed() const noexcept {
+    return std::any_of(parts_.begin(), parts_.end(),
+                       [](const Part& p) { return p.status == ControllerStatus::failed; });
+  }
+  /// Whether a group is active or has failed, by its place in the list. Real-time: yes.
+  [[nodiscard]] ControllerStatus status_of(std::size_t group) const noexcept {
+    return parts_[group].status;
+  }
+
+  /// Lets the groups' controllers begin with what was given last, those that can. After `start`.
+  /// Real-time: yes.
+  /// @return  what they begin with of it, N x 1
+  Vector prime(const State& state, const Reference& reference, double period,
+               const Vector& command) noexcept requires(Primable<Controllers, joint_count> || ...) {
+    Vector share = Vector::Zero();
+    for_each([&](auto& controller, std::size_t g) noexcept {
+      if constexpr (Primable<decltype(controller), joint_count>) {
+        const Part& part = parts_[g];
+        // What the others are given counts, too: by the model it moves this group's joints.
+        share +=
+            chosen(part, controller.prime(state, of_group(part, state, reference),
+                                          static_cast<double>(part.divisor) * period, command));
+      }
+    });
+    return share;
   }
 
   /// Tells the controllers that were asked in this cycle what was cut off. Real-time: yes.
   void limited(const Vector& excess) noexcept {
     for_each([&](auto& controller, std::size_t g) noexcept {
       if constexpr (LimitAware<decltype(controller), joint_count>) {
-        if (parts_[g].updated) controller.limited(chosen(parts_[g], excess));
+        const Part& part = parts_[g];
+        const bool own = part.updated && part.status != ControllerStatus::failed;
+        if (own) controller.limited(chosen(part, excess));
       }
+    });
+  }
+
+  /// Tells the controllers that want to know what was given in the end. Real-time: yes.
+  void given(const Vector& command) noexcept {
+    for_each([&](auto& controller, std::size_t) noexcept {
+      if constexpr (TakesGiven<decltype(controller), joint_count>) controller.given(command);
     });
   }
 
@@ -201,15 +234,10 @@ class Groups {
     Vector chosen = Vector::Zero();  ///< 1 for the group's joints
     int divisor = 1;
     int wait = 0;          ///< cycles until it is asked again
+    int since = 1;         ///< cycles since it was asked
     bool updated = false;  ///< it was asked in the last cycle
+    ControllerStatus status = ControllerStatus::active;
   };
-
-  [[noreturn]] static void refuse(const std::string& what) {
-    throw std::invalid_argument("groups: " + what);
-  }
-  [[nodiscard]] static std::string quoted(std::string_view name) {
-    return "'" + std::string(name) + "'";
-  }
 
   [[nodiscard]] static Vector chosen(const Part& part, const Vector& values,
                                      const Vector& others = Vector::Zero()) noexcept {
@@ -223,13 +251,10 @@ class Groups {
             chosen(part, reference.effort)};
   }
 
-  /// @return  whether what the group gets is finite
-  bool take_over(const Command& own, const Part& part) noexcept {
-    bool finite = true;
-    const auto take = [&](auto member) {
-      command_.*member = chosen(part, own.*member, command_.*member);
-      finite = finite && is_finite(chosen(part, own.*member));
-    };
+  /// What is given, which is finite, with a group's own part in it.
+  [[nodiscard]] Command merged(const Command& own, const Part& part) const noexcept {
+    Command all = command_;
+    const auto take = [&](auto member) { all.*member = chosen(part, own.*member, all.*member); };
     if constexpr (requires { own.position; }) take(&Command::position);
     if constexpr (requires { own.velocity; }) take(&Command::velocity);
     if constexpr (requires { own.effort; }) take(&Command::effort);
@@ -237,7 +262,7 @@ class Groups {
       take(&Command::stiffness);
       take(&Command::damping);
     }
-    return finite;
+    return all;
   }
 
   void for_each(auto function) noexcept {
@@ -263,6 +288,7 @@ class Groups {
   }
 
   std::tuple<Controllers...> controllers_;
+  [[no_unique_address]] R robot_;
   std::array<Part, group_count> parts_{};
   SwitchBoard<controller_count> board_{};
   Command command_{};

@@ -16,6 +16,9 @@ namespace articula {
 /// cycle, still has such a stop, which is then the one in hand. Otherwise the joint follows the stop
 /// in hand for one cycle, or goes as far towards the wish as a stop remains (by bisection).
 ///
+/// The stop keeps the soft limits of position, too; they differ in that the reserve is not used for
+/// them, and that the way towards them is slow where `soft_rate` is given.
+///
 /// So limits hold for ever, however wild the wishes, and the way back is always open: at a limit the
 /// wish to leave it has a stop. A joint that is beyond a limit, because it was when control began or
 /// was pushed there, may not go further and may come back: what the stop in hand cannot avoid is
@@ -92,7 +95,9 @@ class JointLimiter {
     const bool unchanged = wish == velocity && acceleration == (wish - now.velocity) / period_;
     if (!unchanged) wish = now.velocity + acceleration * period_;
 
-    const ValueRange places = hull(stop_.positions(), lower_, upper_);
+    const ValueRange hard = hull(stop_.positions(), lower_, upper_);
+    const ValueRange places =
+        hull(stop_.positions(), std::max(lower_, soft_lower_), std::min(upper_, soft_upper_));
     const ValueRange speeds = hull(stop_.velocities(), -velocity_, velocity_);
     const auto has_stop = [&](const StoppingMotion& stop) {
       return stop.feasible() && within(stop.positions(), places) &&
@@ -106,7 +111,11 @@ class JointLimiter {
       stop_ = granted;
       return unchanged;
     }
-    (within(granted.velocities(), speeds) ? report.position : report.velocity) = true;
+    const bool in_hard = within(granted.positions(), hard);
+    const bool is_soft = in_hard && !within(granted.positions(), places);
+    (!within(granted.velocities(), speeds) ? report.velocity
+     : is_soft                             ? report.soft_position
+                                           : report.position) = true;
     double safe = braking.motion().acceleration, unsafe = acceleration;
     for (int k_half = 0; k_half < 20; ++k_half) {
       const double middle = safe + (unsafe - safe) / 2;

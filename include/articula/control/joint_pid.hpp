@@ -12,25 +12,28 @@ namespace articula {
 
 /// What a PID is told in a cycle.
 struct PidInput {
-  double error = 0;               ///< e = r - y, of the variable that is controlled
-  double measured = 0;            ///< y
-  double rate_error = 0;          ///< c r' - y', of measured y', if that is so
-  bool rate_is_measured = true;   ///< else the derivative is that of the error, whatever is asked
-  double velocity_reference = 0;  ///< v_ref, for the feed-forward
+  double error = 0;                   ///< e = r - y, of the variable that is controlled
+  double measured = 0;                ///< y
+  double rate_error = 0;              ///< c r' - y', of measured y', if that is so
+  bool rate_is_measured = true;       ///< else the derivative is made of differences
+  double velocity_reference = 0;      ///< v_ref, for the feed-forward
   double acceleration_reference = 0;  ///< a_ref, for the feed-forward
 };
 
 /// The PID law of one joint, with all that its gains can ask for. In cycle k, dt after the last one,
 ///
 ///     I   <- clamp(I + i e dt, integral_clamp_min, integral_clamp_max)   unless |e| <= dead-band
-///     s    = c r' - y' as measured, or (c (r - r_last) - (y - y_last))/dt
+///     s    = c r' - y' as measured, or (c (r - r_last) - (y - y_last))/dt;
+///            where y' is not measured and it is not that of the error, c = 0
 ///     D   <- D + dt/(T_f + dt) (s - D)
 ///     u    = p (b r - y) + I + d D + f_v v_ref + f_a a_ref
 ///     u'   = clamp(u, output_clamp_min, output_clamp_max)
 ///
 /// I is in units of the output and is integrated before use (backward Euler), D is the low-pass
 /// T_f D' + D = s in backward Euler. For weights b < 1 and c < 1, r and y are counted from where y was
-/// at the start, so that a joint that is asked to stay gets no output.
+/// at the start, so that a joint that is asked to stay gets no output. In a period of 0 differences
+/// tell nothing: I stays, and so does a D that is made of them or filtered. New clamps take force with
+/// the next cycle; if i becomes 0, I stays as it is and is left as a constant until the next start.
 ///
 /// By what the output is cut off, u - u', and what the caller cuts off later, the integral is kept
 /// from winding up in one of three ways (AntiWindup): none; back-calculation,
@@ -41,17 +44,23 @@ struct PidInput {
 /// Source: [Åström, Hägglund 2006, sections 3.3 to 3.5].
 class JointPid {
  public:
-  /// Forgets the past: the integral is 0, or the clamp that is next to it. Real-time: yes.
-  void start(const PidGains& g) noexcept {
-    integral_ = previous_integral_ = std::clamp(0.0, g.integral_clamp_min, g.integral_clamp_max);
+  /// Forgets the past: the integral is 0. Real-time: yes.
+  void start() noexcept {
+    integral_ = previous_integral_ = rate_ = 0;
     fresh_ = true;
   }
 
+  /// The slowest integral that begins with an output of others, see `prime` [s].
+  static constexpr double slowest_primed = 1;
+
   /// Lets the integral begin with an output that was given by another controller, as far as its
-  /// clamps allow. After `start`; without an integral gain, which could never take it back, or with
-  /// an output that is not finite it does nothing. Real-time: yes.
+  /// clamps allow. After `start`. The output may have been no load but a passing push. Then the
+  /// error is off by I/p, and goes as the integral takes that back, with the time constant p/i. So
+  /// it does nothing where p/i is more than a second, as without an integral gain, nor with an
+  /// output that is not finite. Real-time: yes.
   void prime(const PidGains& g, double output) noexcept {
-    if (g.integral == 0 || !is_finite(output)) return;
+    const bool soon = g.proportional <= slowest_primed * g.integral;
+    if (g.integral == 0 || !soon || !is_finite(output)) return;
     set_integral(g, output);
     previous_integral_ = integral_;
   }
@@ -69,11 +78,14 @@ class JointPid {
       last_error_ = in.error;
     }
     const double rate = filtered(g, rate_of(g, in, period, turn), period);
-    last_error_ = in.error;
-    last_measured_ = in.measured;
+    if (period > 0) {
+      last_error_ = in.error;
+      last_measured_ = in.measured;
+    }
     fresh_ = false;
 
     period_ = period;
+    set_integral(g, integral_);  // the clamps may be new
     previous_integral_ = integral_;
     if (!(std::abs(in.error) <= g.error_deadband)) {
       set_integral(g, integral_ + g.integral * in.error * period);
@@ -130,9 +142,9 @@ class JointPid {
     if (in.rate_is_measured && g.derivative_of == DerivativeOf::measured_velocity) {
       return in.rate_error;
     }
-    if (!(period > 0)) return 0;
-    return weighted(g.velocity_weight, short_way(in.error - last_error_, turn),
-                    in.measured - last_measured_) /
+    if (!(period > 0)) return rate_;
+    const double weight = g.derivative_of == DerivativeOf::error ? g.velocity_weight : 0;
+    return weighted(weight, short_way(in.error - last_error_, turn), in.measured - last_measured_) /
            period;
   }
 

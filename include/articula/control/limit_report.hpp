@@ -12,12 +12,14 @@ namespace articula {
 /// effort that it makes at the measured state.
 struct JointLimitReport {
   bool position = false;       ///< it would not have stopped before its position limit
-  bool soft_position = false;  ///< it approached its soft limit too fast
+  bool soft_position = false;  ///< it approached its soft limit too fast, or would have passed it
   bool velocity = false;
   bool acceleration = false;
   bool jerk = false;
   bool effort = false;
   bool effort_rate = false;
+  bool stiffness = false;   ///< of a MultiModeCommand: it was negative
+  bool damping = false;     ///< likewise
   bool non_finite = false;  ///< command or state had a NaN or infinity: the joint was braked
   double asked = 0;         ///< [rad, m; rad/s, m/s; N m, N]; may be NaN or infinite
   double given = 0;         ///< likewise, finite
@@ -25,7 +27,7 @@ struct JointLimitReport {
   /// Whether anything was changed. Real-time: yes.
   [[nodiscard]] constexpr bool any() const noexcept {
     return position || soft_position || velocity || acceleration || jerk || effort || effort_rate ||
-           non_finite;
+           stiffness || damping || non_finite;
   }
 };
 

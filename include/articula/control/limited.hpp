@@ -2,9 +2,12 @@
 /// @file A controller whose commands keep limits.
 #pragma once
 
+#include "articula/control/command_numbers.hpp"
+#include "articula/control/drive_spring.hpp"
 #include "articula/control/effort_law.hpp"
 #include "articula/control/effort_limiter.hpp"
 #include "articula/control/joint_limiter.hpp"
+#include "articula/control/tells_failure.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_reference.hpp"
 
@@ -24,7 +27,7 @@ namespace articula {
 ///
 ///     template <class R>
 ///     using CarefulPid = articula::Limited<R, articula::PidPlusGravity>;
-///     articula::Loop<articula::Q2dSim, CarefulPid> loop(CarefulPid<articula::Q2d>(limits));
+///     articula::Loop<articula::Q2dSim, CarefulPid> loop{CarefulPid<articula::Q2d>(limits)};
 ///
 /// - Position commands: limits hold for the commands, which begin where the joint is measured.
 /// - Velocity commands: likewise, at the measured position; a drive that lags needs some room.
@@ -32,13 +35,17 @@ namespace articula {
 /// - Multi-mode commands: likewise, for the total effort at the measured state. Where it is too much,
 ///   the drive's references are drawn towards the state.
 ///
-/// What is within the limits passes unchanged. A command that is not finite brakes all joints. The
-/// controller is told what was cut off, if it wants to know (LimitAware).
+/// What is within the limits passes unchanged. A command that is not finite, or does not count because
+/// the controller says that it has failed (TellsFailure), brakes all joints, and `failed` tells. The
+/// controller is told what was cut off, and what was given, if it wants to know (LimitAware,
+/// TakesGiven).
 /// @tparam R                   the robot
 /// @tparam ControllerTemplate  makes the controller of a robot
 template <Robot R, template <class> class ControllerTemplate>
 class Limited {
  public:
+  /// The command counts even where `failed` tells: the joints brake.
+  static constexpr bool safe_in_failure = true;
   static constexpr int joint_count = articula::joint_count<R>;
   using ControllerType = ControllerTemplate<R>;
   using State = JointState<joint_count>;
@@ -67,7 +74,7 @@ class Limited {
   /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
   void start(const State& state) noexcept {
     controller_.start(state);
-    started_ = false;
+    started_ = failed_ = false;
   }
 
   /// The controller's command, limited. Before any position is known a position command is NaN, which
@@ -75,7 +82,10 @@ class Limited {
   /// Real-time: yes, if the controller's is.
   [[nodiscard]] Command update(const State& state, const Reference& reference,
                                double period) noexcept {
-    const Command asked = controller_.update(state, reference, period);
+    Command asked = controller_.update(state, reference, period);
+    const bool none = !is_finite(asked) || !is_finite(numbers_of(asked, state));
+    failed_ = (none || has_failed(controller_)) && is_finite(state) && is_finite(reference);
+    if (!command_counts(controller_)) asked = no_command<Command>();
     report_ = {};
     begin_cycle(state, period);
     if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {
@@ -95,6 +105,10 @@ class Limited {
       Primable<ControllerType, joint_count> {
     return controller_.prime(state, reference, period, command);
   }
+
+  /// Whether the controller gave no command in the last update, although state and reference were
+  /// good, or said that it has failed. Real-time: yes.
+  [[nodiscard]] bool failed() const noexcept { return failed_; }
 
   /// What the last update changed. Real-time: yes.
   [[nodiscard]] const LimitReport<joint_count>& report() const noexcept { return report_; }
@@ -152,12 +166,18 @@ class Limited {
   [[nodiscard]] const Vector& told(const Vector& asked, const Vector& given) noexcept {
     for (int j = 0; j < joint_count; ++j) {
       JointLimitReport& report = report_[index(j)];
-      // What only rounding has changed is not worth a report.
-      if (std::abs(asked[j] - given[j]) <= 1e-12 * (1 + std::abs(given[j]))) report = {};
+      // What only rounding has changed is not worth a report. What is no number always is, and so is
+      // a stiffness or damping that has changed, though it may pull nothing at this state.
+      if (std::abs(asked[j] - given[j]) <= 1e-12 * (1 + std::abs(given[j]))) {
+        report = {.stiffness = report.stiffness,
+                  .damping = report.damping,
+                  .non_finite = report.non_finite};
+      }
       report.asked = asked[j];
       report.given = given[j];
     }
     if constexpr (LimitAware<ControllerType, joint_count>) controller_.limited(asked - given);
+    if constexpr (TakesGiven<ControllerType, joint_count>) controller_.given(given);
     return given;
   }
 
@@ -196,11 +216,7 @@ class Limited {
   }
 
   [[nodiscard]] Command limit_multi_mode(const State& state, const Command& asked) noexcept {
-    const auto pull_of = [&](const Command& c) -> Vector {
-      return c.stiffness.cwiseProduct(c.position - state.position) +
-             c.damping.cwiseProduct(c.velocity - state.velocity);
-    };
-    const Vector asked_total = pull_of(asked) + asked.effort;
+    const Vector asked_total = spring_pull(asked, state) + asked.effort;
     if (!is_finite(asked_total) || !is_finite(asked)) {  // nothing but the effort that brakes
       Command braking;
       braking.effort = told(asked_total, limit_effort(state, Vector::Constant(not_a_number)));
@@ -211,21 +227,16 @@ class Limited {
     given.velocity = given.velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity);
     given.stiffness = given.stiffness.cwiseMax(0);
     given.damping = given.damping.cwiseMax(0);
-    const Vector pull = pull_of(given), total = pull + asked.effort;
+    const Vector total = spring_pull(given, state) + asked.effort;
     const Vector effort = limit_effort(state, total);
     for (int j = 0; j < joint_count; ++j) {
       JointLimitReport& report = report_[index(j)];
       report.position = report.position || given.position[j] != asked.position[j];
       report.velocity = report.velocity || given.velocity[j] != asked.velocity[j];
+      report.stiffness = given.stiffness[j] != asked.stiffness[j];
+      report.damping = given.damping[j] != asked.damping[j];
       if (effort[j] == total[j] && std::abs(asked.effort[j]) <= limits_.effort[j]) continue;
-      // The references are drawn towards the state until spring and damper pull no more than what is
-      // left for them; the rest is in the effort, which thereby keeps its limit.
-      const double left =
-          effort[j] - std::clamp(asked.effort[j], -limits_.effort[j], limits_.effort[j]);
-      const double share = pull[j] != 0 ? std::clamp(left / pull[j], 0.0, 1.0) : 1;
-      given.position[j] = state.position[j] + share * (given.position[j] - state.position[j]);
-      given.velocity[j] = state.velocity[j] + share * (given.velocity[j] - state.velocity[j]);
-      given.effort[j] = effort[j] - share * pull[j];
+      set_total(given, state, j, effort[j], limits_.effort[j]);
     }
     static_cast<void>(told(asked_total, effort));
     return given;
@@ -237,6 +248,7 @@ class Limited {
   LimitReport<joint_count> report_{};
   double period_ = 1e-3;
   bool started_ = false;
+  bool failed_ = false;
 };
 
 }  // namespace articula

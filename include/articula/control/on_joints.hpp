@@ -6,6 +6,8 @@
 #include "articula/model/robot.hpp"
 
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 

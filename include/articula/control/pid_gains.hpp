@@ -20,10 +20,16 @@ enum class AntiWindup : unsigned char {
   conditional_integration,  ///< does not grow in the direction that pushes further
 };
 
-/// What the derivative term is made of.
+/// What the derivative term is made of. Only that of the error kicks when the reference steps.
 enum class DerivativeOf : unsigned char {
-  measured_velocity,  ///< v_ref - v, with v as measured: no kick when the reference position steps
+  measured_velocity,  ///< v_ref - v, with v as measured; of a PID of the velocity: the change of -v
   error,              ///< the change of the error from one cycle to the next
+};
+
+/// Which signs p, i and d may have.
+enum class GainSigns : unsigned char {
+  not_negative,  ///< with a negative one a joint runs away from its reference
+  any,           ///< whatever another library takes
 };
 
 /// The gains of one joint's PID. The output is N m (or N) where it is an effort. ROS users know the
@@ -44,7 +50,8 @@ struct PidGains {
   DerivativeOf derivative_of = DerivativeOf::measured_velocity;
   double derivative_filter_time = 0;    ///< T_f of the derivative's low-pass [s]; 0: no filter
   double position_weight = 1;           ///< b, share of the reference in the proportional term
-  double velocity_weight = 1;           ///< c, share of the reference in the derivative term
+  double velocity_weight = 1;           ///< c, share of the reference in the derivative term; 0 for
+                                        ///< the change of -v
   double velocity_feedforward = 0;      ///< f_v [output per rad/s or m/s]
   double acceleration_feedforward = 0;  ///< f_a [output per rad/s^2 or m/s^2]
 };
@@ -57,14 +64,17 @@ using JointPidGains = std::array<PidGains, static_cast<std::size_t>(N)>;
 template <int N>
 using ValidPidGains = ValidGains<PidGains, N>;
 
-/// Refuses gains that make no controller: a gain that is not finite, clamps that are NaN or out of
-/// order or leave no finite value, a time or dead-band below 0, a weight outside 0 .. 1.
+/// Refuses gains that make no controller: a gain that is not finite or negative, clamps that do not
+/// contain 0 (the joint would be pushed at rest), a time or dead-band below 0, a weight outside 0 .. 1,
+/// back-calculation whose T_t nothing tells.
 /// @param gains  of all joints
 /// @param names  of the same joints, for the message
+/// @param signs  which p, i and d may have
 /// @throws std::invalid_argument naming joint, gain and value
 /// Real-time: no (throws).
 template <std::size_t N>
-void validate(const std::array<PidGains, N>& gains, const std::array<std::string_view, N>& names) {
+void validate(const std::array<PidGains, N>& gains, const std::array<std::string_view, N>& names,
+              GainSigns signs = GainSigns::not_negative) {
   for (std::size_t i = 0; i < N; ++i) {
     const auto refuse = [&](const auto&... parts) {
       detail::refuse_gains("PID gains of joint '", names[i], "': ", parts...);
@@ -75,25 +85,31 @@ void validate(const std::array<PidGains, N>& gains, const std::array<std::string
     const auto check_not_negative = [&](std::string_view what, double value) {
       if (!is_finite(value) || value < 0) refuse(what, " ", value, " is not a number >= 0");
     };
+    const auto check_gain = [&](std::string_view what, double value) {
+      check_finite(what, value);
+      if (signs == GainSigns::not_negative) check_not_negative(what, value);
+    };
     const auto check_weight = [&](std::string_view what, double value) {
       if (!(value >= 0 && value <= 1)) refuse(what, " ", value, " is not within 0 .. 1");
     };
     const auto check_clamps = [&](std::string_view what, double low, double high) {
-      if (!(low <= high)) {
-        refuse(what, "_min ", low, " and ", what, "_max ", high, " are NaN or out of order");
-      }
-      if (low == PidGains::infinity || high == -PidGains::infinity) {
-        refuse(what, "_min ", low, " and ", what, "_max ", high, " leave no finite value");
+      if (!(low <= 0 && high >= 0)) {
+        refuse(what, "_min ", low, " and ", what, "_max ", high, " do not have 0 between them");
       }
     };
     const PidGains& g = gains[i];
-    check_finite("proportional", g.proportional);
-    check_finite("integral", g.integral);
-    check_finite("derivative", g.derivative);
+    check_gain("proportional", g.proportional);
+    check_gain("integral", g.integral);
+    check_gain("derivative", g.derivative);
     check_clamps("integral_clamp", g.integral_clamp_min, g.integral_clamp_max);
     check_clamps("output_clamp", g.output_clamp_min, g.output_clamp_max);
     if (g.anti_windup > AntiWindup::conditional_integration) refuse("anti_windup is none of these");
     check_not_negative("tracking_time", g.tracking_time);
+    if (g.anti_windup == AntiWindup::back_calculation && g.tracking_time == 0 && g.integral != 0 &&
+        g.proportional == 0 && g.derivative == 0) {
+      refuse("back_calculation needs a tracking_time: integral ", g.integral,
+             " is alone, and sqrt(d/i) and p/i are 0");
+    }
     check_not_negative("error_deadband", g.error_deadband);
     if (g.derivative_of > DerivativeOf::error) refuse("derivative_of is none of these");
     check_not_negative("derivative_filter_time", g.derivative_filter_time);

@@ -16,7 +16,8 @@ namespace articula {
 /// What a PID controls.
 enum class PidOf : unsigned char {
   position,  ///< e = q_ref - q; on a continuous joint the short way round
-  velocity,  ///< e = v_ref - v; its derivative is that of the error, for no acceleration is measured
+  velocity,  ///< e = v_ref - v; no acceleration is measured, so its derivative is the change of -v,
+             ///< or of the error where that is asked for
 };
 
 /// A PID for each of N joints, see JointPid. With the default gains beyond p, i, d and the integral's
@@ -55,7 +56,7 @@ class PidLaw {
 
   /// Forgets the past. Real-time: yes.
   void start(const JointState<N>&) noexcept {
-    for (std::size_t i = 0; i < pids_.size(); ++i) pids_[i].start(gains_[i]);
+    for (JointPid& pid : pids_) pid.start();
   }
 
   /// The output u of each joint, N x 1.
@@ -86,7 +87,8 @@ class PidLaw {
   }
 
   /// Lets the integrals begin with an effort that another controller gave last: the load that it has
-  /// carried. What p and d ask for comes on top of it. Joints without integral gain begin with 0.
+  /// carried. What p and d ask for comes on top of it. Joints whose integral could not take back soon
+  /// what was no load begin with 0, see JointPid::prime.
   /// @return  the integral terms and feed-forwards, N x 1
   /// Real-time: yes. O(N).
   JointVector<N> prime(const JointState<N>&, const JointReference<N>& reference, double,
@@ -114,7 +116,7 @@ class PidLaw {
   }
 
   /// Goes on with other gains. The integral terms, being in units of the output, stay as they are,
-  /// as far as the new clamps allow in the next cycle. Real-time: yes.
+  /// as far as the new clamps allow in the next cycle; also where i becomes 0. Real-time: yes.
   void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains; }
 
   [[nodiscard]] const JointPidGains<N>& gains() const noexcept { return gains_.values(); }

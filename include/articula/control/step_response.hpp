@@ -90,7 +90,7 @@ class HeldPlant {
   StepMetrics metrics(0, options.height, options.band);
   detail::HeldPlant joint(plant, options.period);
   JointPid pid;
-  pid.start(gains);
+  pid.start();
   static_cast<void>(pid.update(gains, {}, options.period));  // at rest, before the step
   metrics.add(0, 0);
   for (long k = 0; k < static_cast<long>(count); ++k) {

@@ -8,12 +8,12 @@
 #include "articula/control/standby.hpp"
 #include "articula/control/switch_board.hpp"
 #include "articula/control/switch_options.hpp"
+#include "articula/control/tells_failure.hpp"
 #include "articula/core/controller.hpp"
 
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -22,13 +22,6 @@
 #include <vector>
 
 namespace articula {
-
-/// A controller that can tell, after `update`, that it cannot control: its command does not count.
-template <class C>
-concept TellsFailure = requires(const C& controller) {
-  { controller.failed() }
-  noexcept->std::same_as<bool>;
-};
 
 /// Several controllers for the same joints, of which one is active, or none:
 ///
@@ -39,7 +32,7 @@ concept TellsFailure = requires(const C& controller) {
 ///
 /// - A request takes effect in the next update; from another thread it comes by a SwitchExchange.
 /// - A controller that becomes active is started anew. If it was asked for, its integrals are primed
-///   with the last command (Primable).
+///   with the last command (Primable). So is the active one by `prime`.
 /// - The command goes on from the last one: a difference is carried over and decays at the slew
 ///   (see BumplessTransfer), so that a switch changes no joint's command by more than slew * period in
 ///   a cycle. It holds for switches during the decay, for start, stop and fallback alike.
@@ -48,7 +41,8 @@ concept TellsFailure = requires(const C& controller) {
 ///   or if it says so (TellsFailure). The first of its fallbacks that does not fail takes over, within
 ///   the same cycle. If none does, the command is not finite, so that whoever runs the Switch acts on
 ///   it: Loop writes the safe command, Limited brakes. The controller stays active; a command that
-///   is good again goes on from that safe command.
+///   is good again goes on from that safe command, or from the one that is `given`. The command of a
+///   controller that is safe in failure (SafeInFailure) passes, and `failed` tells.
 ///
 /// One cycle asks one controller, with the fallbacks after a failure as many more. All commands
 /// are within what the robot's description allows, as SumController's are.
@@ -57,6 +51,8 @@ concept TellsFailure = requires(const C& controller) {
 template <Robot R, Controller<joint_count<R>>... Controllers>
 class Switch {
  public:
+  /// A finite command counts even where `failed` tells: it is a safe one.
+  static constexpr bool safe_in_failure = true;
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr std::size_t controller_count = sizeof...(Controllers);
   using State = JointState<joint_count>;
@@ -85,7 +81,8 @@ class Switch {
         robot_(robot),
         transfer_(robot, options.slew.value_or(Transfer::default_slew(robot))),
         standby_(options.damping_time, robot) {
-    set_names(options.names, std::index_sequence_for<Controllers...>());
+    std::size_t place = 0;
+    board_.set_names(options.names, {detail::own_name<Controllers>(place++)...});
     for (const Fallback& fallback : options.fallbacks) {
       std::vector<std::size_t>& own = fallbacks_[board_.known(fallback.controller)];
       for (const Name& name : fallback.instead) {
@@ -106,6 +103,24 @@ class Switch {
     begun_ = false;
   }
 
+  /// Goes on from a command that was given by others: the active controller's integrals begin with it,
+  /// and what they do not take is carried over and decays. After `start`. Real-time: yes.
+  /// @param state      measured joints
+  /// @param reference  what they shall do
+  /// @param period     time until the next update [s]
+  /// @param command    given last, N x 1; one that is not finite is not gone on from
+  /// @return           what is gone on from, N x 1
+  Vector prime(const State& state, const Reference& reference, double period,
+               const Vector& command) noexcept {
+    if (!is_finite(command)) return Vector::Zero();
+    transfer_.set_given(command);
+    begun_ = true;
+    if (active_ == none) start_controller(none, state);
+    transfer_.take_over();
+    prime_active(state, reference, period);
+    return transfer_.given();
+  }
+
   /// The active controller's command, continued from the last one.
   /// Real-time: yes, if the controllers' are.
   [[nodiscard]] Command update(const State& state, const Reference& reference,
@@ -115,19 +130,27 @@ class Switch {
     if (switches && is_finite(state)) {  // nothing can start from a state that is none
       set_active(planned);
       start_controller(planned, state);
-      if (begun_) prime(state, reference, period);
+      if (begun_) {
+        transfer_.take_over();
+        prime_active(state, reference, period);
+      }
     }
-    Command command;
-    bool good = ask(active_, command, state, reference, period);
-    if (!good && is_finite(state) && is_finite(reference)) {
-      good = fall_back(command, state, reference, period);
+    Answer answer = ask(active_, state, reference, period);
+    if (answer.failed && is_finite(state) && is_finite(reference)) {
+      fall_back(answer, state, reference, period);
     }
     begun_ = true;
-    if (!good) return no_command(state);
-    if (active_ != none) statuses_[active_] = ControllerStatus::active;
-    const Vector excess = transfer_.excess(command, state);
+    if (!answer.counts) return no_answer(state);
+    if (active_ != none && !answer.failed) statuses_[active_] = ControllerStatus::active;
+    const Vector excess = transfer_.excess(answer.command, state);
     if ((excess.array() != 0).any()) tell_active(excess);
-    return last_ = transfer_.pass(command, state, period);
+    return last_ = transfer_.pass(answer.command, state, period);
+  }
+
+  /// Whether the active controller has failed in the last update, and no fallback took over.
+  /// Real-time: yes.
+  [[nodiscard]] bool failed() const noexcept {
+    return active_ != none && statuses_[active_] == ControllerStatus::failed;
   }
 
   /// Asks for controllers to start and stop with the next update. In the thread of the update.
@@ -176,6 +199,10 @@ class Switch {
     tell_active(excess);
   }
 
+  /// Hears what was given in the end, which the next switch, or command after a failure, goes on
+  /// from: N x 1, see numbers_of. After `limited`. Real-time: yes.
+  void given(const Vector& command) noexcept { transfer_.set_given(command); }
+
   /// Goes on with other gains of the one controller that takes them. Where several do, whose gains
   /// they are must be said: `member<C>().set_gains(gains)`. Real-time: yes.
   template <class Gains>
@@ -193,22 +220,6 @@ class Switch {
  private:
   using Transfer = BumplessTransfer<R, Command>;
   static constexpr std::size_t none = controller_count;
-
-  template <class C>
-  [[nodiscard]] static Name default_name(std::size_t place) {
-    if constexpr (requires { C::name; }) {
-      return C::name;
-    } else if constexpr (requires { typename C::ControllerType; }) {  // of a Limited one
-      return default_name<typename C::ControllerType>(place);
-    } else {
-      return std::string_view("controller_" + std::to_string(place + 1));
-    }
-  }
-
-  template <std::size_t... I>
-  void set_names(const std::vector<Name>& names, std::index_sequence<I...>) {
-    board_.set_names(names, {default_name<Controllers>(I)...});
-  }
 
   /// Calls `function` with one of the controllers, or with the standby in place of none.
   void visit(std::size_t index, auto function) noexcept {
@@ -244,10 +255,9 @@ class Switch {
       if (index == none && begun_) state.position = transfer_.given();
     }
     visit(index, [&](auto& controller) noexcept { controller.start(state); });
-    if (begun_) transfer_.take_over();
   }
 
-  void prime(const State& state, const Reference& reference, double period) noexcept {
+  void prime_active(const State& state, const Reference& reference, double period) noexcept {
     visit(active_, [&](auto& controller) noexcept {
       if constexpr (Primable<decltype(controller), joint_count>) {
         controller.prime(state, reference, period, transfer_.given());
@@ -255,43 +265,48 @@ class Switch {
     });
   }
 
-  /// @return  whether the controller gave a command that can be passed on
-  [[nodiscard]] bool ask(std::size_t index, Command& command, const State& state,
-                         const Reference& reference, double period) noexcept {
-    bool failed = false;
+  /// What a controller said.
+  struct Answer {
+    Command command{};
+    bool failed = false;  ///< it cannot control
+    bool counts = false;  ///< the command can be passed on
+  };
+
+  [[nodiscard]] Answer ask(std::size_t index, const State& state, const Reference& reference,
+                           double period) noexcept {
+    Answer answer;
     visit(index, [&](auto& controller) noexcept {
-      command = controller.update(state, reference, period);
-      if constexpr (TellsFailure<decltype(controller)>) failed = controller.failed();
+      answer.command = controller.update(state, reference, period);
+      const bool passable = Transfer::passable(answer.command, state);
+      answer.failed = !passable || has_failed(controller);
+      answer.counts = passable && command_counts(controller);
     });
-    return !failed && Transfer::passable(command, state);
+    return answer;
   }
 
-  /// @return  whether a fallback gave a command and is active now
-  [[nodiscard]] bool fall_back(Command& command, const State& state, const Reference& reference,
-                               double period) noexcept {
-    if (active_ == none) return false;
+  /// Puts the answer of the first fallback that does not fail in place of a failed one.
+  void fall_back(Answer& answer, const State& state, const Reference& reference,
+                 double period) noexcept {
+    if (active_ == none) return;
     statuses_[active_] = ControllerStatus::failed;
     for (const std::size_t fallback : fallbacks_[active_]) {
       start_controller(fallback, state);
-      if (ask(fallback, command, state, reference, period)) {
-        set_active(fallback);
-        return true;
+      const Answer instead = ask(fallback, state, reference, period);
+      if (!instead.failed) {
+        answer = instead;
+        if (begun_) transfer_.take_over();
+        return set_active(fallback);
       }
       statuses_[fallback] = ControllerStatus::failed;
     }
-    return false;
   }
 
   /// No command: what follows goes on from the safe one that is written in its place.
-  [[nodiscard]] Command no_command(const State& state) noexcept {
+  [[nodiscard]] Command no_answer(const State& state) noexcept {
     last_ = safe_command(robot_, state.position, last_);
-    transfer_.take_over_from(last_, state);
-    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-    if constexpr (requires { last_.effort; }) {
-      return {.effort = Vector::Constant(not_a_number)};
-    } else {
-      return {Vector::Constant(not_a_number)};
-    }
+    transfer_.set_given(numbers_of(last_, state));
+    transfer_.take_over();
+    return no_command<Command>();
   }
 
   void tell_active(const Vector& excess) noexcept {

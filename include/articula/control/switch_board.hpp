@@ -167,6 +167,18 @@ template <class C>
 
 namespace detail {
 
+/// A controller's own name, or one by its place in a list.
+template <class C>
+[[nodiscard]] Name own_name(std::size_t place) {
+  if constexpr (requires { C::name; }) {
+    return C::name;
+  } else if constexpr (requires { typename C::ControllerType; }) {  // of a Limited one
+    return own_name<typename C::ControllerType>(place);
+  } else {
+    return std::string_view("controller_" + std::to_string(place + 1));
+  }
+}
+
 /// How many controllers can be switched in a controller.
 template <class C>
 [[nodiscard]] consteval std::size_t count_switched() {

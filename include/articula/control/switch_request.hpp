@@ -21,12 +21,13 @@ enum class Strictness : unsigned char {
 /// A few names in place, so that a request can be handed to another thread without heap memory.
 class ControllerNames {
  public:
-  static constexpr std::size_t capacity = 8;
+  static constexpr std::size_t capacity = 16;
 
   constexpr ControllerNames() = default;
   /// @throws std::length_error if there are more than `capacity`
   constexpr ControllerNames(std::initializer_list<Name> names) {
-    if (names.size() > capacity) throw std::length_error("a request names at most 8 controllers");
+    if (names.size() > capacity)
+      throw std::length_error("a request names at most 16 controllers to start, or stop");
     for (const Name& name : names) names_[size_++] = name;
   }
 
@@ -39,7 +40,8 @@ class ControllerNames {
 };
 
 /// What shall start and stop, all of it in one cycle. First the controllers in `stop` stop, then
-/// those in `start` start: one that is in both begins anew.
+/// those in `start` start: one that is in both begins anew. Each list has at most 16 names
+/// (ControllerNames::capacity); beyond that, several requests between two cycles have effect together.
 struct SwitchRequest {
   ControllerNames stop{};
   ControllerNames start{};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iosfwd>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -27,7 +28,8 @@ class Name {
     }
     for (char c : text) characters[size++] = c;
   }
-  constexpr Name(const char* text) : Name(std::string_view(text)) {}  // NOLINT: a text is a name
+  constexpr Name(const char* text) : Name(std::string_view(text)) {}         // NOLINT: likewise
+  constexpr Name(const std::string& text) : Name(std::string_view(text)) {}  // NOLINT: likewise
 
   /// The text. Real-time: yes.
   [[nodiscard]] constexpr std::string_view view() const noexcept { return {characters, size}; }
@@ -40,6 +42,13 @@ class Name {
   }
   friend constexpr bool operator<(const Name& a, const Name& b) noexcept {
     return a.view() < b.view();
+  }
+
+  /// Prints the text. Real-time: no (whatever the stream does).
+  template <class Traits>
+  friend std::basic_ostream<char, Traits>& operator<<(std::basic_ostream<char, Traits>& out,
+                                                      const Name& name) {
+    return out << name.view();
   }
 
   char characters[capacity + 1] = {};  // NOLINT: a plain array, which compilers print as text

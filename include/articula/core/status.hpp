@@ -12,7 +12,7 @@ enum class [[nodiscard]] Status : unsigned char{
     ok,                    ///< All went as asked; an effort held at its limit is still ok.
     non_finite_state,      ///< A measured position, velocity or effort is NaN or infinite.
     non_finite_reference,  ///< A member of the reference is NaN or infinite.
-    non_finite_command,    ///< The controller computed a NaN or an infinity.
+    non_finite_command,    ///< The controller computed a NaN or infinity, or says that it failed.
     hardware_fault,        ///< The hardware could not be read, written, activated or deactivated.
     stale_state,           ///< A joint's measurement is older than it may be.
     stale_reference,       ///< No new reference came within the lifetime of the last one.

@@ -91,8 +91,8 @@ template <class S, int N, int B>
 
 /// For each joint the one before it on the way to the base, -1 if there is none: elements of the mass
 /// matrix and of its factors between joints that are not on one such way are zero. Mimic joints tie
-/// branches together: two joints are on one way if one of them moves a body that carries a body of
-/// the other, or if both are on that of a third joint further out.
+/// branches together, and so do rotors that two joints share: two joints are on one way if one of them
+/// moves a body that carries a body of the other, or if both are on that of a third joint further out.
 template <int N, int B>
 [[nodiscard]] constexpr JointArray<int, N> branches(const Mechanism<N, B>& mechanism) noexcept {
   JointRows<bool, N> tied{};
@@ -100,11 +100,16 @@ template <int N, int B>
     const auto joint_of = [&](std::size_t body) {
       return N == B ? body : static_cast<std::size_t>(mechanism.couplings[body].joint);
     };
+    const auto tie = [&](std::size_t other) {
+      tied[joint_of(i)][joint_of(other)] = tied[joint_of(other)][joint_of(i)] = true;
+    };
     for (int j = mechanism.bodies[i].parent; j >= 0;) {
       const auto carrier = static_cast<std::size_t>(j);
-      tied[joint_of(i)][joint_of(carrier)] = tied[joint_of(carrier)][joint_of(i)] = true;
+      tie(carrier);
       j = mechanism.bodies[carrier].parent;
     }
+    const int other = mechanism.bodies[i].sharing_body;
+    if (other >= 0) tie(static_cast<std::size_t>(other));
   }
   JointArray<int, N> parents;
   parents.fill(-1);

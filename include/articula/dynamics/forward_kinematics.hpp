@@ -7,8 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace articula {
@@ -20,7 +18,7 @@ struct LinkIndex {
 
 /// Finds a link by name, fixed ones included. As a constant it is checked by the compiler:
 /// `constexpr auto tool = link_index(Q2d{}, "tool_link");`.
-/// @throws std::invalid_argument if the robot has no such link
+/// @throws std::invalid_argument if the robot has no such link; the message lists its links
 /// Real-time: no (throws).
 template <Robot R>
 [[nodiscard]] constexpr LinkIndex link_index(const R& robot, std::string_view name) {
@@ -28,8 +26,7 @@ template <Robot R>
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (links[i].name.view() == name) return {i};
   }
-  throw std::invalid_argument("robot '" + std::string(model_of(robot).name.view()) +
-                              "' has no link '" + std::string(name) + "'");
+  detail::no_such_link(model_of(robot), name);
 }
 
 /// Where a link's frame stands in the frame of the robot's root link: X_0L(q).

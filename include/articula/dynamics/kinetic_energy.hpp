@@ -34,6 +34,10 @@ struct KineticEnergy {
       if (body.reflected_inertia != 0) {
         energy = energy + S(0.5 * body.reflected_inertia) * (velocity[i] * velocity[i]);
       }
+      if (body.sharing_body >= 0) {
+        const auto other = static_cast<std::size_t>(body.sharing_body);
+        energy = energy + S(body.shared_inertia) * (velocity[i] * velocity[other]);
+      }
     }
     return energy;
   }

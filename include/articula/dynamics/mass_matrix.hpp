@@ -37,6 +37,12 @@ struct MassMatrix {
             composite[i], composite[static_cast<std::size_t>(mechanism.bodies[i].parent)]);
       }
     }
+    for (std::size_t i = 0; i < composite.size(); ++i) {
+      const Body& body = mechanism.bodies[i];
+      if (body.sharing_body < 0) continue;
+      const auto other = static_cast<std::size_t>(body.sharing_body);
+      matrix[i][other] = matrix[other][i] = matrix[i][other] + S(body.shared_inertia);
+    }
     return joint_matrix<S, N, B>(mechanism, matrix);
   }
 

@@ -68,7 +68,8 @@ constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion, const VelocityProduc
 /// base. Source: [Luh, Walker, Paul 1980]; with the matrix U of [Balafoutis, Patel, Misra 1988]; in
 /// link frames as [Khalil, Dombre 2002, section 9.5].
 ///
-/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M. That takes a
+/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M, and what two joints
+/// share of them beside it. That takes a
 /// rotor to have no more than its own spin, n v, about its axis: what it feels of the motion of the
 /// link that carries it, gyroscopic moments included, is smaller by a factor n and left out [Spong
 /// 1987]; [Featherstone 2008, section 9.6]. The rotor's mass is part of that link.
@@ -127,6 +128,13 @@ template <class S, int N, int B>
     parent.force = parent.force + force;
     parent.moment = parent.moment + configuration[i].to_parent(wrenches[i].moment) +
                     cross(configuration[i].translation, force);
+  }
+  for (std::size_t i = 0; i < effort.size(); ++i) {
+    const Body& body = mechanism.bodies[i];
+    if (body.sharing_body < 0) continue;
+    const auto other = static_cast<std::size_t>(body.sharing_body);
+    effort[i] = effort[i] + S(body.shared_inertia) * acceleration[other];
+    effort[other] = effort[other] + S(body.shared_inertia) * acceleration[i];
   }
   return joint_efforts<S, N, B>(mechanism, effort);
 }

@@ -69,8 +69,8 @@ inline void check_offset(std::string_view where, std::string_view what, double o
 /// actuator_velocity. For a simple transmission that is n^2 J, the `reflected_inertia` of a Joint.
 ///
 /// Between the two joints of a differential there is no coupling if J n^2 is the same for both
-/// actuators; else, and in a four-bar transmission, elements off the diagonal are left. A Joint has none
-/// for them.
+/// actuators; else, and in a four-bar transmission, elements off the diagonal are left: the
+/// `shared_rotors` of one of the two joints.
 /// @param transmission  between actuators and joints
 /// @param rotors        J, inertias of the actuators' rotors [kg m^2 or kg]
 /// @return              [kg m^2, kg m or kg], size x size

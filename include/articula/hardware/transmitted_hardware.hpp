@@ -2,6 +2,7 @@
 /// @file The joints of a robot behind the transmissions of its actuators.
 #pragma once
 
+#include "articula/control/drive_spring.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/hardware/transmission.hpp"
@@ -10,8 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -30,7 +33,8 @@ struct Gearing {
   std::array<Name, size>
       actuators{};  ///< by the names that the actuators' hardware has for its joints
   T transmission{};
-  std::array<JointLimits, size> limits{};  ///< of the actuators; commands are cut off there
+  std::array<JointLimits, size>
+      limits{};  ///< of the actuators; commands are cut off there, see write
 };
 
 /// The joints of a robot, made of the hardware of its actuators and the transmissions between them, put
@@ -97,7 +101,8 @@ class TransmittedHardware {
   }
 
   /// Hands over what the actuators have to do for the joints' command. Beyond an actuator's limit, the
-  /// limit.
+  /// limit. Of springs and dampers the total effort at the actuators' last state keeps it, too: their
+  /// references are drawn towards that state.
   /// @param command  for the joints
   /// @return         as the actuators' hardware, which also sees what is not finite
   /// Real-time: yes, if the actuators' write is.
@@ -136,6 +141,14 @@ class TransmittedHardware {
         if constexpr (requires { command.velocity; }) {
           given.velocity[a] = std::clamp(given.velocity[a], -limits.velocity, limits.velocity);
         }
+        if constexpr (requires { command.stiffness; }) {
+          const double total = spring_pull(given, actuators_)[a] + given.effort[a];
+          const double most = std::max(std::abs(total), std::abs(given.effort[a]));
+          if (is_finite(total) && most > limits.effort) {
+            set_total(given, actuators_, a, std::clamp(total, -limits.effort, limits.effort),
+                      limits.effort);
+          }
+        }
         if constexpr (requires { command.effort; }) {
           given.effort[a] = std::clamp(given.effort[a], -limits.effort, limits.effort);
         }
@@ -173,15 +186,30 @@ class TransmittedHardware {
     std::array<int, Gearing<T>::size> actuators;
   };
 
+  /// The index of a joint, or why there is none and on which side of the transmission.
+  template <Robot Side>
+  [[nodiscard]] static int index_of(const Side& side, const Name& name, const char* what) {
+    try {
+      return joint_index(side, name.view());
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("transmissions: '" + std::string(name.view()) + "' is to be " +
+                                  what + ": " + error.what());
+    }
+  }
+
   template <Transmission T, Robot Actuators>
   [[nodiscard]] static Part<T> part_of(const R& robot, const Actuators& actuators,
                                        const Gearing<T>& gearing) {
     Part<T> part{gearing, {}, {}};
     for (std::size_t k = 0; k < Gearing<T>::size; ++k) {
-      part.joints[k] = joint_index(robot, gearing.joints[k]);
-      part.actuators[k] = joint_index(actuators, gearing.actuators[k]);
+      part.joints[k] = index_of(robot, gearing.joints[k], "a joint of the transmission");
+      part.actuators[k] = index_of(actuators, gearing.actuators[k],
+                                   "an actuator, which is a joint of the hardware below");
       const auto& [lower, upper, velocity, effort] = gearing.limits[k];
-      if (lower <= upper && velocity >= 0 && effort >= 0) continue;
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      if (lower <= upper && lower < infinity && upper > -infinity && velocity >= 0 && effort >= 0) {
+        continue;
+      }
       std::ostringstream message;
       message << "limits of actuator '" << gearing.actuators[k].view() << "': position " << lower
               << " .. " << upper << ", velocity " << velocity << ", effort " << effort

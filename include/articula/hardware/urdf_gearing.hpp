@@ -9,17 +9,33 @@
 #include "articula/model/urdf/description.hpp"
 
 #include <algorithm>
-#include <concepts>
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace articula {
 
+namespace detail {
+
+/// The name by which URDFs know a transmission.
+template <class T>
+inline constexpr std::string_view urdf_transmission = "";
+template <>
+inline constexpr std::string_view urdf_transmission<SimpleTransmission> = "SimpleTransmission";
+template <>
+inline constexpr std::string_view urdf_transmission<DifferentialTransmission> =
+    "DifferentialTransmission";
+template <>
+inline constexpr std::string_view urdf_transmission<FourBarTransmission> =
+    "FourBarLinkageTransmission";
+
+}  // namespace detail
+
 /// A transmission as a URDF's <transmission> has it. Joints and actuators stand by their roles ("joint1",
-/// "actuator2"), or where they have none as in the file. The reduction of a simple transmission is that
-/// of its actuator, as ROS 1 writes it, times that of its joint, as ros2_control does. The type that
-/// the file names is not looked at: which one it is, is said here, where the compiler must know.
+/// "actuator2"), or where none of them has one as in the file. The reduction of a simple transmission is
+/// that of its actuator, as ROS 1 writes it, times that of its joint, as ros2_control does. The type
+/// that the file names may be unknown here, but not another one of these three.
 ///
 ///     TransmittedHardware<Drives, Arm, SimpleTransmission, ...> arm(
 ///         Drives(), gearing_of<SimpleTransmission>(urdf, "shoulder_transmission"), ...);
@@ -27,17 +43,25 @@ namespace articula {
 /// @tparam T           the transmission
 /// @param description  what was read
 /// @param name         of the <transmission>
-/// @throws std::invalid_argument if there is none of that name, or it has another number of joints or
-///         actuators, naming it and them
+/// @throws std::invalid_argument if there is none of that name, it is of another type, has another
+///         number of joints or actuators, or their roles do not tell which is which; naming it and them
 /// Real-time: no (searches by name, throws).
 template <Transmission T>
-requires std::same_as<T, SimpleTransmission> || std::same_as<T, DifferentialTransmission> ||
-    std::same_as<T, FourBarTransmission>
-[[nodiscard]] Gearing<T> gearing_of(const UrdfDescription& description, std::string_view name) {
+requires(!detail::urdf_transmission<T>.empty())
+    [[nodiscard]] Gearing<T> gearing_of(const UrdfDescription& description, std::string_view name) {
   const std::string where = description.file + ": transmission '" + std::string(name) + "'";
   const auto found = std::ranges::find(description.transmissions, name, &UrdfTransmission::name);
   if (found == description.transmissions.end()) {
     throw std::invalid_argument(where + " does not exist");
+  }
+  // "transmission_interface/SimpleTransmission": the last part counts.
+  const std::string type = found->type.substr(found->type.find_last_of("/:") + 1);
+  constexpr std::array known = {detail::urdf_transmission<SimpleTransmission>,
+                                detail::urdf_transmission<DifferentialTransmission>,
+                                detail::urdf_transmission<FourBarTransmission>};
+  if (type != detail::urdf_transmission<T> && std::ranges::find(known, type) != known.end()) {
+    throw std::invalid_argument(where + " is a " + type + ", not a " +
+                                std::string(detail::urdf_transmission<T>));
   }
   const auto in_order = [&](std::vector<UrdfTransmissionEnd> ends, const char* kind) {
     if (ends.size() != Gearing<T>::size) {
@@ -45,6 +69,13 @@ requires std::same_as<T, SimpleTransmission> || std::same_as<T, DifferentialTran
                                   "s instead of " + std::to_string(Gearing<T>::size));
     }
     std::ranges::stable_sort(ends, {}, &UrdfTransmissionEnd::role);
+    const bool none = ends.back().role.empty();
+    const bool twice =
+        std::ranges::adjacent_find(ends, {}, &UrdfTransmissionEnd::role) != ends.end();
+    if (!none && (ends.front().role.empty() || twice)) {
+      throw std::invalid_argument(where + ": each " + kind +
+                                  " must have a role of its own, or none");
+    }
     return ends;
   };
   const auto joints = in_order(found->joints, "joint");

@@ -2,11 +2,14 @@
 /// @file The control loop: one hardware, one controller, one cycle at a time.
 #pragma once
 
+#include "articula/control/command_numbers.hpp"
 #include "articula/control/effort_law.hpp"
 #include "articula/control/safe_command.hpp"
+#include "articula/control/tells_failure.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
+#include "articula/loop/controller_check.hpp"
 #include "articula/model/robot.hpp"
 
 #include <concepts>
@@ -27,7 +30,9 @@ namespace articula {
 ///
 /// One cycle reads the joints, lets the controller compute, keeps the command within the robot's
 /// effort limits and writes it. NaN and infinity never reach the hardware: whatever goes wrong, the
-/// command that is written is a safe one (see safe_command) and the Status tells.
+/// command that is written is a safe one (see safe_command) and the Status tells. A controller that
+/// says it has failed (TellsFailure) is treated as one whose command is not finite; what Limited or
+/// Groups make of a failure is written (SafeInFailure), and only the Status tells.
 ///
 /// After up to `borne_cycles` bad cycles in a row the controller goes on as if nothing had been: a lost
 /// frame costs no integral. After more, or after one in which the hardware could not be read or
@@ -46,26 +51,22 @@ class Loop {
   static constexpr int borne_cycles = 3;
   using State = JointState<joint_count>;
   using Reference = JointReference<joint_count>;
-  using Command = decltype(std::declval<ControllerType&>().update(
-      std::declval<const State&>(), std::declval<const Reference&>(), double()));
-  static_assert(Controller<ControllerType, joint_count>,
-                "start and update of the controller must be noexcept, "
-                "see core/controller.hpp");
-  static_assert(Hardware<HardwareType, Command>,
+  using Command = typename detail::CheckedController<ControllerType, joint_count>::Command;
+  static_assert(!Controller<ControllerType, joint_count> || Hardware<HardwareType, Command>,
                 "the hardware does not accept this controller's command, or "
                 "lacks something, see core/hardware.hpp");
 
   /// Default hardware and controller.
-  Loop() requires std::default_initializable<HardwareType> &&
-      std::default_initializable<ControllerType> : Loop(HardwareType(), ControllerType()) {}
+  Loop() requires std::default_initializable<HardwareType>
+      : Loop(HardwareType(), detail::default_controller<ControllerType>()) {}
 
   /// A given controller on default hardware.
   explicit Loop(ControllerType controller) requires std::default_initializable<HardwareType>
       : Loop(HardwareType(), std::move(controller)) {}
 
   /// Given hardware under the default controller.
-  explicit Loop(HardwareType hardware) requires std::default_initializable<ControllerType>
-      : Loop(std::move(hardware), ControllerType()) {}
+  explicit Loop(HardwareType hardware)
+      : Loop(std::move(hardware), detail::default_controller<ControllerType>()) {}
 
   /// Activates the hardware, reads where the joints are and makes that the reference. The period is
   /// the hardware's own, 1 ms if it has none.
@@ -101,10 +102,12 @@ class Loop {
     if (status == Status::ok && !started_) start();
     if (status == Status::ok && !is_finite(reference_)) status = Status::non_finite_reference;
     Command command;
+    bool fails = false;
     if (status == Status::ok) {
       if (bad_cycles_ > borne_cycles) restart();
       command = controller_.update(state_, reference_, period_);
-      if (!is_finite(command)) status = Status::non_finite_command;
+      fails = has_failed(controller_);
+      if (!is_finite(command) || !command_counts(controller_)) status = Status::non_finite_command;
     }
     command_ = status == Status::ok
                    ? limited(hardware_.robot(), command)
@@ -114,7 +117,7 @@ class Loop {
     const Status write = is_finite(command_) ? hardware_.write(command_) : Status::ok;
     if (status == Status::ok) status = write;
     note(status, read, write);
-    return status;
+    return status == Status::ok && fails ? Status::non_finite_command : status;
   }
 
   /// What the joints shall do; may be changed between two updates.
@@ -195,9 +198,10 @@ class Loop {
 
   void restart() noexcept {
     controller_.start(state_);
-    if constexpr (Primable<ControllerType, joint_count> && requires { values_of(command_); }) {
+    if constexpr (Primable<ControllerType, joint_count>) {
       if (joints_lost_) return;
-      static_cast<void>(controller_.prime(state_, reference_, period_, values_of(command_)));
+      static_cast<void>(
+          controller_.prime(state_, reference_, period_, numbers_of(command_, state_)));
     }
   }
 

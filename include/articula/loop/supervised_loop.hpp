@@ -40,14 +40,14 @@ class SupervisedLoop {
   using Command = typename Loop<HardwareType, ControllerTemplate>::Command;
 
   /// Default hardware and controller.
-  explicit SupervisedLoop(const SupervisionOptions& options = {}) requires
-      std::default_initializable<HardwareType> && std::default_initializable<ControllerType>
-      : SupervisedLoop(HardwareType(), ControllerType(), options) {}
+  explicit SupervisedLoop(
+      const SupervisionOptions& options = {}) requires std::default_initializable<HardwareType>
+      : SupervisedLoop(HardwareType(), detail::default_controller<ControllerType>(), options) {}
 
   /// Given hardware under the default controller.
-  explicit SupervisedLoop(HardwareType hardware, const SupervisionOptions& options = {}) requires
-      std::default_initializable<ControllerType>
-      : SupervisedLoop(std::move(hardware), ControllerType(), options) {}
+  explicit SupervisedLoop(HardwareType hardware, const SupervisionOptions& options = {})
+      : SupervisedLoop(std::move(hardware), detail::default_controller<ControllerType>(), options) {
+  }
 
   /// Does not activate the hardware.
   /// @param hardware    the joints

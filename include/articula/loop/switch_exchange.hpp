@@ -106,6 +106,8 @@ class SwitchExchange {
 
   /// Passes requests on to the controller and publishes what it has done. Between two cycles. An
   /// outcome is handed over by the next call, so that `list` and `event` know of the cycle in between.
+  /// What shall start or stop in a group with a divisor does so when that is asked next; they know of
+  /// it then.
   /// @return  whether a controller started, stopped or failed since the last call
   /// Real-time: yes. Wait-free.
   template <class C>
@@ -120,7 +122,7 @@ class SwitchExchange {
     }
     if (changed) published_.write(now);
     statuses_ = now;
-    // The outcomes of the last call's requests, now that the list shows what has become of them.
+    // The outcomes of the last call's requests, now that the list shows what that cycle made of them.
     for (std::size_t k = 0; k < decided_count_; ++k) outcomes_.push(decided_[k]);
     decided_count_ = 0;
     NumberedRequest next;

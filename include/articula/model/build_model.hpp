@@ -45,9 +45,11 @@ struct ModelBuilder {
   /// @param name       the link to place
   /// @param body       index of the moving body that it belongs to, -1 for the base
   /// @param placement  the link's frame in the frame of that body
-  constexpr void add_link(const Name& name, int body, const Placement<double>& placement) {
+  /// @param carrier    the joint that carries it
+  constexpr void add_link(const Name& name, int body, const Placement<double>& placement,
+                          const Name& carrier) {
     const Link& link = links[static_cast<std::size_t>(index_of(links, name))];
-    model.links[link_count++] = {name, body, placement};
+    model.links[link_count++] = {name, body, placement, carrier};
     if (body >= 0) {
       Inertia<double>& inertia = model.mechanism.bodies[static_cast<std::size_t>(body)].inertia;
       inertia = inertia + moved(placement, inertia_of(link));
@@ -61,7 +63,7 @@ struct ModelBuilder {
   constexpr void add_joint(const Joint& joint, int parent, const Placement<double>& parent_link) {
     const Placement<double> frame =
         parent_link * Placement<double>{rotation_from_rpy(joint.orientation), joint.origin};
-    if (joint.type == JointType::fixed) return add_link(joint.child, parent, frame);
+    if (joint.type == JointType::fixed) return add_link(joint.child, parent, frame, joint.name);
 
     const Matrix3<double> turn = rotation_of_z_onto(direction_of(joint.axis));
     const int body = body_count++;
@@ -77,18 +79,29 @@ struct ModelBuilder {
       model.mechanism.couplings[index] = {joint_count, 1, 0};
       model.joints[static_cast<std::size_t>(joint_count++)] = properties_of(joints, joint);
     }
-    add_link(joint.child, body, {turn.transposed(), {}});
+    add_link(joint.child, body, {turn.transposed(), {}}, joint.name);
   }
 
-  /// Couples the bodies on mimic joints to the joints that they follow.
+  /// Couples the bodies on mimic joints to the joints that they follow, and those that share rotors.
   constexpr void couple() {
     for (std::size_t body = 0; body < carriers.size(); ++body) {
+      share_rotors(body);
       const auto [followed, multiplier, offset] = carriers[body]->mimic;
       if (followed.empty()) continue;
       for (std::size_t i = 0; i < model.joints.size(); ++i) {
         if (!(model.joints[i].name == followed)) continue;
         model.mechanism.couplings[body] = {static_cast<int>(i), multiplier, offset};
       }
+    }
+  }
+
+  constexpr void share_rotors(std::size_t body) {
+    const auto [other, inertia] = carriers[body]->shared_rotors;
+    if (other.empty()) return;
+    for (std::size_t i = 0; i < carriers.size(); ++i) {
+      if (!(carriers[i]->name == other)) continue;
+      model.mechanism.bodies[body].shared_inertia = inertia;
+      model.mechanism.bodies[body].sharing_body = static_cast<int>(i);
     }
   }
 
@@ -133,7 +146,7 @@ template <int N, int Bodies = N, class LinkFrames>
   model.mechanism.gravity = gravity;
   detail::ModelBuilder<Model<N, Bodies, LinkFrames>> builder{links, joints, model};
   for (const Link& link : links) {
-    if (detail::carrier_of(joints, link.name).empty()) builder.add_link(link.name, -1, {});
+    if (detail::carrier_of(joints, link.name).empty()) builder.add_link(link.name, -1, {}, {});
   }
   builder.couple();
   model.canonical = canonical_form(model.mechanism, right_angle_tolerance).mechanism;

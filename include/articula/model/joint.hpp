@@ -34,6 +34,14 @@ struct Mimic {
   double offset = 0;      ///< [rad or m]
 };
 
+/// What a joint feels of drives whose rotors turn with another joint as well, as in a four-bar
+/// transmission: an element of the mass matrix off its diagonal. It is named by one of the two joints.
+struct SharedRotors {
+  Name joint{};  ///< name of the other joint; empty: none
+  double inertia =
+      0;  ///< sum of J n n' over the rotors that turn n and n' times as fast as the two
+};        ///< joints, of either sign [kg m^2, kg m or kg]
+
 /// A joint as URDF describes it: it carries the child link in the parent link.
 struct Joint {
   Name name{};  ///< unique among the joints
@@ -50,6 +58,7 @@ struct Joint {
   /// n times as fast as the joint [kg m^2 or kg]
   double reflected_inertia = 0;
   Mimic mimic{};
+  SharedRotors shared_rotors{};  ///< see reflected_inertia of a transmission
 };
 
 }  // namespace articula

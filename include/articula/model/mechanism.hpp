@@ -18,6 +18,8 @@ struct Body {
   Placement<double> placement{};  ///< this body's frame in the parent's, at q = 0
   Inertia<double> inertia{};      ///< about the origin of this body's frame
   double reflected_inertia = 0;   ///< of the joint's drive, see Joint [kg m^2 or kg]
+  double shared_inertia = 0;      ///< of drives that also turn with another joint, see SharedRotors
+  int sharing_body = -1;          ///< index of that joint's body
 };
 
 /// Which joint moves a body, and how: q_body = multiplier q_joint + offset. A body on a mimic joint

@@ -16,6 +16,7 @@ struct LinkFrame {
   Name name{};
   int body = -1;                  ///< index of the moving body; -1 for the fixed base
   Placement<double> placement{};  ///< the link's frame in the body's (or the base's) frame
+  Name carrier{};                 ///< the joint, fixed or not, that carries it; empty for the root
 };
 
 /// A robot as a value, made from a description by build_model. Its parts depend on each other: for

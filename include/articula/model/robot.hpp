@@ -5,11 +5,10 @@
 #include "articula/core/joint_vector.hpp"
 #include "articula/model/build_model.hpp"
 #include "articula/model/description.hpp"
+#include "articula/model/no_such_name.hpp"
 #include "articula/model/physical_check.hpp"
 
 #include <array>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -90,15 +89,15 @@ template <Robot R>
 requires(!DescribedRobot<R>) auto joint_names(const R&& robot) = delete;
 
 /// The index of one of these joints by name.
-/// @throws std::invalid_argument if the robot has no such joint
+/// @throws std::invalid_argument if it is none of them, saying why: it is fixed, mimics another one,
+///         or the robot has no such joint
 /// Real-time: no (throws).
 template <Robot R>
 [[nodiscard]] constexpr int joint_index(const R& robot, std::string_view name) {
   for (int i = 0; i < joint_count<R>; ++i) {
     if (model_of(robot).joints[static_cast<std::size_t>(i)].name.view() == name) return i;
   }
-  throw std::invalid_argument("robot '" + std::string(model_of(robot).name.view()) +
-                              "' has no free joint '" + std::string(name) + "'");
+  detail::no_such_joint(model_of(robot), name);
 }
 
 /// One property of every joint, such as `joint_values(robot, [](auto& j) { return j.damping;

@@ -34,6 +34,9 @@ enum class Rule {
   mimicked_joint_does_not_exist,
   mimicked_joint_is_not_free,
   mimics_leave_no_position,
+  rotors_are_shared_with_no_free_joint,
+  rotors_are_shared_twice,
+  shared_inertia_is_too_large,
 };
 
 /// True for the rules that a link's inertia breaks in files which are otherwise of use: the
@@ -97,6 +100,12 @@ enum class Rule {
       return "the joint that is to be mimicked is fixed or a mimic itself";
     case Rule::mimics_leave_no_position:
       return "the limits of the joint and of those that mimic it have nothing in common";
+    case Rule::rotors_are_shared_with_no_free_joint:
+      return "rotors are shared between joints of which one is fixed, a mimic, missing or the same";
+    case Rule::rotors_are_shared_twice:
+      return "the joint shares rotors with more than one other, or both joints name them";
+    case Rule::shared_inertia_is_too_large:
+      return "the shared inertia is larger than those of the two joints' drives allow";
   }
   return "unknown rule";
 }

@@ -78,7 +78,7 @@ constexpr Rule broken_rule(const Joint& joint) {
   if (joint.name.empty()) return Rule::name_is_missing;
   if (!are_usable(joint.origin) || !are_angles(joint.orientation) || !all_finite(joint.axis) ||
       !are_usable(joint.damping, joint.friction, joint.reflected_inertia, joint.mimic.multiplier,
-                  joint.mimic.offset)) {
+                  joint.mimic.offset, joint.shared_rotors.inertia)) {
     return Rule::number_is_not_finite;
   }
   if (joint.type == JointType::fixed) return Rule::none;
@@ -162,13 +162,38 @@ constexpr std::vector<char> mass_movers(std::span<const Link> links, const TreeI
   return movers;
 }
 
+constexpr bool is_free(const Joint& joint) {
+  return joint.type != JointType::fixed && joint.mimic.joint.empty();
+}
+
 constexpr Rule broken_mimic_rule(std::span<const Joint> joints, const Joint& joint) {
   if (joint.type == JointType::fixed || joint.mimic.joint.empty()) return Rule::none;
   const int followed = index_of(joints, joint.mimic.joint);
   if (followed < 0) return Rule::mimicked_joint_does_not_exist;
-  const Joint& other = joints[static_cast<std::size_t>(followed)];
-  const bool free = other.type != JointType::fixed && other.mimic.joint.empty();
+  const bool free = is_free(joints[static_cast<std::size_t>(followed)]);
   return free ? Rule::none : Rule::mimicked_joint_is_not_free;
+}
+
+/// No combination of two joints' velocities may give rotors negative energy: with a and b the reflected
+/// inertias of the two, c^2 <= a b. One drive for both joints lies on the edge, so rounding is forgiven.
+constexpr Rule broken_rotor_rule(std::span<const Joint> joints, const Joint& joint) {
+  const auto& [name, inertia] = joint.shared_rotors;
+  if (name.empty()) return Rule::none;
+  const int other = index_of(joints, name);
+  if (other < 0 || name == joint.name || !is_free(joint) ||
+      !is_free(joints[static_cast<std::size_t>(other)])) {
+    return Rule::rotors_are_shared_with_no_free_joint;
+  }
+  for (const Joint& third : joints) {
+    const Name& shares_with = third.shared_rotors.joint;
+    if (third.name == joint.name || shares_with.empty()) continue;
+    if (third.name == name || shares_with == name || shares_with == joint.name) {
+      return Rule::rotors_are_shared_twice;
+    }
+  }
+  const double most =
+      joint.reflected_inertia * joints[static_cast<std::size_t>(other)].reflected_inertia;
+  return inertia * inertia <= most * (1 + 1e-12) ? Rule::none : Rule::shared_inertia_is_too_large;
 }
 
 /// The first broken rule of single links or joints, and names that are used twice.
@@ -215,7 +240,8 @@ constexpr DescriptionFault element_fault(std::span<const Element> elements, bool
     if (joint.type == JointType::fixed) continue;
     moves = true;
     if (movers[j] == 0) return {joint.name, Rule::joint_moves_no_mass};
-    const Rule rule = detail::broken_mimic_rule(joints, joint);
+    Rule rule = detail::broken_mimic_rule(joints, joint);
+    if (rule == Rule::none) rule = detail::broken_rotor_rule(joints, joint);
     if (rule != Rule::none) return {joint.name, rule};
     const JointLimits limits = properties_of(joints, joint).limits;
     if (!(limits.lower <= limits.upper)) return {joint.name, Rule::mimics_leave_no_position};

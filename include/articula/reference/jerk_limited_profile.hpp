@@ -2,6 +2,7 @@
 /// @file Motions from point to point, and stops, within limits of velocity, acceleration and jerk.
 #pragma once
 
+#include "articula/core/finite.hpp"
 #include "articula/core/joint_reference.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/reference/jerk_motion.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace articula {
 
@@ -96,11 +98,16 @@ class JerkLimitedProfile {
   /// When all joints rest [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
 
-  /// The reference at a time since the start [s]; before 0 as at 0, from duration() on at rest.
+  /// The reference at a time since the start [s]; before 0 as at 0, from duration() on at rest. A
+  /// time that is not finite gives NaN, which a loop refuses.
   /// Real-time: yes. O(N).
   [[nodiscard]] Reference sample(double time) const noexcept {
     Reference reference;
     reference.effort = effort_;
+    if (!is_finite(time)) {
+      reference.position.setConstant(std::numeric_limits<double>::quiet_NaN());
+      return reference;
+    }
     for (int j = 0; j < joint_count; ++j) {
       const JerkMotion& joint = motions_[static_cast<std::size_t>(j)];
       const double own_time = time < duration_ ? std::max(0.0, time * pace_[j]) : duration_;

@@ -48,8 +48,8 @@ class JointSignals {
   /// @param signals  in any order; those of one joint add up
   /// @param around   what they are added to
   /// @throws std::invalid_argument if there are too many signals, a joint is unknown, a signal
-  ///         cannot be evaluated, or `around` is not finite or beyond a joint's limits; the message
-  ///         names joint and signal
+  ///         cannot be evaluated, their sum overflows, or `around` is not finite or beyond a joint's
+  ///         limits; the message names joint and signal
   explicit JointSignals(std::span<const JointSignal> signals,
                         const JointReference<joint_count>& around = {},
                         const R& robot = described<R>())
@@ -61,12 +61,20 @@ class JointSignals {
     if (signals.size() > entries_.size()) {
       detail::refuse("signals: ", signals.size(), " are more than the capacity, ", Capacity);
     }
+    JointReference<joint_count> peak{around.position.cwiseAbs(), around.velocity.cwiseAbs(),
+                                     around.acceleration.cwiseAbs(), around.effort.cwiseAbs()};
     for (const JointSignal& s : signals) {
       const auto fault = std::visit([](const auto& signal) { return signal.fault(); }, s.signal);
       if (!fault.empty()) {
         detail::refuse("signals: number ", size_ + 1, ", on joint '", s.joint.view(), "': ", fault);
       }
-      entries_[size_++] = {joint_index(robot, s.joint), s.signal, s.target};
+      const Entry entry{joint_index(robot, s.joint), s.signal, s.target};
+      add(peak, entry, std::visit([](const auto& signal) { return signal.peak(); }, s.signal));
+      if (!is_finite(peak)) {
+        detail::refuse("signals: number ", size_ + 1, ", on joint '", s.joint.view(),
+                       "': the sum of the joint's signals overflows");
+      }
+      entries_[size_++] = entry;
     }
   }
   explicit JointSignals(std::initializer_list<JointSignal> signals,
@@ -85,13 +93,7 @@ class JointSignals {
       const Entry& entry = entries_[k];
       const SignalValue x =
           std::visit([&](const auto& signal) { return signal.sample(time); }, entry.signal);
-      if (entry.target == SignalTarget::effort) {
-        reference.effort[entry.joint] += x.value;
-      } else {
-        reference.position[entry.joint] += x.value;
-        reference.velocity[entry.joint] += x.rate;
-        reference.acceleration[entry.joint] += x.acceleration;
-      }
+      add(reference, entry, x);
     }
     for (int j = 0; j < joint_count; ++j) {
       if (reference.position[j] >= lower_[j] && reference.position[j] <= upper_[j]) continue;
@@ -107,6 +109,17 @@ class JointSignals {
     Signal signal{};
     SignalTarget target = SignalTarget::position;
   };
+
+  static void add(JointReference<joint_count>& sum, const Entry& entry,
+                  const SignalValue& x) noexcept {
+    if (entry.target == SignalTarget::effort) {
+      sum.effort[entry.joint] += x.value;
+    } else {
+      sum.position[entry.joint] += x.value;
+      sum.velocity[entry.joint] += x.rate;
+      sum.acceleration[entry.joint] += x.acceleration;
+    }
+  }
 
   JointReference<joint_count> around_;
   JointVector<joint_count> lower_;

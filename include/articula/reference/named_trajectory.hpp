@@ -30,7 +30,9 @@ struct NamedTrajectory {
   std::vector<NamedTrajectoryPoint> points{};
 };
 
-/// What is done about numbers that a named trajectory leaves out.
+/// What is done about numbers that a named trajectory leaves out:
+///
+///     arrange(named, Ur10(), {.allow_partial_joints = true, .from = loop.reference()});
 template <int N>
 struct ArrangeOptions {
   TrajectoryOptions trajectory{};
@@ -39,13 +41,15 @@ struct ArrangeOptions {
   /// Positions (and velocities) that are not given are integrated from velocities (and
   /// accelerations) by Heun's method, from `from` on at time 0; otherwise they are missed.
   bool allow_integration = false;
-  JointReference<N> from{};  ///< what the joints are asked for at present
+  /// What the joints are asked for at present; has to be given where something is to stay or to be
+  /// integrated
+  std::optional<JointReference<N>> from{};
 };
 
 /// Puts a named trajectory in the order of a robot's joints.
 /// @tparam Capacity  most points there can be
-/// @throws TrajectoryError: invalid_joints if a name is unknown or used twice or a joint is not
-///         named; invalid_goal if an array has another length than the names, positions are not
+/// @throws TrajectoryError: invalid_joints if a name is unknown or used twice, or a joint is not
+///         named (nor `from` given, where it may stay); invalid_goal if an array has another length than the names, positions are not
 ///         given, or Trajectory refuses the rest; the message names point and joint
 /// Real-time: no (throws, allocates).
 template <int Capacity = 32, Robot R>
@@ -63,20 +67,22 @@ template <int Capacity = 32, Robot R>
     const std::string& name = named.joint_names[c];
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-      refuse(TrajectoryOutcome::invalid_joints, "the robot has no free joint '", name, "'");
+      refuse(TrajectoryOutcome::invalid_joints, detail::no_such_joint_text(model_of(robot), name));
     }
     auto& mine = column[static_cast<std::size_t>(found - names.begin())];
     if (mine) refuse(TrajectoryOutcome::invalid_joints, "joint '", name, "' is named twice");
     mine = c;
   }
   for (std::size_t j = 0; j < names.size(); ++j) {
-    if (column[j] || options.allow_partial_joints) continue;
-    refuse(TrajectoryOutcome::invalid_joints, "joint '", names[j], "' is not named");
+    if (column[j] || (options.allow_partial_joints && options.from)) continue;
+    refuse(TrajectoryOutcome::invalid_joints, "joint '", names[j], "' is not named",
+           options.allow_partial_joints ? "; give `from`" : "");
   }
 
   std::vector<TrajectoryPoint<n>> points;
   double time = 0;
-  JointReference<n> last = options.from;
+  const JointReference<n> from = options.from.value_or(JointReference<n>{});
+  JointReference<n> last = from;
   for (std::size_t k = 0; k < named.points.size(); ++k) {
     const NamedTrajectoryPoint& given = named.points[k];
     const auto arranged = [&](const char* what, const std::vector<double>& values,
@@ -95,7 +101,7 @@ template <int Capacity = 32, Robot R>
     };
     const JointVector<n> zero = JointVector<n>::Zero();
     TrajectoryPoint<n> point{.time_from_start = given.time_from_start};
-    const auto position = arranged("positions", given.positions, options.from.position);
+    const auto position = arranged("positions", given.positions, from.position);
     point.velocity = arranged("velocities", given.velocities, zero);
     point.acceleration = arranged("accelerations", given.accelerations, zero);
     point.effort = arranged("efforts", given.effort, zero).value_or(zero);
@@ -104,6 +110,9 @@ template <int Capacity = 32, Robot R>
     } else {
       if (!options.allow_integration || (!point.velocity && !point.acceleration)) {
         refuse(TrajectoryOutcome::invalid_goal, "point ", k + 1, " has no positions");
+      }
+      if (k == 0 && !options.from) {
+        refuse(TrajectoryOutcome::invalid_goal, "point 1 has no positions; give `from`");
       }
       const double half = (given.time_from_start - time) / 2;
       if (!point.velocity) {

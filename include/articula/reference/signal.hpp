@@ -21,6 +21,11 @@ struct SignalValue {
   double acceleration = 0;  ///< second derivative [unit/s^2]
 };
 
+/// True if all of it is finite. Real-time: yes.
+[[nodiscard]] inline bool is_finite(const SignalValue& x) noexcept {
+  return is_finite(x.value) && is_finite(x.rate) && is_finite(x.acceleration);
+}
+
 /// x(t) = height from `start` on, 0 before.
 struct StepSignal {
   double height = 0;  ///< [unit]
@@ -30,6 +35,8 @@ struct StepSignal {
   [[nodiscard]] SignalValue sample(double time) const noexcept {
     return {time < start ? 0 : height};
   }
+  /// What its sizes never exceed. Real-time: yes.
+  [[nodiscard]] SignalValue peak() const noexcept { return {std::abs(height)}; }
   /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
     return is_finite(height) && is_finite(start) ? "" : "a member is not a finite number";
@@ -48,6 +55,10 @@ struct RampSignal {
     if (share <= 0) return {};
     if (share >= 1) return {height};
     return {height * share, height / duration};
+  }
+  /// What its sizes never exceed. Real-time: yes.
+  [[nodiscard]] SignalValue peak() const noexcept {
+    return {std::abs(height), std::abs(height / duration)};
   }
   /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
@@ -74,13 +85,18 @@ struct SineSignal {
     const double sine = amplitude * std::sin(angle);
     return {offset + sine, amplitude * omega * std::cos(angle), -sine * omega * omega};
   }
+  /// What its sizes never exceed. Real-time: yes.
+  [[nodiscard]] SignalValue peak() const noexcept {
+    const double omega = 2 * std::numbers::pi * std::abs(frequency), size = std::abs(amplitude);
+    return {std::abs(offset) + size, size * omega, size * omega * omega};
+  }
   /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
     for (const double x : {amplitude, frequency, phase, offset}) {
       if (!is_finite(x)) return "a member is not a finite number";
     }
-    const double omega = 2 * std::numbers::pi * frequency;
-    return is_finite(amplitude * omega * omega) ? "" : "the acceleration is infinite";
+    return is_finite(peak()) ? ""
+                             : "the sum of amplitude and offset or the acceleration is infinite";
   }
 };
 
@@ -90,7 +106,9 @@ struct SineSignal {
 ///     x(t) = amplitude sin((w1/k) (exp(k t) - 1)).
 ///
 /// After `duration` the last frequency goes on to the next zero of the sine, and x stays 0 then:
-/// it neither jumps nor leaves a joint under effort.
+/// no joint is left under effort. x itself does not jump, but its rate does: by amplitude w1 at the
+/// start, and by 2 pi amplitude last_frequency at the end. Where it drives a position, that is a
+/// velocity that jumps.
 struct ChirpSignal {
   double amplitude = 0;        ///< [unit]
   double first_frequency = 1;  ///< [Hz], > 0
@@ -115,6 +133,13 @@ struct ChirpSignal {
     const double sine = amplitude * std::sin(angle), cosine = amplitude * std::cos(angle);
     return {sine, omega * cosine, slope * omega * cosine - omega * omega * sine};
   }
+  /// What its sizes never exceed. Real-time: yes.
+  [[nodiscard]] SignalValue peak() const noexcept {
+    const double omega = 2 * std::numbers::pi * std::max(first_frequency, last_frequency);
+    const double growth = std::abs(std::log(last_frequency / first_frequency)) / duration;
+    const double size = std::abs(amplitude);
+    return {size, size * omega, size * omega * (growth + omega)};
+  }
   /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
     for (const double x : {amplitude, first_frequency, last_frequency, duration, start}) {
@@ -123,7 +148,8 @@ struct ChirpSignal {
     if (!(first_frequency > 0) || !(last_frequency > 0)) return "a frequency is not positive";
     if (!(duration > 0)) return "the duration is not positive";
     const double omega = 2 * std::numbers::pi * std::max(first_frequency, last_frequency);
-    const bool moderate = is_finite(amplitude * omega * omega) && is_finite(omega * duration) &&
+    const bool moderate = is_finite(peak()) && is_finite(omega * omega) &&
+                          is_finite(omega * duration) &&
                           is_finite(std::log(last_frequency / first_frequency) / duration);
     return moderate ? "" : "the acceleration or the number of turns is infinite";
   }

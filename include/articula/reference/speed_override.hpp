@@ -22,17 +22,25 @@ namespace articula {
 ///     loop.reference() = override.apply(waves.sample(override.time()));
 class SpeedOverride {
  public:
-  /// @param rate  |df/dt| while f changes [1/s]
-  /// @throws std::invalid_argument if it is not between 1e-9 and 1e9
-  explicit SpeedOverride(double rate = 2) : rate_(rate) {
+  /// @param rate     |df/dt| while f changes [1/s]
+  /// @param highest  f that can be asked for [1], at least 1; above 1 the joints are faster than the
+  ///                 motion's limits say
+  /// @throws std::invalid_argument if the rate is not between 1e-9 and 1e9, or the highest speed is
+  ///         not between 1 and 1e9
+  explicit SpeedOverride(double rate = 2, double highest = 1) : rate_(rate), highest_(highest) {
     if (!is_finite(rate) || rate < 1e-9 || rate > 1e9) {
       detail::refuse("speed override: rate ", rate, " 1/s is not between 1e-9 and 1e9");
     }
+    if (!is_finite(highest) || highest < 1 || highest > 1e9) {
+      detail::refuse("speed override: highest speed ", highest, " is not between 1 and 1e9");
+    }
   }
 
-  /// Asks for a speed: 1 is the motion as it is, 0 a pause. What is not a finite number, or is
-  /// negative, asks for a pause. Real-time: yes.
-  void set(double speed) noexcept { target_ = is_finite(speed) ? std::max(0.0, speed) : 0.0; }
+  /// Asks for a speed: 1 is the motion as it is, 0 a pause; above the highest one, for that. What is
+  /// not a finite number, or is negative, asks for a pause. Real-time: yes.
+  void set(double speed) noexcept {
+    target_ = is_finite(speed) ? std::clamp(speed, 0.0, highest_) : 0.0;
+  }
 
   /// Lets time pass.
   /// @param period  [s]; nothing happens unless it is finite and positive
@@ -78,6 +86,7 @@ class SpeedOverride {
 
  private:
   double rate_;
+  double highest_;
   double target_ = 1;
   double speed_ = 1;
   double slope_ = 0;  ///< df/dt

@@ -44,6 +44,8 @@ template <Robot R, int Capacity = 32>
 class Trajectory {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
+  /// Up to which a last point stands still: ROS's bound, the resolution of a float [rad/s or m/s].
+  static constexpr double still_velocity = 0x1p-23;
   using Point = TrajectoryPoint<joint_count>;
   using Reference = JointReference<joint_count>;
   // g++ 12 crashes on a list of points whose default members it has not met before.
@@ -178,9 +180,8 @@ class Trajectory {
 
   static void check_end(const Point& last, const R& robot) {
     if (!last.velocity) return;
-    constexpr double still = 0x1p-23;  // ROS's bound: the resolution of a float
     for (int j = 0; j < joint_count; ++j) {
-      if (std::abs((*last.velocity)[j]) <= still) continue;
+      if (std::abs((*last.velocity)[j]) <= still_velocity) continue;
       refuse("the last point moves: velocity ", (*last.velocity)[j], " of joint '",
              joint_names(robot)[static_cast<std::size_t>(j)], "' is not 0");
     }

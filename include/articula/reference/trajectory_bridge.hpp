@@ -4,11 +4,16 @@
 
 #include "articula/core/joint_reference.hpp"
 #include "articula/reference/motion_limits.hpp"
+#include "articula/reference/polynomial_peak.hpp"
 #include "articula/reference/trajectory.hpp"
+#include "articula/reference/trajectory_refusal.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 
 namespace articula {
 
@@ -43,24 +48,83 @@ struct TrajectoryBridge {
   }
 };
 
+/// Where N joints can be.
+/// @tparam N  number of joints
+template <int N>
+struct JointRange {
+  JointVector<N> lower, upper;  ///< limits of the position [rad or m], N x 1
+  JointVector<N> turn;          ///< how far on it is the same: 2 pi, or 0 for nowhere [rad], N x 1
+};
+
+namespace detail {
+
+/// How far a way between two points goes.
+template <int N>
+struct WayPeaks {
+  JointVector<N> lowest, highest;         ///< position [rad or m], N x 1
+  JointVector<N> velocity, acceleration;  ///< either way, N x 1
+};
+
+/// The peaks of the way between two points.
+/// @param known  limits of interest, which the peaks are at least
+template <int N>
+[[nodiscard]] WayPeaks<N> peaks_between(const TrajectoryPoint<N>& a, const TrajectoryPoint<N>& b,
+                                        const WayPeaks<N>& known) noexcept {
+  const auto way = way_between(a, b);
+  const double T = b.time_from_start - a.time_from_start;
+  WayPeaks<N> peaks;
+  for (int j = 0; j < N; ++j) {
+    const double c1 = way[0][j], c2 = way[1][j], c3 = way[2][j], c4 = way[3][j], c5 = way[4][j];
+    const auto depth = [](auto c, double least) {  // how far it goes below 0
+      for (double& x : c) x = -x;
+      return polynomial_peak(c, least);
+    };
+    const auto size = [&](const auto& c, double least) {
+      return std::max(polynomial_peak(c, least), depth(c, least));
+    };
+    const std::array<double, 6> q{a.position[j], c1, c2, c3, c4, c5};
+    const std::array<double, 5> v{c1 / T, 2 * c2 / T, 3 * c3 / T, 4 * c4 / T, 5 * c5 / T};
+    const std::array<double, 4> acceleration{2 * c2 / T / T, 6 * c3 / T / T, 12 * c4 / T / T,
+                                             20 * c5 / T / T};
+    peaks.lowest[j] = -depth(q, -known.lowest[j]);
+    peaks.highest[j] = polynomial_peak(q, known.highest[j]);
+    peaks.velocity[j] = size(v, known.velocity[j]);
+    peaks.acceleration[j] = size(acceleration, known.acceleration[j]);
+  }
+  return peaks;
+}
+
+}  // namespace detail
+
 /// Finds the way into a trajectory. From rest it is what interpolate() makes of a point at rest and
 /// the trajectory's first point ahead. From motion it is the quintic that ends with the velocity
 /// and acceleration that the trajectory has from that point on, whatever the points themselves
-/// leave open. A point that it takes more than the velocity limit on average to reach, or from
-/// motion more than the limits of velocity and acceleration (unless start or end are above them
-/// already), is too close and left out, like the points in the past.
+/// leave open. A point that it takes more than the velocity limit on average to reach, or anywhere
+/// on the way more than the limits of position, velocity and acceleration (unless start or end are
+/// beyond them already), is too close and left out, like the points in the past.
 /// @param present     what is asked for, in the trajectory's time
 /// @param trajectory  the trajectory
 /// @param time        the present in the trajectory's time [s]
 /// @param limits      V and A are used
-/// @param turn        by how much a joint may be shifted to take the short way: 2 pi or 0 [rad],
-///                    N x 1
+/// @param range       where the joints can be; those that turn take the short way
+/// @param refusal     receives why the last point cannot be reached, if none can
 /// @return            nothing if no point can be reached
 /// Real-time: yes. O(N Capacity).
 template <Robot R, int Capacity, int N = joint_count<R>>
 [[nodiscard]] std::optional<TrajectoryBridge<N>> find_bridge(
     const JointReference<N>& present, const Trajectory<R, Capacity>& trajectory, double time,
-    const MotionLimits<N>& limits, const JointVector<N>& turn) noexcept {
+    const MotionLimits<N>& limits, const JointRange<N>& range,
+    TrajectoryRefusal& refusal) noexcept {
+  const auto within = [&](std::string_view what, const JointVector<N>& values,
+                          const JointVector<N>& limit, double side = 1) {
+    for (int j = 0; j < N; ++j) {
+      if (!(side * (values[j] - limit[j]) > 1e-9 * std::abs(limit[j]))) continue;  // rounding
+      const auto rule = side > 0 ? "is above its limit" : "is below its limit";
+      refusal = {what, values[j], j, rule, limit[j]};
+      return false;
+    }
+    return true;
+  };
   const auto points = trajectory.points();
   const bool splines = trajectory.interpolation() == Interpolation::splines;
   const bool moves = !present.velocity.isZero(0) || !present.acceleration.isZero(0);
@@ -70,40 +134,44 @@ template <Robot R, int Capacity, int N = joint_count<R>>
         points[k],
         k};
     for (int j = 0; j < N; ++j) {
-      if (turn[j] == 0) continue;
+      if (range.turn[j] == 0) continue;
       const double apart = present.position[j] - points[k].position[j];
-      bridge.shift[j] = turn[j] * std::round(apart / turn[j]);
+      bridge.shift[j] = range.turn[j] * std::round(apart / range.turn[j]);
     }
     bridge.to.position += bridge.shift;
     if (!splines) return bridge;
 
     const double period = points[k].time_from_start - time;
     const JointVector<N> distance = (bridge.to.position - present.position).cwiseAbs();
-    const double enough = period * (1 + 1e-9);  // rounding
-    if (((distance - enough * limits.velocity).array() > 0).any()) continue;
-    if (!moves) return bridge;
+    if (!within("mean velocity to the last point", distance / period, limits.velocity)) continue;
 
-    const JointReference<N> onward =
-        k + 1 < points.size()
-            ? trajectory.between(points[k], points[k + 1], points[k].time_from_start)
-            : at_point(points[k]);
-    bridge.to.velocity = onward.velocity;
-    bridge.to.acceleration = onward.acceleration;
+    if (moves) {
+      const JointReference<N> onward =
+          k + 1 < points.size()
+              ? trajectory.between(points[k], points[k + 1], points[k].time_from_start)
+              : at_point(points[k]);
+      bridge.to.velocity = onward.velocity;
+      bridge.to.acceleration = onward.acceleration;
+    }
     const auto highest = [](const JointVector<N>& a, const JointVector<N>& b,
                             const JointVector<N>& limit) {
       return JointVector<N>(a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(limit));
     };
-    const JointVector<N> v = highest(present.velocity, onward.velocity, limits.velocity);
-    const JointVector<N> a =
-        highest(present.acceleration, onward.acceleration, limits.acceleration);
-    bool moderate = true;
-    constexpr int samples = 16;  // a quintic's velocity has three extrema at most
-    for (int i = 1; i < samples && moderate; ++i) {
-      const auto r = interpolate(bridge.from, bridge.to, period * i / samples);
-      moderate = !((r.velocity.cwiseAbs() - v).array() > 0).any() &&
-                 !((r.acceleration.cwiseAbs() - a).array() > 0).any();
+    const JointReference<N> end = at_point(bridge.to);
+    constexpr double rounding = 1e-9;  // [rad or m]
+    const detail::WayPeaks<N> most{
+        range.lower.cwiseMin(present.position).array() - rounding,
+        range.upper.cwiseMax(present.position).array() + rounding,
+        highest(present.velocity, end.velocity, limits.velocity),
+        highest(present.acceleration, end.acceleration, limits.acceleration)};
+    const auto peaks = detail::peaks_between(bridge.from, bridge.to, most);
+    if (within("velocity on the way to the last point", peaks.velocity, most.velocity) &&
+        within("acceleration on the way to the last point", peaks.acceleration,
+               most.acceleration) &&
+        within("position on the way to the last point", peaks.highest, most.highest) &&
+        within("position on the way to the last point", peaks.lowest, most.lowest, -1)) {
+      return bridge;
     }
-    if (moderate) return bridge;
   }
   return std::nullopt;
 }

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "articula/core/joint_state.hpp"
-#include "articula/reference/jerk_limited_profile.hpp"
+#include "articula/reference/motion_limits.hpp"
 #include "articula/reference/speed_override.hpp"
+#include "articula/reference/stop_and_return.hpp"
 #include "articula/reference/trajectory.hpp"
 #include "articula/reference/trajectory_bridge.hpp"
 #include "articula/reference/trajectory_tolerances.hpp"
@@ -22,6 +23,7 @@ template <int N>
 struct FollowerOptions {
   TrajectoryTolerances<N> tolerances{};  ///< of trajectories that bring none
   double speed_rate = 2;                 ///< how fast the speed override changes [1/s]
+  double highest_speed = 1;              ///< of the speed override [1], see SpeedOverride
 };
 
 /// Follows one trajectory after the other, as ROS's joint trajectory controller does; what differs
@@ -39,8 +41,10 @@ struct FollowerOptions {
 /// of a trajectory themselves jump: a new trajectory is entered by a bridge (TrajectoryBridge); a
 /// trajectory that is canceled ends in the fastest stop within the limits of acceleration and jerk;
 /// one that leaves its tolerances likewise, and then goes back to where the joints were measured,
-/// so that nothing is pushed against. The reference's effort stays. It never lets go of the
-/// joints: all it makes is a reference, and gravity is the controller's part.
+/// so that nothing is pushed against. A stop that is longer than the way to a joint's limit goes
+/// beyond it, and back: between its points a trajectory may have higher accelerations than stops.
+/// The reference's effort stays. The follower never lets go of the joints: all it makes is a
+/// reference, and gravity is the controller's part.
 /// @tparam R         the robot
 /// @tparam Capacity  most points of a trajectory
 template <Robot R, int Capacity = 32>
@@ -63,8 +67,11 @@ class TrajectoryFollower {
                      const R& robot = described<R>())
       : limits_(limits),
         set_tolerances_(options.tolerances),
-        speed_(options.speed_rate),
-        rest_(JerkLimitedProfile<R>::move(position, position, limits)) {
+        range_{joint_values(robot, [](const auto& joint) { return joint.limits.lower; }),
+               joint_values(robot, [](const auto& joint) { return joint.limits.upper; }),
+               JointVector<joint_count>::Zero()},
+        speed_(options.speed_rate, options.highest_speed),
+        rest_(position, limits, robot) {
     validate(limits, robot);
     validate(options.tolerances, robot);
     for (int j = 0; j < joint_count; ++j) {
@@ -73,7 +80,7 @@ class TrajectoryFollower {
         detail::refuse("trajectory follower: position ", position[j], " of joint '",
                        joint.name.view(), "' is not a finite number");
       }
-      turn_[j] = joint.type == JointType::continuous ? 2 * std::numbers::pi : 0;
+      range_.turn[j] = joint.type == JointType::continuous ? 2 * std::numbers::pi : 0;
     }
     reference_.position = position;
   }
@@ -84,19 +91,23 @@ class TrajectoryFollower {
   ///                    goes on until then. In the past: points that lie in the past are left out.
   /// @return            active, or why it was refused and nothing has changed: old_header_timestamp
   ///                    if no point lies ahead, invalid_goal if tolerances or start time are no
-  ///                    good or no point can be reached in time
+  ///                    good or no point can be reached in time; refusal() has the figures
   /// Real-time: yes. O(N Capacity).
   [[nodiscard]] TrajectoryOutcome start(const TrajectoryType& trajectory,
                                         const Tolerances& tolerances,
                                         double start_time = now) noexcept {
-    if (!is_valid(tolerances) || (start_time != now && !is_finite(start_time))) {
+    refusal_ = refusal_of(tolerances);
+    if (!refusal_.what.empty()) return TrajectoryOutcome::invalid_goal;
+    if (start_time != now && !is_finite(start_time)) {
+      refusal_ = {.what = "start_time", .value = start_time, .rule = "is not a finite number"};
       return TrajectoryOutcome::invalid_goal;
     }
     const bool begun = start_time == now || (clock_runs_ && start_time <= time_);
     const double own_time = start_time == now || !clock_runs_ ? 0 : time_ - start_time;
-    if (trajectory.duration() <= own_time) return TrajectoryOutcome::old_header_timestamp;
+    if (is_past(trajectory, own_time)) return TrajectoryOutcome::old_header_timestamp;
     const auto bridge = bridge_to(trajectory, own_time);
     if (begun && can_begin() && !bridge) return TrajectoryOutcome::invalid_goal;
+    refusal_ = {};
     if (begun && can_begin() && moves()) {
       begin(trajectory, tolerances, *bridge);
       waiting_.reset();
@@ -154,7 +165,7 @@ class TrajectoryFollower {
     if (outcome_ != TrajectoryOutcome::active) return outcome_;
     JointVector<joint_count> error = reference_.position - state.position;
     for (int j = 0; j < joint_count; ++j) {
-      if (turn_[j] > 0) error[j] = std::remainder(error[j], turn_[j]);
+      if (range_.turn[j] > 0) error[j] = std::remainder(error[j], range_.turn[j]);
     }
     const JointVector<joint_count> velocity_error = reference_.velocity - state.velocity;
     if (moves()) {
@@ -164,11 +175,10 @@ class TrajectoryFollower {
         abort(TrajectoryOutcome::path_tolerance_violated, reference_.position - error);
       }
     } else if (!waiting_) {
-      const double late = speed_.time() - trajectory_->duration() - rest_.duration();
       if (within(error, tolerances_.goal_position) &&
           within(velocity_error, tolerances_.stopped_velocity)) {
         outcome_ = TrajectoryOutcome::successful;
-      } else if (tolerances_.goal_time > 0 && late > tolerances_.goal_time) {
+      } else if (tolerances_.goal_time > 0 && speed_.time() - arrival_ > tolerances_.goal_time) {
         abort(TrajectoryOutcome::goal_tolerance_violated, reference_.position - error);
       }
     }
@@ -177,6 +187,9 @@ class TrajectoryFollower {
 
   /// What became of the last trajectory that was started. Real-time: yes.
   [[nodiscard]] TrajectoryOutcome outcome() const noexcept { return outcome_; }
+  /// Why the last start() was refused, or why what it had accepted could not begin when it was due;
+  /// `to_string(follower.refusal(), robot)` is a line of it. Real-time: yes.
+  [[nodiscard]] const TrajectoryRefusal& refusal() const noexcept { return refusal_; }
   /// The last sample. Real-time: yes.
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
 
@@ -196,16 +209,31 @@ class TrajectoryFollower {
     return true;
   }
 
-  /// A stop runs in real time, a trajectory in its own. While the latter all but stands still, the
-  /// motion of the former cannot be taken over.
+  /// A stop runs in real time, a trajectory in its own. A motion of the former that is beyond the
+  /// limits in the latter, which may all but stand still, is not taken over: it would be beyond them
+  /// when the speed rises.
   [[nodiscard]] bool can_begin() const noexcept {
-    return following_ || !moves() || speed_.speed() >= 0.01;
+    if (following_ || !moves()) return true;
+    const Reference own = speed_.unapply(reference_);
+    const auto keeps = [](const auto& motion, const auto& limit) {
+      return ((motion.cwiseAbs() - limit * (1 + 1e-9)).array() <= 0).all();  // rounding
+    };
+    return speed_.speed() > 0 && keeps(own.velocity, limits_.velocity) &&
+           keeps(own.acceleration, limits_.acceleration);
   }
 
-  [[nodiscard]] bool moves() const noexcept { return following_ || rest_time_ < rest_.duration(); }
+  [[nodiscard]] bool moves() const noexcept { return following_ || rest_.moves(); }
 
-  [[nodiscard]] auto bridge_to(const TrajectoryType& trajectory, double own_time) const noexcept {
-    return find_bridge(speed_.unapply(reference_), trajectory, own_time, limits_, turn_);
+  [[nodiscard]] bool is_past(const TrajectoryType& trajectory, double own_time) noexcept {
+    if (trajectory.duration() > own_time) return false;
+    refusal_ = {.what = "time_from_start of the last point",
+                .value = trajectory.duration(),
+                .rule = "has passed"};
+    return true;
+  }
+
+  [[nodiscard]] auto bridge_to(const TrajectoryType& trajectory, double own_time) noexcept {
+    return find_bridge(speed_.unapply(reference_), trajectory, own_time, limits_, range_, refusal_);
   }
 
   void begin(const TrajectoryType& trajectory, const Tolerances& tolerances,
@@ -215,16 +243,16 @@ class TrajectoryFollower {
     bridge_ = bridge;
     speed_.restart(bridge.from.time_from_start);
     following_ = watched_ = true;
-    way_back_.reset();
   }
 
   void begin_waiting(double time) noexcept {
     const double start = waiting_->start_time == now ? time : waiting_->start_time;
     if (const auto bridge = bridge_to(waiting_->trajectory, time - start)) {
+      refusal_ = {};
       begin(waiting_->trajectory, waiting_->tolerances, *bridge);
       waiting_.reset();
     } else {
-      const bool late = waiting_->trajectory.duration() <= time - start;
+      const bool late = is_past(waiting_->trajectory, time - start);
       abort(late ? TrajectoryOutcome::old_header_timestamp : TrajectoryOutcome::invalid_goal);
     }
   }
@@ -235,14 +263,8 @@ class TrajectoryFollower {
     outcome_ = outcome;
     watched_ = false;
     waiting_.reset();
-    way_back_ = measured && is_finite(*measured) ? measured : std::nullopt;
-    rest_from(reference_);
-  }
-
-  void rest_from(const Reference& reference) noexcept {
     following_ = false;
-    rest_ = JerkLimitedProfile<R>::stop(reference, limits_);
-    rest_time_ = 0;
+    rest_.begin(reference_, measured);
   }
 
   void advance(double period) noexcept {
@@ -255,23 +277,23 @@ class TrajectoryFollower {
       }
       Reference last = at_point(trajectory_->points().back());
       last.position += bridge_->shift;
-      rest_from(speed_.apply(last));
+      for (int j = 0; j < joint_count; ++j) {  // a position that stands has no acceleration
+        if (std::abs(last.velocity[j]) > TrajectoryType::still_velocity) continue;
+        last.velocity[j] = last.acceleration[j] = 0;
+      }
+      arrival_ = trajectory_->duration();
+      following_ = false;
+      rest_.begin(speed_.apply(last));
       period = speed_.speed() > 0 ? std::min(period, beyond / speed_.speed()) : 0;
     }
-    rest_time_ += period;
-    if (way_back_ && rest_time_ >= rest_.duration()) {
-      rest_time_ -= rest_.duration();
-      const Reference here = rest_.sample(rest_.duration());
-      rest_ = JerkLimitedProfile<R>::move(here.position, *way_back_, limits_, here.effort);
-      way_back_.reset();
-    }
-    reference_ = rest_.sample(rest_time_);
+    reference_ = rest_.advance(period);
+    if (rest_.moves()) arrival_ = speed_.time();
   }
 
   Limits limits_;
   Tolerances set_tolerances_;
   Tolerances tolerances_{};
-  JointVector<joint_count> turn_ = JointVector<joint_count>::Zero();  ///< 2 pi where it is the same
+  JointRange<joint_count> range_;
 
   SpeedOverride speed_;  ///< its time is the trajectory's own
   std::optional<TrajectoryType> trajectory_{};
@@ -280,14 +302,14 @@ class TrajectoryFollower {
   bool following_ = false;
   bool watched_ = false;  ///< the motion is a trajectory's, or the stop at its end
 
-  JerkLimitedProfile<R> rest_;  ///< where there is no trajectory: the stop, or the way back
-  double rest_time_ = 0;
-  std::optional<JointVector<joint_count>> way_back_{};  ///< where to go after the stop
+  StopAndReturn<R> rest_;  ///< where there is no trajectory
+  double arrival_ = 0;     ///< when the motion ended, in the trajectory's time
 
   bool clock_runs_ = false;
   double time_ = 0;
   Reference reference_{};
   TrajectoryOutcome outcome_ = TrajectoryOutcome::idle;
+  TrajectoryRefusal refusal_{};
 };
 
 }  // namespace articula

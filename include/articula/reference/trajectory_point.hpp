@@ -5,6 +5,7 @@
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_vector.hpp"
 
+#include <array>
 #include <optional>
 
 namespace articula {
@@ -29,8 +30,9 @@ template <int N>
           point.acceleration ? *point.acceleration : zero, point.effort};
 }
 
-/// The reference between two points a and b, at t since a, with T from a to b. What both points
-/// have decides on the degree, as in ROS's joint trajectory controller:
+/// The way between two points a and b as a polynomial in s = t / T, with t since a and T from a to
+/// b: q = q_a + s (c_1 + s (c_2 + s (c_3 + s (c_4 + s c_5)))). What both points have decides on the
+/// degree, as in ROS's joint trajectory controller:
 ///
 /// - position alone: the straight line,
 /// - velocity too: the cubic with these velocities at the ends,
@@ -38,15 +40,14 @@ template <int N>
 /// - acceleration without velocity: the cubic with these accelerations at the ends
 ///   (the controller has no rule for it and gives zero).
 ///
-/// Effort is linear.
 /// @param a, b  the points, b later than a
-/// @param t     0 <= t <= T [s]
+/// @return      c_1 to c_5 [rad or m], N x 1 each
 /// Real-time: yes. O(N).
 template <int N>
-[[nodiscard]] JointReference<N> interpolate(const TrajectoryPoint<N>& a,
-                                            const TrajectoryPoint<N>& b, double t) noexcept {
+[[nodiscard]] std::array<JointVector<N>, 5> way_between(const TrajectoryPoint<N>& a,
+                                                        const TrajectoryPoint<N>& b) noexcept {
   using Vector = JointVector<N>;
-  const double T = b.time_from_start - a.time_from_start, s = t / T;
+  const double T = b.time_from_start - a.time_from_start;
   const Vector d = b.position - a.position, zero = Vector::Zero();
   const bool velocities = a.velocity && b.velocity,
              accelerations = a.acceleration && b.acceleration;
@@ -55,7 +56,6 @@ template <int N>
   const Vector vb = velocities ? Vector(T * *b.velocity) : zero;
   const Vector aa = accelerations ? Vector(T * T * *a.acceleration) : zero;
   const Vector ab = accelerations ? Vector(T * T * *b.acceleration) : zero;
-  // q = q_a + s (c1 + s (c2 + s (c3 + s (c4 + s c5))))
   Vector c1 = d, c2 = aa / 2, c3 = zero, c4 = zero, c5 = zero;
   if (velocities && accelerations) {
     c1 = va;
@@ -70,6 +70,19 @@ template <int N>
     c1 = d - (2 * aa + ab) / 6;
     c3 = (ab - aa) / 6;
   }
+  return {c1, c2, c3, c4, c5};
+}
+
+/// The reference between two points, at a time since the first one: on the way_between() them, with
+/// an effort that is linear.
+/// @param a, b  the points, b later than a
+/// @param t     0 <= t <= T [s]
+/// Real-time: yes. O(N).
+template <int N>
+[[nodiscard]] JointReference<N> interpolate(const TrajectoryPoint<N>& a,
+                                            const TrajectoryPoint<N>& b, double t) noexcept {
+  const double T = b.time_from_start - a.time_from_start, s = t / T;
+  const auto [c1, c2, c3, c4, c5] = way_between(a, b);
   JointReference<N> r;
   r.position = a.position + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
   r.velocity = (c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / T;

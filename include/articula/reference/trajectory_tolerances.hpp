@@ -6,6 +6,7 @@
 #include "articula/core/joint_vector.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/reference/checks.hpp"
+#include "articula/reference/trajectory_refusal.hpp"
 
 #include <string_view>
 
@@ -25,13 +26,29 @@ struct TrajectoryTolerances {
   double goal_time = 0;  ///< time to arrive after the last point [s]; 0: as long as it takes
 };
 
+/// The first tolerance that is not a finite number >= 0; nothing, if there is none.
+/// Real-time: yes.
+template <int N>
+[[nodiscard]] TrajectoryRefusal refusal_of(const TrajectoryTolerances<N>& tolerances) noexcept {
+  TrajectoryRefusal refusal;
+  const auto check = [&](std::string_view what, double value, int joint) {
+    if ((is_finite(value) && value >= 0) || !refusal.what.empty()) return;
+    refusal = {.what = what, .value = value, .joint = joint, .rule = "is not a number >= 0"};
+  };
+  for (int j = 0; j < N; ++j) {
+    check("path_position", tolerances.path_position[j], j);
+    check("path_velocity", tolerances.path_velocity[j], j);
+    check("goal_position", tolerances.goal_position[j], j);
+    check("stopped_velocity", tolerances.stopped_velocity[j], j);
+  }
+  check("goal_time", tolerances.goal_time, -1);
+  return refusal;
+}
+
 /// True if every tolerance is a finite number >= 0. Real-time: yes.
 template <int N>
 [[nodiscard]] bool is_valid(const TrajectoryTolerances<N>& tolerances) noexcept {
-  const auto good = [](const JointVector<N>& v) { return is_finite(v) && v.minCoeff() >= 0; };
-  return good(tolerances.path_position) && good(tolerances.path_velocity) &&
-         good(tolerances.goal_position) && good(tolerances.stopped_velocity) &&
-         is_finite(tolerances.goal_time) && tolerances.goal_time >= 0;
+  return refusal_of(tolerances).what.empty();
 }
 
 /// Refuses tolerances that are not valid.
@@ -39,18 +56,8 @@ template <int N>
 /// Real-time: no (throws).
 template <Robot R>
 void validate(const TrajectoryTolerances<joint_count<R>>& tolerances, const R& robot) {
-  const auto check = [](std::string_view what, double value, const auto&... whose) {
-    if (is_finite(value) && value >= 0) return;
-    detail::refuse("tolerances: ", what, " ", value, whose..., " is not a number >= 0");
-  };
-  for (int j = 0; j < joint_count<R>; ++j) {
-    const std::string_view name = joint_names(robot)[static_cast<std::size_t>(j)];
-    check("path_position", tolerances.path_position[j], " of joint '", name, "'");
-    check("path_velocity", tolerances.path_velocity[j], " of joint '", name, "'");
-    check("goal_position", tolerances.goal_position[j], " of joint '", name, "'");
-    check("stopped_velocity", tolerances.stopped_velocity[j], " of joint '", name, "'");
-  }
-  check("goal_time", tolerances.goal_time);
+  const std::string text = to_string(refusal_of(tolerances), robot);
+  if (!text.empty()) detail::refuse("tolerances: ", text);
 }
 
 /// Tolerances that come with a goal, over those that are set: 0 leaves what is set, -1 means that

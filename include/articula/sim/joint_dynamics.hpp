@@ -4,8 +4,10 @@
 
 #include "articula/dynamics/forward_dynamics.hpp"
 #include "articula/sim/bounded_effort.hpp"
+#include "articula/sim/crossing.hpp"
 #include "articula/sim/runge_kutta.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -31,14 +33,13 @@ class JointDynamics {
         upper_(joint_values(robot, [](const JointProperties& j) { return j.limits.upper; })),
         damping_(joint_values(robot, [](const JointProperties& j) { return j.damping; })),
         friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
-        parents_(branches(model_of(robot).mechanism)),
-        has_friction_((friction_.array() > 0).any()) {}
+        parents_(branches(model_of(robot).mechanism)) {}
 
   /// The motion after one step under constant efforts.
   /// @param motion  position and velocity at its beginning; positions within the joints' limits
   /// @param effort  efforts of the drives [N m or N], N x 1
   /// @param step    [s]
-  /// Real-time: yes. One Runge-Kutta step, and some fifty more for each event.
+  /// Real-time: yes. One Runge-Kutta step, and some ten more for each event, fifty at most.
   [[nodiscard]] Motion<joint_count> advance(const Motion<joint_count>& motion,
                                             const JointVector<joint_count>& effort,
                                             double step) const noexcept {
@@ -63,21 +64,17 @@ class JointDynamics {
       if (any_at_stop(motion)) motion = after_impact(motion, Rebound::yes);
       const Phase phase = phase_at(motion, effort);
       Motion<joint_count> next = smooth_step(phase, motion, effort, rest);
-      if (!event_between(phase, next)) return next;
+      const double excess_at_end = excess(phase, next);
+      if (!(excess_at_end > 0)) return next;
 
-      double before = 0, after = rest;  // the event lies in (before, after]
-      while (after - before > std::numeric_limits<double>::epsilon() * step) {
-        const double middle = before + (after - before) / 2;
-        const Motion<joint_count> there = smooth_step(phase, motion, effort, middle);
-        if (event_between(phase, there)) {
-          after = middle;
-          next = there;
-        } else {
-          before = middle;
-        }
-      }
+      rest -= locate_crossing({0, excess(phase, motion)}, {rest, excess_at_end},
+                              std::numeric_limits<double>::epsilon() * step, [&](double time) {
+                                const auto there = smooth_step(phase, motion, effort, time);
+                                const double past = excess(phase, there);
+                                if (past > 0) next = there;
+                                return past;
+                              });
       motion = settle(phase, next);
-      rest -= after;
     }
     if (rest > 0) {  // joints at stops jolt each other ever more often and less: that ends here
       motion = after_impact(motion, Rebound::no);
@@ -191,13 +188,16 @@ class JointDynamics {
     });
   }
 
-  /// True if a joint has passed its stop, or one that slid against friction has turned back.
-  [[nodiscard]] bool event_between(const Phase& phase,
-                                   const Motion<joint_count>& later) const noexcept {
-    bool event = (later.position.array() < lower_.array()).any() ||
-                 (later.position.array() > upper_.array()).any();
-    if (has_friction_) event = event || (later.velocity.array() * phase.sliding.array() > 0).any();
-    return event;
+  /// How far a joint has passed its stop, or one that slid against friction has turned back, at most;
+  /// positive after an event. [rad or m; W]
+  [[nodiscard]] double excess(const Phase& phase, const Motion<joint_count>& later) const noexcept {
+    double most = -JointLimits::infinity;
+    for (int j = 0; j < joint_count; ++j) {
+      if (phase.held[static_cast<std::size_t>(j)]) continue;
+      most = std::max({most, lower_[j] - later.position[j], later.position[j] - upper_[j]});
+      if (phase.sliding[j] != 0) most = std::max(most, later.velocity[j] * phase.sliding[j]);
+    }
+    return most;
   }
 
   /// Puts joints that have just passed their stop onto it, and brings those that friction has
@@ -217,7 +217,6 @@ class JointDynamics {
   JointVector<joint_count> damping_;
   JointVector<joint_count> friction_;
   JointArray<int, joint_count> parents_;
-  bool has_friction_;
 };
 
 }  // namespace articula

@@ -7,6 +7,8 @@
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/sim/bounded_effort.hpp"
 
+#include <algorithm>
+
 namespace articula {
 
 /// The efforts of drives that close a position or a velocity loop of their own. They ask for
@@ -22,7 +24,8 @@ namespace articula {
 ///
 /// A drive gives no more than its effort limit. While one is at its limit, its joint lags behind, and
 /// the others still follow. Positions are asked for within the joint's limits only, and a drive does
-/// not push on where its joint rests at a stop.
+/// not push on where its joint rests at a stop. Where a joint has no velocity limit, V is 1e6 rad/s or
+/// m/s, so that a wish of any size to one drive leaves the others theirs.
 /// @tparam R  the robot
 template <Robot R>
 class ServoDrives {
@@ -37,7 +40,8 @@ class ServoDrives {
         bandwidth_(bandwidth),
         lower_(joint_values(robot, [](const JointProperties& j) { return j.limits.lower; })),
         upper_(joint_values(robot, [](const JointProperties& j) { return j.limits.upper; })),
-        most_velocity_(joint_values(robot, [](const auto& j) { return j.limits.velocity; })),
+        most_velocity_(
+            joint_values(robot, [](const auto& j) { return std::min(j.limits.velocity, 1e6); })),
         most_effort_(effort_limits(robot)),
         damping_(joint_values(robot, [](const JointProperties& j) { return j.damping; })),
         friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),

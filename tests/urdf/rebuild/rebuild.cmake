@@ -14,14 +14,14 @@ function(write_robot mass)
 endfunction()
 
 function(build)
-  execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK} --target print_mass RESULT_VARIABLE status
+  execute_process(COMMAND ${CMAKE_COMMAND} --build ${WORK} ${ARGN} RESULT_VARIABLE status
                   OUTPUT_VARIABLE output ERROR_VARIABLE output)
   set(status ${status} PARENT_SCOPE)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
 function(expect_mass_matrix expected)
-  build()
+  build(--target print_mass)
   if(status)
     message(FATAL_ERROR "the build failed:\n${output}")
   endif()
@@ -40,12 +40,19 @@ execute_process(
     -DARTICULA_BUILD_TESTS=OFF -DARTICULA_BUILD_BENCHMARKS=OFF -DARTICULA_BUILD_EXAMPLES=OFF
   COMMAND_ERROR_IS_FATAL ANY)
 expect_mass_matrix(2.25)
+if(EXISTS ${WORK}/articula_robots/LeftAlone/left_alone.hpp)
+  message(FATAL_ERROR "print_mass needs no other robot")
+endif()
+build()
+if(status OR NOT EXISTS ${WORK}/articula_robots/LeftAlone/left_alone.hpp)
+  message(FATAL_ERROR "a whole build does not make the robot that nobody links:\n${output}")
+endif()
 
 write_robot(3)
 expect_mass_matrix(3.25)
 
 write_robot(-3)
-build()
+build(--target print_mass)
 if(NOT status)
   message(FATAL_ERROR "a negative mass was accepted:\n${output}")
 endif()

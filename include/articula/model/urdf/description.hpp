@@ -30,8 +30,9 @@ struct UrdfDescription {
   std::vector<UrdfTransmission> transmissions{};              ///< all of the file
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint, from <ros2_control>
   std::vector<std::string> notices{};  ///< what the user should know, a line each:
-                                       ///< inertias that no real body has, limits of 0
-                                       ///< and names that lead nowhere
+                                       ///< inertias that no real body has, limits of 0,
+                                       ///< links that move without <inertial>, and
+                                       ///< names that lead nowhere
 };
 
 namespace detail {
@@ -157,6 +158,25 @@ class UrdfReader {
     fail(text);
   }
 
+  /// Limits of 0, as programs write them that do not know the figures. No reason to refuse a file:
+  /// dynamics have no use for them.
+  [[nodiscard]] static std::vector<std::string> limit_faults(const Joint& joint) {
+    std::vector<std::string> faults;
+    if (joint.type == JointType::fixed) return faults;
+    const std::string name = "joint '" + std::string(joint.name.view()) + "': ";
+    if (joint.limits.lower == joint.limits.upper) {
+      faults.push_back(name + "it has no room to move, lower and upper limit are " +
+                       rounded_text(joint.limits.lower));
+    }
+    if (joint.limits.velocity == 0) {
+      faults.push_back(name + "its velocity limit is 0, so it must not move");
+    }
+    if (joint.limits.effort == 0 && joint.mimic.joint.empty()) {
+      faults.push_back(name + "its effort limit is 0, so it cannot be driven");
+    }
+    return faults;
+  }
+
   void note_oddities() {
     const auto note = [this](const std::string& text) { result_.notices.push_back(text); };
     for (const Link& link : result_.links) {
@@ -164,16 +184,11 @@ class UrdfReader {
       if (rule != Rule::none) note(fault_text({link.name, rule}, result_.links, {}));
     }
     for (const Joint& joint : result_.joints) {
-      if (joint.type == JointType::fixed) continue;
-      const std::string name = "joint '" + std::string(joint.name.view()) + "': ";
-      if (joint.limits.lower == joint.limits.upper) {
-        note(name + "it has no room to move, lower and upper limit are " +
-             rounded_text(joint.limits.lower));
-      }
-      if (joint.limits.velocity == 0) note(name + "its velocity limit is 0");
-      if (joint.limits.effort == 0 && joint.mimic.joint.empty()) {
-        note(name + "its effort limit is 0, so it cannot be driven");
-      }
+      for (const std::string& fault : limit_faults(joint)) note(fault);
+      const std::string child(joint.child.view());
+      if (joint.type == JointType::fixed || document_.robot->links_.at(child)->inertial) continue;
+      note("link '" + child + "': it has no <inertial>, so it counts as massless, though joint '" +
+           std::string(joint.name.view()) + "' moves it");
     }
     const auto exists = [this](const std::string& joint) {
       return document_.robot->joints_.contains(joint);

@@ -54,6 +54,11 @@ namespace articula::detail {
     case Rule::mimicked_joint_does_not_exist:
     case Rule::mimicked_joint_is_not_free:
       return std::string(joint.mimic.joint.view());
+    case Rule::rotors_are_shared_with_no_free_joint:
+    case Rule::rotors_are_shared_twice:
+      return std::string(joint.shared_rotors.joint.view());
+    case Rule::shared_inertia_is_too_large:
+      return rounded_text(joint.shared_rotors.inertia);
     default:
       return "";
   }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Puts maps of a configuration together.
+#pragma once
+
+#include "articula/config/document.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace articula::detail {
+
+/// Entries of `weak` that `strong` does not have are added to it; maps are merged. Both are maps.
+/// @param path   of `weak`
+/// @param depth  0 at the parameters themselves
+inline void merge_into(ConfigNode& strong, const ConfigNode& weak, const std::string& path,
+                       std::size_t depth = 0) {
+  for (const ConfigNode& item : weak.items) {
+    const std::string here = path + "." + shown(item.key);
+    const auto same = std::find_if(strong.items.begin(), strong.items.end(),
+                                   [&](const ConfigNode& mine) { return mine.key == item.key; });
+    if (same == strong.items.end()) {
+      strong.items.push_back(item);
+      strong.items.back().from = here;
+      strong.items.back().inherited = depth == 0;
+    } else if (same->is_map() && item.is_map()) {
+      merge_into(*same, item, here, depth + 1);
+    }
+  }
+}
+
+/// Puts a value into a map under a key, in which dots go down: ROS 2 takes the key `gravity.z` for
+/// `z` in the map `gravity`.
+/// @throws ConfigError if a value is given both ways
+inline void insert_dotted(const ConfigPlace& place, ConfigNode& map, std::string_view key,
+                          const ConfigNode& item, std::size_t depth = 0) {
+  if (depth > ConfigBuilder::deepest) {
+    throw ConfigError(place, "the key '" + shown(item.key) + "' has too many dots", "fewer");
+  }
+  const std::size_t dot = key.find('.');
+  const bool inner = dot != std::string_view::npos;
+  const std::string_view first = key.substr(0, dot);
+  auto same = std::find_if(map.items.begin(), map.items.end(),
+                           [&](const ConfigNode& node) { return node.key == first; });
+  const bool is_new = same == map.items.end();
+  if (is_new) {
+    map.items.push_back({.kind = ConfigNode::Kind::map,
+                         .key = std::string(first),
+                         .mark = item.mark,
+                         .key_mark = item.key_mark});
+    same = map.items.end() - 1;
+  }
+  if (same->is_map() && inner) {
+    insert_dotted(place, *same, key.substr(dot + 1), item, depth + 1);
+  } else if (same->is_map() && item.is_map()) {
+    for (const ConfigNode& part : item.items) {
+      insert_dotted(place, *same, part.key, part, depth + 1);
+    }
+  } else if (is_new) {
+    *same = item;
+    same->key = first;
+  } else {
+    throw ConfigError(
+        {place.file, item.key_mark.line, item.key_mark.column, place.key},
+        "'" + shown(item.key) + "' is also in line " + std::to_string(same->key_mark.line),
+        "every key once");
+  }
+}
+
+}  // namespace articula::detail

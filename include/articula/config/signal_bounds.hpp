@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What signals that add up can reach.
+#pragma once
+
+#include "articula/reference/signal.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+#include <vector>
+
+namespace articula::detail {
+
+/// What a sum of signals lies between, 0 included.
+struct SignalBounds {
+  double low = 0;
+  double high = 0;
+};
+
+/// Steps and ramps are added up as they come one after the other, so that those that take each other
+/// back are no more than they are; waves as if their peaks met.
+[[nodiscard]] inline SignalBounds bounds_of(const std::vector<Signal>& signals) {
+  SignalBounds waves, lines;
+  std::vector<double> corners;
+  for (const Signal& signal : signals) {
+    if (const auto* step = std::get_if<StepSignal>(&signal)) {
+      corners.push_back(step->start);
+    } else if (const auto* ramp = std::get_if<RampSignal>(&signal)) {
+      corners.insert(corners.end(), {ramp->start, ramp->start + ramp->duration});
+    } else if (const auto* chirp = std::get_if<ChirpSignal>(&signal)) {
+      waves.high += std::abs(chirp->amplitude);
+      waves.low -= std::abs(chirp->amplitude);
+    } else if (const auto* sine = std::get_if<SineSignal>(&signal)) {
+      waves.high += sine->offset + std::abs(sine->amplitude);
+      waves.low += sine->offset - std::abs(sine->amplitude);
+    }
+  }
+  for (const double corner : corners) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double time : {std::nextafter(corner, -infinity), corner}) {
+      double sum = 0;
+      for (const Signal& signal : signals) {
+        if (const auto* step = std::get_if<StepSignal>(&signal)) sum += step->sample(time).value;
+        if (const auto* ramp = std::get_if<RampSignal>(&signal)) sum += ramp->sample(time).value;
+      }
+      lines.high = std::max(lines.high, sum);
+      lines.low = std::min(lines.low, sum);
+    }
+  }
+  return {std::min(0.0, waves.low + lines.low), std::max(0.0, waves.high + lines.high)};
+}
+
+}  // namespace articula::detail

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Groups of a robot's joints.
+#pragma once
+
+#include "articula/core/name.hpp"
+#include "articula/model/robot.hpp"
+
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace articula {
+
+/// A group of a robot's joints.
+struct JointGroup {
+  Name name{};
+  std::vector<Name> joints{};
+  int divisor = 1;  ///< its controller is asked in every cycle of this number, >= 1
+};
+
+/// The place of each joint's group in the list.
+/// @param groups  of which each joint is in one
+/// @param robot   whose joints these are
+/// @throws std::invalid_argument naming the joint that the robot does not have, that is in two groups
+///         or in none, the divisor below 1, the name that is empty or there twice
+/// Real-time: no (allocates).
+template <std::size_t GroupCount, Robot R>
+[[nodiscard]] std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> group_of_each_joint(
+    const std::array<JointGroup, GroupCount>& groups, const R& robot) {
+  const auto refuse = [](const std::string& what) {
+    throw std::invalid_argument("groups: " + what);
+  };
+  const auto quoted = [](std::string_view name) { return "'" + std::string(name) + "'"; };
+  std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> owners;
+  owners.fill(GroupCount);
+  for (std::size_t g = 0; g < GroupCount; ++g) {
+    const JointGroup& group = groups[g];
+    if (group.name.empty()) refuse("group " + std::to_string(g + 1) + " has no name");
+    for (std::size_t other = 0; other < g; ++other) {
+      if (groups[other].name == group.name) refuse("two are named " + quoted(group.name));
+    }
+    if (group.divisor < 1) {
+      refuse("divisor " + std::to_string(group.divisor) + " of group " + quoted(group.name) +
+             " is below 1");
+    }
+    for (const Name& joint : group.joints) {
+      std::size_t& owner = owners[static_cast<std::size_t>(joint_index(robot, joint.view()))];
+      if (owner != GroupCount) {
+        refuse("joint " + quoted(joint) + " of group " + quoted(group.name) + " is in group " +
+               quoted(groups[owner].name) + " already");
+      }
+      owner = g;
+    }
+  }
+  const auto names = joint_names(robot);
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    if (owners[j] == GroupCount) refuse("joint " + quoted(names[j]) + " is in no group");
+  }
+  return owners;
+}
+
+}  // namespace articula

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a type lacks to be the controller of a loop: one message for each thing.
+#pragma once
+
+#include "articula/core/controller.hpp"
+
+#include <concepts>
+#include <exception>
+#include <utility>
+
+namespace articula::detail {
+
+template <class C, int N>
+concept Startable = requires(C controller, const JointState<N>& state) {
+  controller.start(state);
+};
+
+template <class C, int N>
+concept Updatable = requires(C controller, const JointState<N>& state,
+                             const JointReference<N>& reference, double period) {
+  controller.update(state, reference, period);
+};
+
+/// What is asserted of a type that can be updated.
+/// @tparam N  number of joints
+template <class C, int N, bool = Updatable<C, N>>
+struct CheckedUpdate {
+  using Command = decltype(std::declval<C&>().update(
+      std::declval<const JointState<N>&>(), std::declval<const JointReference<N>&>(), double()));
+  static_assert(noexcept(std::declval<C&>().update(std::declval<const JointState<N>&>(),
+                                                   std::declval<const JointReference<N>&>(),
+                                                   double())),
+                "update of the controller must be noexcept");
+  static_assert(JointCommand<Command, N>,
+                "update of the controller must return a command for N joints by value, such as "
+                "EffortCommand<N>, see core/joint_command.hpp");
+};
+template <class C, int N>
+struct CheckedUpdate<C, N, false> {
+  using Command = EffortCommand<N>;  // so that the message below is the first
+  static_assert(Updatable<C, N>,
+                "the controller has no update(JointState<N>, JointReference<N>, double period) for "
+                "the N joints of this robot, see core/controller.hpp");
+};
+
+/// Asserts all that the concept Controller wants, one thing at a time.
+/// @tparam N  number of joints
+template <class C, int N, bool = Startable<C, N>>
+struct CheckedController : CheckedUpdate<C, N> {
+  static_assert(noexcept(std::declval<C&>().start(std::declval<const JointState<N>&>())),
+                "start of the controller must be noexcept");
+};
+template <class C, int N>
+struct CheckedController<C, N, false> : CheckedUpdate<C, N> {
+  static_assert(Startable<C, N>,
+                "the controller has no start(JointState<N>) for the N joints of this robot, see "
+                "core/controller.hpp");
+};
+
+/// A controller with the robot's own gains.
+template <class C>
+[[nodiscard]] C default_controller() {
+  if constexpr (std::default_initializable<C>) {
+    return C();
+  } else {
+    static_assert(std::default_initializable<C>,
+                  "this controller has no default gains for this robot: add pid_gains to the "
+                  "robot, or pass a controller");
+    std::terminate();
+  }
+}
+
+}  // namespace articula::detail

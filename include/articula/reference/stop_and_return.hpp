@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Coming to rest from any motion, and where it should be.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/core/joint_reference.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/reference/jerk_limited_profile.hpp"
+#include "articula/reference/motion_limits.hpp"
+
+#include <optional>
+
+namespace articula {
+
+/// The fastest stop from any motion, and then the way back, if it does not end where it should. The
+/// reference's effort stays.
+/// @tparam R  the robot
+template <Robot R>
+class StopAndReturn {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Reference = JointReference<joint_count>;
+  using Position = JointVector<joint_count>;
+
+  /// At rest.
+  /// @param position  finite [rad or m], N x 1
+  /// @param limits    that validate() accepts
+  /// Real-time: yes.
+  StopAndReturn(const Position& position, const MotionLimits<joint_count>& limits,
+                const R& robot) noexcept
+      : limits_(limits),
+        lower_(joint_values(robot, [](const auto& joint) { return joint.limits.lower; })),
+        upper_(joint_values(robot, [](const auto& joint) { return joint.limits.upper; })),
+        way_(JerkLimitedProfile<R>::move(position, position, limits)) {}
+
+  /// Begins a stop.
+  /// @param from  what the joints were last asked for
+  /// @param back  where they should be in the end [rad or m], N x 1. If it is not given, or not
+  ///              finite: where the stop ends, but no further out than the limits of the joints, or
+  ///              than it began
+  /// Real-time: yes. O(N).
+  void begin(const Reference& from, const std::optional<Position>& back = {}) noexcept {
+    way_ = JerkLimitedProfile<R>::stop(from, limits_);
+    time_ = 0;
+    const Position end = way_.sample(way_.duration()).position;
+    const Position inside =
+        end.cwiseMax(lower_.cwiseMin(from.position)).cwiseMin(upper_.cwiseMax(from.position));
+    const Position target = back && is_finite(*back) ? *back : inside;
+    back_.reset();
+    if (target != end) back_ = target;
+  }
+
+  /// Lets time pass.
+  /// @param period  [s], >= 0
+  /// @return        the reference then
+  /// Real-time: yes. O(N).
+  [[nodiscard]] Reference advance(double period) noexcept {
+    time_ += period;
+    if (back_ && time_ >= way_.duration()) {
+      time_ -= way_.duration();
+      const Reference here = way_.sample(way_.duration());
+      way_ = JerkLimitedProfile<R>::move(here.position, *back_, limits_, here.effort);
+      back_.reset();
+    }
+    return way_.sample(time_);
+  }
+
+  /// Whether it is not yet at rest for good. Real-time: yes.
+  [[nodiscard]] bool moves() const noexcept { return back_ || time_ < way_.duration(); }
+
+ private:
+  MotionLimits<joint_count> limits_;
+  Position lower_, upper_;
+  JerkLimitedProfile<R> way_;
+  double time_ = 0;
+  std::optional<Position> back_{};  ///< where to go after the stop
+};
+
+}  // namespace articula

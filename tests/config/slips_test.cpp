@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <articula/config/load_controller_manager.hpp>
+#include <articula/config/load_pid_gains.hpp>
+#include <articula/config/load_signals.hpp>
+#include <articula/config/load_trajectory_tolerances.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include <array>
+#include <string>
+#include <tuple>
+
+#include "catch.hpp"
+#include "config_support.hpp"
+
+using namespace articula;
+using Catch::Matchers::Contains;
+using support::yaml;
+
+namespace {
+
+std::string complaint_of(auto load) {
+  try {
+    load();
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "none";
+}
+std::string of_gains(const std::string& text) {
+  return complaint_of([&] { static_cast<void>(load_pid_gains(Q2d(), yaml(text))); });
+}
+std::string of_waves(const std::string& text) {
+  return complaint_of([&] { static_cast<void>(load_signals(Q2d(), yaml(text))); });
+}
+std::string of_manager(const std::string& text) {
+  return complaint_of([&] { static_cast<void>(load_controller_manager(yaml(text))); });
+}
+
+/// A rod that turns without end, a slide that mimics it, and what is welded to them.
+struct Spinner {
+  static constexpr RobotDescription description{
+      .name = "spinner",
+      .gravity = {0, 0, -9.81},
+      .links = std::to_array<Link>(
+          {{.name = "base"},
+           {.name = "rod", .mass = 1, .inertia = {.xx = 0.1, .yy = 0.1, .zz = 0.1}},
+           {.name = "slide", .mass = 1, .inertia = {.xx = 0.1, .yy = 0.1, .zz = 0.1}},
+           {.name = "tip"}}),
+      .joints = std::to_array<Joint>({{.name = "pivot",
+                                       .type = JointType::continuous,
+                                       .parent = "base",
+                                       .child = "rod",
+                                       .axis = {0, 1, 0}},
+                                      {.name = "follower",
+                                       .type = JointType::prismatic,
+                                       .parent = "rod",
+                                       .child = "slide",
+                                       .limits = {.lower = -1, .upper = 1},
+                                       .mimic = {.joint = "pivot"}},
+                                      {.name = "weld", .parent = "slide", .child = "tip"}})};
+};
+
+const std::string joints = "joints: [shoulder_active_joint, elbow_active_joint]\n";
+const std::string shoulder = joints + "shoulder_active_joint: {p: 1}\n";
+
+}  // namespace
+
+TEST_CASE("a key that is nearly right is named before the one that seems to be missing") {
+  for (const auto& [gains, key, meant] : {std::tuple{"{P: 1}", "P", "p"},
+                                          {"{kp: 1, ki: 2, kd: 3}", "kp", "p"},
+                                          {"{Kp: 1}", "Kp", "p"},
+                                          {"{pidd: {p: 1}}", "pidd", "pid"},
+                                          {"{PID: {p: 1}}", "PID", "pid"}}) {
+    CHECK_THAT(of_gains(shoulder + "elbow_active_joint: " + gains),
+               Contains("test:3:22: elbow_active_joint." + std::string(key) + ": unknown key '" +
+                        key + "', expected '" + meant + "'?"));
+  }
+  // A value that is there is no slip, and a key that is like none is not why p is missing.
+  CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {i: 1, x: 2}"),
+             Contains("test:3:21: elbow_active_joint: the key 'p' is missing"));
+  CHECK_THAT(of_gains(joints + "Kp: [1, 1]\nkd: [1, 1]\n"),
+             Contains("unknown key 'kd', expected 'Kd'?"));
+  CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p: 1}\ngravity: {x: 0, zz: -9.8}\n"),
+             Contains("gravity.zz: unknown key 'zz'"));
+  CHECK_THAT(of_waves("waveforms: {elbow_active_joint: {amplitud: 1, frequency: 1}}"),
+             Contains("unknown key 'amplitud', expected 'amplitude'?"));
+  CHECK_THAT(of_waves("waveforms: {elbow_active_joint: {amplitude: 1, freqency: 1}}"),
+             Contains("unknown key 'freqency', expected 'frequency'?"));
+  CHECK_THAT(of_manager("controller_manager: {update_rate: 1, arm: {tpye: a/B}}"),
+             Contains("controller_manager.arm.tpye: unknown key 'tpye', expected 'type'?"));
+  CHECK_THAT(of_manager("controller_manager: {update_rate: 1, arm: {}}"),
+             Contains("controller_manager.arm: the key 'type' is missing"));
+  CHECK_THAT(of_manager("controller_manager: {update_rate: 1, arm: }"),
+             Contains("controller_manager.arm: nothing, expected a map"));
+  CHECK_THAT(of_manager("controller_manager: {update_rate: 1, overrun: {manage: true}}"),
+             Contains("unknown key 'overrun', expected 'overruns'?"));
+}
+
+TEST_CASE("few keys are listed, the nearest") {
+  CHECK(of_gains(shoulder + "elbow_active_joint: {p: 1, iclamp: 3}") ==
+        "test:3:28: elbow_active_joint.iclamp: unknown key 'iclamp', expected 'i_clamp'? One of "
+        "i_clamp, i_clamp_min, i_clamp_max, ...");
+  CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p: 1}\nzzzzzzzzzz: 1\n"),
+             Contains("expected one of ") && Contains(", ..."));
+}
+
+TEST_CASE("joints that are missing or another robot's are found before their gains") {
+  const std::string gains = "    shoulder_active_joint: {p: 1}\n    elbow_active_joint: {p: 1}\n";
+  CHECK_THAT(of_gains("c:\n  ros__parameters:\n" + gains),
+             Contains("c.ros__parameters: the key 'joints' is missing"));
+  CHECK_THAT(of_gains("c:\n  ros__parameters:\n    joint_s: [a]\n" + gains),
+             Contains("unknown key 'joint_s', expected 'joints'?"));
+  CHECK_THAT(complaint_of([] {
+               static_cast<void>(load_trajectory_tolerances(
+                   Q2d(), yaml("constraints: {elbow_active_joint: {goal: 0.1}}")));
+             }),
+             Contains("the key 'joints' is missing"));
+  CHECK_THAT(of_gains("joints: [shoulder_active_joint, elbow_joint]\n"
+                      "shoulder_active_joint: {p: 1}\nelbow_active_joint: {p: 1}\n"),
+             Contains("test:1:33: joints[1]: robot 'q2d' has no joint 'elbow_joint', expected"));
+  CHECK_THAT(of_gains(joints + "shoulder_active_joint: {p: 1}\n"),
+             Contains("test:1:33: joints[1]: joint 'elbow_active_joint' has no gains"));
+  for (const std::string key : {"p: [1, 2]", "p: 1", "pid: {elbow_active_joint: {p: 1}}"}) {
+    CHECK_THAT(of_gains(joints + key + "\n"),
+               Contains("gains of several joints at once, expected those of each below its name, "
+                        "such as shoulder_active_joint: {p: ...}"));
+  }
+  CHECK_THAT(of_gains("gains: [1, 2]"), Contains("gains: a list of 2, expected a map"));
+}
+
+TEST_CASE("joints that cannot be commanded are told why") {
+  const auto complaint = [](const std::string& joint) {
+    return complaint_of([&] {
+      static_cast<void>(load_pid_gains(Spinner(), yaml("gains: {" + joint + ": {p: 1}}")));
+    });
+  };
+  CHECK(complaint("pivot") == "none");
+  CHECK_THAT(complaint("follower"),
+             Contains("joint 'follower' of robot 'spinner' mimics 'pivot', expected one of pivot"));
+  CHECK_THAT(complaint("weld"), Contains("joint 'weld' of robot 'spinner' is fixed"));
+  CHECK_THAT(complaint("pivott"), Contains("robot 'spinner' has no joint 'pivott', expected "
+                                           "'pivot'? One of pivot"));
+}
+
+TEST_CASE("clamps have 0 between them and gains are not negative") {
+  const auto complaint = [](const std::string& gains) {
+    return of_gains(shoulder + "elbow_active_joint: {" + gains + "}\n");
+  };
+  for (const std::string clamp : {"i_clamp", "u_clamp"}) {
+    CHECK_THAT(complaint("p: 1, i: 1, " + clamp + "_min: 27.94, " + clamp + "_max: 27.94"),
+               Contains("test:3:") && Contains("elbow_active_joint." + clamp +
+                                               "_min: the number 27.94, expected a number <= 0"));
+    CHECK_THAT(
+        complaint("p: 1, i: 1, " + clamp + "_max: -5"),
+        Contains("elbow_active_joint." + clamp + "_max: the number -5, expected a number >= 0"));
+    CHECK(complaint("p: 1, " + clamp + "_min: 0, " + clamp + "_max: 0") == "none");
+  }
+  CHECK(complaint("p: -1") ==
+        "test:3:25: elbow_active_joint.p: the number -1, expected a number >= 0");
+  CHECK_THAT(complaint("p: 1, i: -2"), Contains(".i: the number -2, expected a number >= 0"));
+  CHECK_THAT(complaint("p: 1, d: -3"), Contains(".d: the number -3, expected a number >= 0"));
+  CHECK_THAT(of_gains(joints + "Kp: [1, -1]\nKd: [1, 1]\n"),
+             Contains("Kp[1]: the number -1, expected a number >= 0"));
+}
+
+TEST_CASE("numbers that no double holds are numbers") {
+  for (const std::string number : {"1e999", "-1e999", "1e-400"}) {
+    CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p: " + number + "}"),
+               Contains("elbow_active_joint.p: the number " + number +
+                        ", which is out of the range of numbers, expected a number"));
+  }
+}
+
+TEST_CASE("ros__parameters is spelt so, and below a name") {
+  const std::string below = "\n    joints: [shoulder_active_joint, elbow_active_joint]\n";
+  for (const std::string key :
+       {"ros_parameters:", "ros__parameter:", "ROS__parameters:", "ros___parameters:"}) {
+    INFO(key);
+    const std::string text = "c:\n  " + key + below;
+    CHECK_THAT(of_gains(text), Contains("test:2:3: c.ros") || Contains("test:2:3: c.ROS"));
+    CHECK_THAT(of_gains(text), Contains("unknown key '") && Contains("expected 'ros__parameters'"));
+  }
+  CHECK_THAT(of_manager("controller_manager:\n  ros_parameters: {update_rate: 1}\n"),
+             Contains("expected 'ros__parameters'"));
+  CHECK_THAT(
+      of_gains("ros__parameters: {joints: [a]}\n"),
+      Contains("test:1:1: ros__parameters: 'ros__parameters' at the top, expected it below"));
+}
+
+TEST_CASE("a section named after a joint is one of those that count") {
+  CHECK_THAT(of_gains("shoulder_active_joint: {p: 1, i: 2}\nelbow_active_joint: {P: 1, i: 2}\n"),
+             Contains("test:2:22: elbow_active_joint.P: unknown key 'P', expected 'p'?"));
+  CHECK_THAT(of_waves("shoulder_active_joint: {amplitude: 1, frequency: 1}\n"
+                      "elbow_active_joint: {amplitud: 1, frequency: 1}\n"),
+             Contains("test:2:22: elbow_active_joint.amplitud: unknown key 'amplitud'"));
+}
+
+TEST_CASE("sections that are not used are noted where none was asked for by name") {
+  const std::string gains =
+      "a: {ros__parameters: {gains: {shoulder_active_joint: {p: 1}, elbow_active_joint: {p: 1}}}}\n"
+      "b: {ros__parameters: {gain: {elbow_active_joint: {p: 1}}}}\n"
+      "controller_manager: {update_rate: 1}\n";
+  const auto config = load_pid_gains(Q2d(), yaml(gains));
+  REQUIRE(config.notes.size() == 1);
+  CHECK(config.notes[0] == "test:2: b.ros__parameters: not used, it is no controller with gains");
+  CHECK(load_pid_gains(Q2d(), yaml(gains), "a").notes.empty());
+
+  const auto waves = load_signals(
+      Q2d(), yaml("a: {waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1}}}\n"
+                  "b: {waveform: {shoulder_active_joint: {amplitude: 1, frequency: 1}}, x: 1}\n"));
+  CHECK(waves.signals.size() == 1);
+  REQUIRE(waves.notes.size() == 1);
+  CHECK(waves.notes[0] == "test:2: b: not used, it is no section of waveforms");
+}
+
+TEST_CASE("which way round is noted where the file and the joint say different things") {
+  const auto notes = [](const auto& robot, const std::string& text) {
+    return load_pid_gains(robot, yaml(text)).notes;
+  };
+  for (const std::string key : {"angle_wraparound", "normalize_error"}) {
+    CHECK(notes(Spinner(), "gains: {pivot: {p: 1, " + key + ": true}}").empty());
+    const auto kept = notes(Spinner(), "gains: {pivot: {p: 1, " + key + ": false}}");
+    REQUIRE(kept.size() == 1);
+    CHECK(kept[0] == "test:1: gains.pivot." + key +
+                         ": not used: continuous joints take the short way round, others do not");
+    CHECK(notes(Q2d(), shoulder + "elbow_active_joint: {p: 1, " + key + ": false}").empty());
+    CHECK(notes(Q2d(), shoulder + "elbow_active_joint: {p: 1, " + key + ": true}").size() == 1);
+  }
+  CHECK_THAT(of_gains(shoulder +
+                      "elbow_active_joint: {p: 1, angle_wraparound: true, normalize_error: false}"),
+             Contains("the same a second time"));
+}
