@@ -33,7 +33,7 @@ struct RunResult {
 };
 
 /// A loop at the start of an experiment.
-template <template <Robot> class ControllerTemplate>
+template <template <class> class ControllerTemplate>
 [[nodiscard]] auto make_loop(const Experiment& experiment,
                              const ControllerTemplate<Q2d>& controller) {
   Loop<Q2dSim, ControllerTemplate> loop(Q2dSim({.initial_position = experiment.initial}),
@@ -63,7 +63,7 @@ void update(auto& loop) {
 /// Runs an experiment twice: once with an eye on it, once for speed.
 /// @param csv  where the recording goes
 /// @throws std::runtime_error if the loop fails or the recording cannot be written
-template <template <Robot> class ControllerTemplate>
+template <template <class> class ControllerTemplate>
 [[nodiscard]] RunResult simulate(const Experiment& experiment,
                                  const ControllerTemplate<Q2d>& controller,
                                  const std::filesystem::path& csv) {

@@ -23,7 +23,7 @@ struct StepResponse {
   bool always_ok;
 };
 
-template <class R, template <Robot> class Controller>
+template <class R, template <class> class Controller>
 StepResponse step(const Vector& start, const Vector& target, double seconds) {
   SimulatorOptions<2> options;
   options.initial_position = start;

@@ -49,13 +49,13 @@ SimulatorOptions<2> noisy() {
   return options;
 }
 
-template <template <Robot> class Controller>
+template <template <class> class Controller>
 std::size_t heap_calls_on_q2d() {
   Loop<Q2dSim, Controller> loop;
   return heap_calls_in([&] { stir(loop); });
 }
 
-template <template <Robot> class Controller>
+template <template <class> class Controller>
 std::size_t heap_calls_with_noise() {
   Loop<Q2dSim, Controller> loop{Q2dSim(noisy())};
   return heap_calls_in([&] { stir(loop); });

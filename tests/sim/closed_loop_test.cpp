@@ -56,7 +56,7 @@ constexpr double period = 1e-3;
 Q2dSim arm_with(int substeps) { return Q2dSim(SimulatorOptions<2>{.substeps = substeps}); }
 
 /// The largest distance of the positions over some seconds of a step to `target` [rad].
-template <template <Robot> class Controller>
+template <template <class> class Controller>
 double step_deviation(const Vector& target, double seconds, int substeps) {
   Loop<Q2dSim, Controller> loop(arm_with(substeps));
   loop.reference().position = target;

@@ -51,12 +51,12 @@ class JointPid {
   }
 
   /// The slowest integral that begins with an output of others, see `prime` [s].
-  static constexpr double slowest_primed = 1;
+  static constexpr double slowest_primed = 10;
 
   /// Lets the integral begin with an output that was given by another controller, as far as its
   /// clamps allow. After `start`. The output may have been no load but a passing push. Then the
   /// error is off by I/p, and goes as the integral takes that back, with the time constant p/i. So
-  /// it does nothing where p/i is more than a second, as without an integral gain, nor with an
+  /// it does nothing where p/i is more than ten seconds, as without an integral gain, nor with an
   /// output that is not finite. Real-time: yes.
   void prime(const PidGains& g, double output) noexcept {
     const bool soon = g.proportional <= slowest_primed * g.integral;
