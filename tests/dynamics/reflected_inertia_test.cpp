@@ -195,6 +195,62 @@ TEST_CASE("the rotors of a four-bar transmission in a robot known at compile tim
   CHECK((mass_matrix(robot, q) - mass_matrix(Q2d{}, q) - rotors).norm() < 1e-13);
 }
 
+TEST_CASE("rotors that cannot be shared are refused") {
+  support::Random random(9);
+  const support::Blueprint bare = support::random_robot(random, 3, support::Shape::chain, 0);
+  const auto rule = [&](const auto& change) {
+    support::Blueprint robot = bare;
+    std::vector<Joint*> moving;
+    for (Joint& joint : robot.joints) {
+      if (joint.type == JointType::fixed) continue;
+      joint.reflected_inertia = 2;
+      moving.push_back(&joint);
+    }
+    change(*moving[0], *moving[1], *moving[2], robot.joints);
+    return robot.fault().rule;
+  };
+  using Joints = std::vector<Joint>;
+  const auto pair = [&](int from, int to) {
+    return rule([&](Joint& a, Joint& b, Joint& c, Joints&) {
+      Joint* const joints[] = {&a, &b, &c};
+      a.shared_rotors = {b.name, 1};
+      joints[from]->shared_rotors = {joints[to]->name, 0.5};
+    });
+  };
+  CHECK(pair(0, 1) == Rule::none);
+  CHECK(pair(0, 2) == Rule::none);
+  CHECK(pair(1, 0) == Rule::rotors_are_shared_twice);
+  CHECK(pair(1, 2) == Rule::rotors_are_shared_twice);
+  CHECK(pair(2, 0) == Rule::rotors_are_shared_twice);
+  CHECK(pair(2, 1) == Rule::rotors_are_shared_twice);
+  const auto shared = [&](double inertia) {
+    return rule([&](Joint& a, Joint& b, Joint&, Joints&) { a.shared_rotors = {b.name, inertia}; });
+  };
+  CHECK(shared(-2) == Rule::none);
+  CHECK(shared(2 * (1 + 1e-15)) == Rule::none);  // one rotor, rounded
+  CHECK(shared(2.0001) == Rule::shared_inertia_is_too_large);
+  CHECK(shared(-2.0001) == Rule::shared_inertia_is_too_large);
+  CHECK(rule([](Joint& a, Joint& b, Joint&, Joints&) {
+          a.reflected_inertia = b.reflected_inertia = 0;
+          a.shared_rotors = {b.name, 1e-170};
+        }) == Rule::shared_inertia_is_too_large);
+  constexpr Rule nobody = Rule::rotors_are_shared_with_no_free_joint;
+  CHECK(rule([](Joint& a, Joint&, Joint&, Joints&) { a.shared_rotors = {a.name, 1}; }) == nobody);
+  CHECK(rule([](Joint& a, Joint&, Joint&, Joints&) { a.shared_rotors = {"", 1}; }) == nobody);
+  CHECK(rule([](Joint& a, Joint& b, Joint&, Joints&) {
+          a.type = JointType::fixed;
+          a.shared_rotors = {b.name, 1};
+        }) == nobody);
+  CHECK(rule([](Joint& a, Joint& b, Joint&, Joints&) {
+          b.type = JointType::fixed;
+          a.shared_rotors = {b.name, 1};
+        }) == nobody);
+  CHECK(rule([](Joint& a, Joint& b, Joint& c, Joints&) {
+          b.mimic.joint = c.name;
+          a.shared_rotors = {b.name, 1};
+        }) == nobody);
+}
+
 TEST_CASE("a rotor of any use is taken, a negative one is not") {
   support::Blueprint huge = pendulum();
   huge.joints[0].reflected_inertia = 1e50;

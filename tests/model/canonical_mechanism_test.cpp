@@ -34,6 +34,35 @@ State random_state(test::Randomness& random) {
 
 }  // namespace
 
+TEST_CASE("Axes that are all but parallel are not taken as parallel with tolerance 0") {
+  for (const double angle : {1e-7, 1.1e-8, 1e-8, 3e-9, 1e-9, 1e-12}) {
+    for (const bool opposite : {false, true}) {
+      CAPTURE(angle, opposite);
+      Mechanism<2> chain;
+      chain.gravity = {0, -9.8, 0};
+      const double turn = opposite ? 3.14159265358979324 - angle : angle;
+      chain.bodies[0] = {.parent = -1, .placement = {rotation_from_rpy({0.1, 0.2, 0.3}), {}}};
+      chain.bodies[1] = {.parent = 0,
+                         .placement = {rotation_from_rpy({turn, 0, 0}), {0, 0.3, 0.4}}};
+      for (Body& body : chain.bodies) {
+        body.inertia = {2, {0.2, 0.6, 0.8}, {1.5, -0.1, -0.1, 1.2, -0.3, 0.9}};
+      }
+      const Mechanism<2> canonical = canonical_form(chain, 0).mechanism;
+      const std::array<double, 2> q{0.7, -1.1}, v{1, -2}, a{3, 4};
+      const auto own = configuration_of<double, 2, 2>(chain, q);
+      for (const Frames frames : {Frames::moving, Frames::resting}) {
+        const auto other = configuration_of<double, 2, 2>(canonical, q, frames);
+        const auto effort = InverseDynamics::evaluate(chain, own, v, a);
+        const auto other_effort = InverseDynamics::evaluate(canonical, other, v, a);
+        // Some hundred roundings of numbers up to 50.
+        for (std::size_t i = 0; i < 2; ++i) {
+          CHECK(std::abs(other_effort[i] - effort[i]) <= 1e-13);
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("The canonical form of any tree moves as the tree itself") {
   test::Randomness random(1);
   for (int trial = 0; trial < 200; ++trial) {

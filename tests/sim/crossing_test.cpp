@@ -95,3 +95,15 @@ TEST_CASE("an interval that is narrow enough is left alone") {
   });
   CHECK(place == 1 + epsilon);
 }
+
+TEST_CASE("it ends where there is no number left between") {
+  for (const double width : {0.0, 1e-300}) {
+    int calls = 0;
+    const double place = locate_crossing({0.25, -1}, {1, 1}, width, [&](double x) {
+      ++calls;
+      return x - 0.75000001;
+    });
+    CHECK(std::abs(place - 0.75000001) <= epsilon);
+    CHECK(calls < 2 * most_calls);
+  }
+}

@@ -64,7 +64,7 @@ TEST_CASE("Numbers keep all their digits and their sign") {
   description.joints[0].shared_rotors = {"other", -0.5};
   const std::string text = header_text(description, {"R", ""});
   CHECK_THAT(text, Contains(".reflected_inertia = 0.125"));
-  CHECK_THAT(text, Contains(".shared_rotors = {.joint = \"other\", .inertia = -0.5}"));
+  CHECK_THAT(text, Contains(".shared_rotors = {") && Contains(".inertia = -0.5"));
   CHECK_THAT(text, Contains("{0.1, -0.0, 0.3333333333333333}"));
   CHECK_THAT(text, Contains(".mass = 2.0000000000000004"));
   CHECK_THAT(text, Contains("{1e+300, 5e-324, -1.7976931348623157e+308}"));

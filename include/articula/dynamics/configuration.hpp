@@ -123,8 +123,8 @@ template <int N, int B>
 [[nodiscard]] constexpr bool carries_parallel_axes(const Mechanism<N, B>& mechanism,
                                                    std::size_t index) noexcept {
   for (const Body& body : mechanism.bodies) {
-    const double along_z = body.placement.rotation.rows[2].z;
-    if (body.parent == static_cast<int>(index) && along_z != 1 && along_z != -1) return false;
+    const Vector3<double>& axis = body.placement.rotation.rows[2];
+    if (body.parent == static_cast<int>(index) && (axis.x != 0 || axis.y != 0)) return false;
   }
   return true;
 }

@@ -102,8 +102,9 @@ constexpr void move_frame(CanonicalMechanism<N, Bodies>& canonical, std::size_t 
 /// the identity is left, or a half turn about x. Else c is, unless that row holds a zero already.
 [[nodiscard]] constexpr Matrix3<double> untwist(const Matrix3<double>& rotation) {
   const Vector3<double>& last = rotation.rows[2];
-  if (magnitude(last.z) == 1) {
-    const Matrix3<double> straight{{{{1, 0, 0}, {0, last.z, 0}, {0, 0, last.z}}}};
+  if (last.x == 0 && last.y == 0) {  // z alone is 1 already where x is 1e-8
+    const double sign = last.z < 0 ? -1 : 1;
+    const Matrix3<double> straight{{{{1, 0, 0}, {0, sign, 0}, {0, 0, sign}}}};
     return rotation.transposed() * straight;
   }
   if (last.x == 0 || last.y == 0) return Matrix3<double>::identity();

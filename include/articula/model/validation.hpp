@@ -154,7 +154,7 @@ constexpr DescriptionFault index_tree(std::span<const Link> links, std::span<con
 constexpr std::vector<char> mass_movers(std::span<const Link> links, const TreeIndex& tree) {
   std::vector<char> movers(tree.parents.size(), 0);
   for (std::size_t i = 0; i < links.size(); ++i) {
-    if (links[i].mass == 0) continue;
+    if (links[i].mass == 0 && links[i].inertia == Symmetric3<double>{}) continue;
     for (int j = tree.carriers[i]; j >= 0; j = tree.before(j)) {
       movers[static_cast<std::size_t>(j)] = 1;
     }
@@ -164,6 +164,19 @@ constexpr std::vector<char> mass_movers(std::span<const Link> links, const TreeI
 
 constexpr bool is_free(const Joint& joint) {
   return joint.type != JointType::fixed && joint.mimic.joint.empty();
+}
+
+/// True if a joint moves mass, by itself or by those that mimic it.
+constexpr bool moves_mass(std::span<const Joint> joints, std::size_t index,
+                          const std::vector<char>& movers) {
+  if (movers[index] != 0) return true;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const Joint& other = joints[j];
+    const bool follows = other.type != JointType::fixed && other.mimic.multiplier != 0 &&
+                         other.mimic.joint == joints[index].name;
+    if (follows && movers[j] != 0) return true;
+  }
+  return false;
 }
 
 constexpr Rule broken_mimic_rule(std::span<const Joint> joints, const Joint& joint) {
@@ -178,7 +191,9 @@ constexpr Rule broken_mimic_rule(std::span<const Joint> joints, const Joint& joi
 /// inertias of the two, c^2 <= a b. One drive for both joints lies on the edge, so rounding is forgiven.
 constexpr Rule broken_rotor_rule(std::span<const Joint> joints, const Joint& joint) {
   const auto& [name, inertia] = joint.shared_rotors;
-  if (name.empty()) return Rule::none;
+  if (name.empty()) {
+    return inertia == 0 ? Rule::none : Rule::rotors_are_shared_with_no_free_joint;
+  }
   const int other = index_of(joints, name);
   if (other < 0 || name == joint.name || !is_free(joint) ||
       !is_free(joints[static_cast<std::size_t>(other)])) {
@@ -193,7 +208,8 @@ constexpr Rule broken_rotor_rule(std::span<const Joint> joints, const Joint& joi
   }
   const double most =
       joint.reflected_inertia * joints[static_cast<std::size_t>(other)].reflected_inertia;
-  return inertia * inertia <= most * (1 + 1e-12) ? Rule::none : Rule::shared_inertia_is_too_large;
+  const bool fits = inertia * inertia <= most * (1 + 1e-12) && (most > 0 || inertia == 0);
+  return fits ? Rule::none : Rule::shared_inertia_is_too_large;
 }
 
 /// The first broken rule of single links or joints, and names that are used twice.
@@ -237,12 +253,14 @@ constexpr DescriptionFault element_fault(std::span<const Element> elements, bool
   const std::vector<char> movers = detail::mass_movers(links, tree);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = joints[j];
+    Rule rule = detail::broken_rotor_rule(joints, joint);
+    if (rule == Rule::none) rule = detail::broken_mimic_rule(joints, joint);
+    if (rule != Rule::none) return {joint.name, rule};
     if (joint.type == JointType::fixed) continue;
     moves = true;
-    if (movers[j] == 0) return {joint.name, Rule::joint_moves_no_mass};
-    Rule rule = detail::broken_mimic_rule(joints, joint);
-    if (rule == Rule::none) rule = detail::broken_rotor_rule(joints, joint);
-    if (rule != Rule::none) return {joint.name, rule};
+    if (detail::is_free(joint) && !detail::moves_mass(joints, j, movers)) {
+      return {joint.name, Rule::joint_moves_no_mass};
+    }
     const JointLimits limits = properties_of(joints, joint).limits;
     if (!(limits.lower <= limits.upper)) return {joint.name, Rule::mimics_leave_no_position};
   }

@@ -40,7 +40,8 @@ template <class Function>
     const double most = reach - length / 2;
     if (std::abs(guess - middle) > most) guess = middle - std::copysign(most, to_middle);
     if (!(guess > before.place && guess < after.place))
-      guess = middle;  // no number, or rounded away
+      guess = middle;                                           // no number, or rounded off
+    if (!(guess > before.place && guess < after.place)) break;  // there is no place in between
     const double value = function(guess);
     (value > 0 ? after : before) = {guess, value};
     reach /= 2;

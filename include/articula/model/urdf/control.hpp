@@ -67,13 +67,22 @@ class ControlReader {
     return *number;
   }
 
+  /// A number, or "inf" for none.
+  [[nodiscard]] double bound_of(const std::string& text, const std::string& where) const {
+    constexpr double infinity = JointLimits::infinity;
+    if (text == "inf" || text == "+inf" || text == ".inf") return infinity;
+    if (text == "-inf" || text == "-.inf") return -infinity;
+    return number(text, where);
+  }
+
   [[nodiscard]] static bool is_disabled(const XmlElement& element) {
     const XmlElement* limits = element.FirstChildElement("limits");
     return limits && attribute(*limits, "enable") == "false";
   }
 
   /// The limits of the commands that a joint takes: <param name="min"> and "max" of its
-  /// <command_interface>s. Of the two bounds of a velocity or effort the narrower counts.
+  /// <command_interface>s. Of the two bounds of a velocity or effort the narrower counts, but for 0,
+  /// which leaves one direction only.
   void add_limits(const XmlElement& joint) {
     const std::string name = attribute(joint, "name");
     if (name.empty()) throw UrdfError(file_, "<ros2_control>: a joint has no name");
@@ -82,15 +91,17 @@ class ControlReader {
     for_each_child(joint, "command_interface", [&](const XmlElement& command) {
       if (is_disabled(command)) return;
       const std::string kind = attribute(command, "name");
+      if (kind != "position" && kind != "velocity" && kind != "effort") return;
       JointLimits bounds{};
       for_each_child(command, "param", [&](const XmlElement& param) {
         const std::string which = attribute(param, "name");
         if (which != "min" && which != "max") return;
-        const double bound =
-            number(text_of(param), "<ros2_control>: joint '" + name + "': " + kind + " " + which);
-        (which == "min" ? bounds.lower : bounds.upper) = bound;
+        const std::string where = "<ros2_control>: joint '" + name + "': " + kind + " " + which;
+        (which == "min" ? bounds.lower : bounds.upper) = bound_of(text_of(param), where);
       });
-      const double size = std::min(std::abs(bounds.lower), std::abs(bounds.upper));
+      const double below = std::abs(bounds.lower), above = std::abs(bounds.upper);
+      const double size =
+          below == 0 || above == 0 ? std::max(below, above) : std::min(below, above);
       if (kind == "velocity") narrowed.velocity = std::min(narrowed.velocity, size);
       if (kind == "effort") narrowed.effort = std::min(narrowed.effort, size);
       if (kind != "position") return;

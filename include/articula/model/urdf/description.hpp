@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -184,7 +185,17 @@ class UrdfReader {
       if (rule != Rule::none) note(fault_text({link.name, rule}, result_.links, {}));
     }
     for (const Joint& joint : result_.joints) {
-      for (const std::string& fault : limit_faults(joint)) note(fault);
+      const std::vector<std::string> faults = limit_faults(joint);
+      for (const std::string& fault : faults) note(fault);
+      if (joint.type != JointType::fixed && joint.mimic.joint.empty()) {
+        const JointLimits limits =
+            properties_of(std::span<const Joint>(result_.joints), joint).limits;
+        if (limits.lower == limits.upper && joint.limits.lower != joint.limits.upper) {
+          note("joint '" + std::string(joint.name.view()) +
+               "': those that mimic it leave it no room to move, lower and upper limit are " +
+               rounded_text(limits.lower));
+        }
+      }
       const std::string child(joint.child.view());
       if (joint.type == JointType::fixed || document_.robot->links_.at(child)->inertial) continue;
       note("link '" + child + "': it has no <inertial>, so it counts as massless, though joint '" +

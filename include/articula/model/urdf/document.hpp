@@ -9,9 +9,11 @@
 
 #include <urdf_parser/urdf_parser.h>
 
+#include <cstddef>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace articula {
@@ -19,6 +21,7 @@ namespace articula {
 /// A URDF as it is written. The links form a tree; whether they can exist is not checked yet.
 struct UrdfDocument {
   static constexpr std::size_t most_links = 4096;
+  static constexpr std::size_t most_in_chain = 512;  ///< links from the root to a leaf
 
   std::string file{};                     ///< where it comes from, for messages
   urdf::ModelInterfaceSharedPtr robot{};  ///< links and joints, from urdfdom
@@ -59,6 +62,25 @@ inline void check_tree(const std::string& file, const XmlElement& robot) {
       }
     }
     safe.merge(way);
+  }
+  for (const auto& [start, parent] : parents) {
+    std::size_t length = 1;
+    for (auto at = parents.find(start); at != parents.end(); at = parents.find(at->second)) {
+      if (++length <= UrdfDocument::most_in_chain) continue;
+      throw UrdfError(file, "link '" + start + "': more than " +
+                                std::to_string(UrdfDocument::most_in_chain) +
+                                " links lie in one chain");
+    }
+  }
+}
+
+/// XML takes any white space in an attribute for blanks, urdfdom only blanks. TinyXML may have written
+/// it as a character's number.
+inline void blank_white_space(std::string& text) {
+  for (const std::string_view space : {"\t", "\r", "\n", "&#x09;", "&#x0D;", "&#x0A;"}) {
+    for (std::size_t at = text.find(space); at != std::string::npos; at = text.find(space, at)) {
+      text.replace(at, space.size(), space.size(), ' ');
+    }
   }
 }
 
@@ -107,7 +129,8 @@ inline void check_tree(const std::string& file, const XmlElement& robot) {
   detail::keep_mechanics(robot);
   detail::XmlPrinter printer;
   document.Accept(&printer);
-  const std::string text = printer.CStr();
+  std::string text = printer.CStr();
+  detail::blank_white_space(text);
   detail::XmlDocument mechanics;
   const detail::XmlElement& bare = detail::parse_xml(result.file, text, mechanics);
   std::size_t links = 0;

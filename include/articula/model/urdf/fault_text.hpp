@@ -69,6 +69,8 @@ namespace articula::detail {
                                             std::span<const Link> links,
                                             std::span<const Joint> joints) {
   std::string kind = "robot", details;
+  if (fault.rule == Rule::robot_has_no_moving_joint)
+    links = {}, joints = {};  // it has its own name
   if (const int i = index_of(joints, fault.element); i >= 0) {
     kind = "joint";
     details = figures(joints[static_cast<std::size_t>(i)], fault.rule);

@@ -48,10 +48,15 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
   return text ? text : "";
 }
 
-/// An element's text, empty if there is none.
+/// An element's text without white space around it, empty if there is none.
 [[nodiscard]] inline std::string text_of(const XmlElement& element) {
-  const char* text = element.GetText();
-  return text ? text : "";
+  std::string text;
+  for (const auto* node = element.FirstChild(); node; node = node->NextSibling()) {
+    if (node->ToText()) text += node->Value();  // what else there is are comments
+  }
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
 /// Parses XML into a document and returns its <robot>.
