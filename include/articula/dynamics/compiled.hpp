@@ -123,12 +123,33 @@ template <class Algorithm, DescribedRobot R>
   }
 }
 
+/// The program of an algorithm, or of its `Alternative`, another one with the same inputs and results,
+/// if that is the cheaper one. It is tried only where it says that it `may_pay`.
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval const auto& cheapest_program() {
+  constexpr Frames frames = frames_for<Algorithm, R>();
+  if constexpr (requires { typename Algorithm::Alternative; }) {
+    using Other = typename Algorithm::Alternative;
+    if constexpr (Other::may_pay(mechanism_for<Algorithm>(R{}))) {
+      constexpr int own_cost = program_in<Algorithm, R, frames>.operations().cost();
+      if constexpr (program_in<Other, R, frames>.operations().cost() < own_cost) {
+        return program_in<Other, R, frames>;
+      } else {
+        return program_in<Algorithm, R, frames>;
+      }
+    } else {
+      return program_in<Algorithm, R, frames>;
+    }
+  } else {
+    return program_in<Algorithm, R, frames>;
+  }
+}
+
 }  // namespace detail
 
 /// The program that an algorithm becomes for a robot.
 template <class Algorithm, DescribedRobot R>
-inline constexpr const auto& program =
-    detail::program_in<Algorithm, R, detail::frames_for<Algorithm, R>()>;
+inline constexpr const auto& program = detail::cheapest_program<Algorithm, R>();
 
 /// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
 /// but for rounding.

@@ -2,6 +2,7 @@
 /// @file Forward dynamics: from effort to motion.
 #pragma once
 
+#include "articula/dynamics/articulated_bodies.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/nonlinear_effects.hpp"
 #include "articula/dynamics/tree_factors.hpp"
@@ -11,6 +12,8 @@ namespace articula {
 /// The algorithm behind forward_dynamics: the mass matrix, factorised along the tree, and the bias
 /// efforts. Source: [Featherstone 2008, section 6.1].
 struct ForwardDynamics {
+  using Alternative = ArticulatedBodies;
+
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointArray<S, N> evaluate(
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration,

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/dynamics/articulated_bodies.hpp"
+
+#include "articula/dynamics/dynamics.hpp"
+#include "articula/robots/q2d.hpp"
+#include "articula/robots/ur10.hpp"
+#include "catch.hpp"
+#include "random_robots.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+using namespace articula;
+
+namespace {
+
+constexpr std::array<const char*, 15> names{"a", "b", "c", "d", "e", "f", "g", "h",
+                                            "i", "j", "k", "l", "m", "n", "o"};
+
+constexpr Link link(std::size_t i) {
+  const double mass = i == 0 ? 0 : 2 + 0.1 * static_cast<double>(i);
+  const double inertia = i == 0 ? 0 : 0.5;
+  return {.name = names[i],
+          .mass = mass,
+          .center_of_mass = {0.05, 0, 0.1},
+          .inertia = {.xx = inertia, .yy = inertia, .zz = inertia},
+          .inertia_orientation = {0, 0, 0}};
+}
+
+constexpr Joint joint(std::size_t i) {
+  return {.name = names[i],
+          .type = JointType::continuous,
+          .parent = names[i],
+          .child = names[i + 1],
+          .origin = {0.3, 0, 0.2},
+          .orientation = {i % 2 == 0 ? 1.5707963267948966 : -1.5707963267948966, 0, 0},
+          .axis = {0, 0, 1},
+          .reflected_inertia = 0.1};
+}
+
+template <class>
+struct Snake;
+template <std::size_t... I>
+struct Snake<std::index_sequence<I...>> {
+  static constexpr RobotDescription<sizeof...(I) + 1, sizeof...(I)> description{
+      .name = "snake", .links = {link(0), link(I + 1)...}, .joints = {joint(I)...}};
+};
+
+using ShortSnake = Snake<std::make_index_sequence<4>>;
+using LongSnake = Snake<std::make_index_sequence<14>>;
+
+template <class R, class Algorithm>
+int cost() {
+  return compiled::detail::program_in<Algorithm, R, compiled::detail::frames_for<Algorithm, R>()>
+      .operations()
+      .cost();
+}
+
+}  // namespace
+
+TEST_CASE("articulated bodies accelerate as the factorised mass matrix says") {
+  constexpr unsigned seed = 1;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int trial = 0; trial < 300; ++trial) {
+    CAPTURE(trial);
+    const auto shape = trial % 2 == 0 ? support::Shape::chain : support::Shape::tree;
+    support::Blueprint robot = support::random_robot(random, 6, shape, 0);
+    for (Joint& each : robot.joints) {
+      if (each.type != JointType::fixed && trial % 3 == 0) {
+        each.reflected_inertia = random.number(0, 1);
+      }
+    }
+    const Model<6> model = robot.model<6>();
+    const JointVector<6> q = random.vector<6>(3), v = random.vector<6>(2),
+                         effort = random.vector<6>(10);
+    const JointVector<6> expected = forward_dynamics(model, q, v, effort);
+    const auto a = detail::to_vector(detail::evaluate<ArticulatedBodies>(model, q, v, effort));
+    // Mass matrices are conditioned like 1e4 at worst; some hundred roundings.
+    CHECK((a - expected).norm() <= 1e-10 * (1 + expected.norm()));
+  }
+}
+
+TEST_CASE(
+    "the cheaper one is taken: articulated bodies for a long chain, factors for a short one") {
+  CHECK(cost<LongSnake, ArticulatedBodies>() < cost<LongSnake, ForwardDynamics>());
+  CHECK(operations<ForwardDynamics, LongSnake>().cost() == cost<LongSnake, ArticulatedBodies>());
+  CHECK(cost<ShortSnake, ForwardDynamics>() < cost<ShortSnake, ArticulatedBodies>());
+  CHECK(operations<ForwardDynamics, ShortSnake>().cost() == cost<ShortSnake, ForwardDynamics>());
+  CHECK(cost<Ur10, ForwardDynamics>() < cost<Ur10, ArticulatedBodies>());
+  CHECK(operations<ForwardDynamics, Ur10>().cost() == cost<Ur10, ForwardDynamics>());
+}
+
+TEST_CASE("a long chain accelerates as its efforts demand") {
+  constexpr unsigned seed = 2;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int trial = 0; trial < 50; ++trial) {
+    const JointVector<14> q = random.vector<14>(3), v = random.vector<14>(1),
+                          a = random.vector<14>(5);
+    const JointVector<14> effort = inverse_dynamics(LongSnake{}, q, v, a);
+    // Efforts of some hundred N m; the mass matrix is conditioned like 1e4.
+    CHECK((forward_dynamics(LongSnake{}, q, v, effort) - a).norm() <= 1e-9);
+  }
+}
+
+TEST_CASE("articulated bodies are not tried where joints are tied otherwise than by the tree") {
+  support::Random random(3);
+  support::Blueprint robot = support::random_robot(random, 12, support::Shape::chain, 0);
+  CHECK(ArticulatedBodies::may_pay(robot.model<12>().canonical));
+  robot.joints.back().reflected_inertia = robot.joints.front().reflected_inertia = 1;
+  for (Joint& each : robot.joints) each.reflected_inertia = 1;
+  Joint *first = nullptr, *last = nullptr;
+  for (Joint& each : robot.joints) {
+    if (each.type == JointType::fixed) continue;
+    (first ? last : first) = &each;
+  }
+  first->shared_rotors = {last->name, 0.5};
+  REQUIRE(robot.fault().rule == Rule::none);
+  CHECK_FALSE(ArticulatedBodies::may_pay(robot.model<12>().canonical));
+  const support::Blueprint mimic = support::random_robot(random, 14, support::Shape::chain, 1);
+  CHECK_FALSE(ArticulatedBodies::may_pay(mimic.model<13, 14>().canonical));
+  CHECK_FALSE(ArticulatedBodies::may_pay(
+      support::random_robot(random, 10, support::Shape::chain, 0).model<10>().canonical));
+}
