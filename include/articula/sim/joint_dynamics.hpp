@@ -67,13 +67,14 @@ class JointDynamics {
       const double excess_at_end = excess(phase, next);
       if (!(excess_at_end > 0)) return next;
 
-      rest -= locate_crossing({0, excess(phase, motion)}, {rest, excess_at_end},
-                              std::numeric_limits<double>::epsilon() * step, [&](double time) {
-                                const auto there = smooth_step(phase, motion, effort, time);
-                                const double past = excess(phase, there);
-                                if (past > 0) next = there;
-                                return past;
-                              });
+      rest -=
+          locate_crossing({0, excess(phase, motion)}, {rest, excess_at_end},
+                          std::numeric_limits<double>::epsilon() * step, [&](double time) noexcept {
+                            const auto there = smooth_step(phase, motion, effort, time);
+                            const double past = excess(phase, there);
+                            if (past > 0) next = there;
+                            return past;
+                          });
       motion = settle(phase, next);
     }
     if (rest > 0) {  // joints at stops jolt each other ever more often and less: that ends here
