@@ -31,3 +31,14 @@ TEST_CASE("from rest or from motion, it moves until it is where it should be") {
     CHECK(end.effort == Vector(3, 4));
   }
 }
+
+TEST_CASE("a measurement beyond the joints' limits does not lead there") {
+  const MotionLimits<2> limits{{2, 10}, {20, 50}, {400, 1000}};
+  const double shoulder = Q2d::description.joints[1].limits.upper;
+  StopAndReturn<Q2d> stop({0, 0}, limits, Q2d());
+  stop.begin(JointReference<2>{.position = {0.1, 0.2}}, Vector(1e6, 0.3));
+  CHECK(stop.advance(60).position == Vector(shoulder, 0.3));
+  // Who is beyond already is not pulled in by more than was asked, nor led further out.
+  stop.begin(JointReference<2>{.position = {shoulder + 0.1, 0}}, Vector(shoulder + 0.2, 0));
+  CHECK(stop.advance(60).position == Vector(shoulder + 0.1, 0));
+}

@@ -35,17 +35,17 @@ class StopAndReturn {
 
   /// Begins a stop.
   /// @param from  what the joints were last asked for
-  /// @param back  where they should be in the end [rad or m], N x 1. If it is not given, or not
-  ///              finite: where the stop ends, but no further out than the limits of the joints, or
-  ///              than it began
+  /// @param back  where they should be in the end [rad or m], N x 1; if it is not given, or not finite,
+  ///              where the stop ends. Either no further out than the limits of the joints, or than
+  ///              it began
   /// Real-time: yes. O(N).
   void begin(const Reference& from, const std::optional<Position>& back = {}) noexcept {
     way_ = JerkLimitedProfile<R>::stop(from, limits_);
     time_ = 0;
     const Position end = way_.sample(way_.duration()).position;
-    const Position inside =
-        end.cwiseMax(lower_.cwiseMin(from.position)).cwiseMin(upper_.cwiseMax(from.position));
-    const Position target = back && is_finite(*back) ? *back : inside;
+    const Position wanted = back && is_finite(*back) ? *back : end;
+    const Position target =
+        wanted.cwiseMax(lower_.cwiseMin(from.position)).cwiseMin(upper_.cwiseMax(from.position));
     back_.reset();
     if (target != end) back_ = target;
   }
