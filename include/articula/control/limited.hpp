@@ -36,8 +36,8 @@ namespace articula {
 ///   the drive's references are drawn towards the state.
 ///
 /// What is within the limits passes unchanged. A command that is not finite, or does not count because
-/// the controller says that it has failed (TellsFailure), brakes all joints, and `failed` tells. The
-/// controller is told what was cut off, and what was given, if it wants to know (LimitAware,
+/// the controller says that it has failed (TellsFailure), brakes all joints, and `failed` tells. (Groups
+/// put gravity efforts in place of a failed group's: its joints coast within the limits.) The controller is told what was cut off, and what was given, if it wants to know (LimitAware,
 /// TakesGiven).
 /// @tparam R                   the robot
 /// @tparam ControllerTemplate  makes the controller of a robot

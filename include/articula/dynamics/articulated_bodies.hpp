@@ -84,8 +84,8 @@ template <class S>
 /// operations than factors of the mass matrix.
 /// Source: [Featherstone 2008, chapter 7].
 struct ArticulatedBodies {
-  /// The length of a chain from which on it has been seen to take fewer operations than factors of the mass
-  /// matrix do; on trees it is later.
+  /// Up to this length of a chain factors of the mass matrix have been seen to take fewer operations, on
+  /// trees even beyond it.
   static constexpr int short_chain = 10;
 
   /// True for long chains, unless joints are tied otherwise than by the tree, which is beyond it.

@@ -39,7 +39,7 @@ class JointDynamics {
   /// @param motion  position and velocity at its beginning; positions within the joints' limits
   /// @param effort  efforts of the drives [N m or N], N x 1
   /// @param step    [s]
-  /// Real-time: yes. One Runge-Kutta step, and some ten more for each event, fifty at most.
+  /// Real-time: yes. One Runge-Kutta step, and some ten more for each event, at most some fifty.
   [[nodiscard]] Motion<joint_count> advance(const Motion<joint_count>& motion,
                                             const JointVector<joint_count>& effort,
                                             double step) const noexcept {
