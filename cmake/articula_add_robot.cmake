@@ -11,11 +11,12 @@
 #
 #   ROOT              link that becomes the fixed base, instead of the URDF's root
 #   TIP               link at which a chain from the root ends; the rest is left out
-#   LOCK              joints to be held in place, at 0 or at a position [rad or m]
+#   LOCK              joints to be held in place, at 0 or at a position [rad or m]; beyond the joint's
+#                     limits with a warning. Joints that mimic one of them are held, too
 #   GRAVITY           acceleration of free fall in the root link's frame, 0 0 -9.81 [m/s^2] if not given
 #   RIGHT_ANGLE_TOLERANCE  how far from 0, 1 and -1 the elements of rotations may be that dynamics
 #                     takes for those of right angles written with few digits, 1e-6 if not given; 0
-#                     takes every angle as it is written
+#                     takes every angle as it is written, 0.1 is the largest
 #   ALLOW_UNPHYSICAL  accept inertias that no real body has, with a warning for each
 #
 # The program that reads the URDF is built along, for the machine that builds. When cross-compiling,

@@ -65,11 +65,7 @@ Arguments parse(const std::vector<std::string>& words) {
       const double x = number(value()), y = number(value());
       arguments.options.gravity = {x, y, number(value())};
     } else if (word == "--right-angle-tolerance") {
-      const double tolerance = number(value());
-      if (tolerance < 0 || tolerance > 0.1) {
-        throw std::invalid_argument(word + " " + words[at] + ": it must lie within 0 .. 0.1");
-      }
-      arguments.options.right_angle_tolerance = tolerance;
+      arguments.options.right_angle_tolerance = number(value());
     } else if (word == "--allow-unphysical") {
       arguments.options.allow_unphysical = true;
     } else {

@@ -175,13 +175,15 @@ TEST_CASE("hostile values in every other parameter of a controller") {
        {"allow_partial_joints_goal", "allow_integration_in_goal_trajectories",
         "allow_nonzero_velocity_at_trajectory_end", "use_sim_time", "is_async",
         "interpolate_from_desired_state", "open_loop_control", "allow_trajectory_replacement",
-        "use_external_measured_states", "set_current_state_as_first_setpoint",
-        "set_last_command_interface_value_as_state_on_activation"}) {
+        "use_external_measured_states", "set_current_state_as_first_setpoint", "start_with_holding",
+        "allow_stalling", "set_last_command_interface_value_as_state_on_activation"}) {
     check_field(load_gains, {both, key, "\n", {"true"}});
   }
   check_field(load_gains, {both, "interpolation_method", "\n"});
-  for (const std::string key : {"publish_rate", "state_publish_rate", "action_monitor_rate",
-                                "update_rate", "stop_trajectory_duration", "cmd_timeout"}) {
+  for (const std::string key :
+       {"publish_rate", "state_publish_rate", "action_monitor_rate", "update_rate",
+        "stop_trajectory_duration", "cmd_timeout", "goal_tolerance", "max_effort",
+        "stall_velocity_threshold", "stall_timeout"}) {
     check_field(load_gains, {both, key, "\n", not_negative});
   }
   for (const std::string key : {"command_interfaces", "state_interfaces", "command_joints",

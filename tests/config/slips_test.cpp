@@ -230,3 +230,119 @@ TEST_CASE("which way round is noted where the file and the joint say different t
                       "elbow_active_joint: {p: 1, angle_wraparound: true, normalize_error: false}"),
              Contains("the same a second time"));
 }
+
+TEST_CASE("a decimal comma is told") {
+  const auto elbow = [](const std::string& gains) {
+    return of_gains(shoulder + "elbow_active_joint: {" + gains + "}\n");
+  };
+  CHECK(
+      of_gains(joints + "shoulder_active_joint:\n  p: 1,5\n") ==
+      "test:3:6: shoulder_active_joint.p: the word '1,5', expected a number with a decimal point, "
+      "1.5");
+  // In braces, YAML takes the comma for the end of the value.
+  const std::string braces =
+      "test:3:25: elbow_active_joint.p: the number 1 and behind a comma the key '5', expected a "
+      "decimal point, 1.5";
+  CHECK(elbow("p: 1,5") == braces);
+  CHECK(elbow("p: 1,5, d: 2") == braces);
+  CHECK_THAT(elbow("ff_velocity_scale: -2,5e-1"),
+             Contains("expected a decimal point, -2.5e-1"));  // and p misses
+  CHECK_THAT(elbow("p: 1, 5: 2"), Contains("unknown key '5'"));
+  CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p: 1}\ngravity: [0, 0, -9,8]\n"),
+             Contains("gravity: a list of 4, expected three numbers with decimal points"));
+  CHECK_THAT(of_waves("waveforms: {elbow_active_joint: {amplitude: 1,5, frequency: 1}}"),
+             Contains("elbow_active_joint.amplitude: the number 1 and behind a comma the key '5'"));
+  CHECK_THAT(of_manager("controller_manager:\n  update_rate: 1,5\n"),
+             Contains("expected a whole number from 1 to 1000000 with a decimal point, 1.5"));
+}
+
+TEST_CASE("characters that look like others are told") {
+  const auto p = [](const std::string& value) {
+    return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
+  };
+  CHECK_THAT(p("\xE2\x88\x92"
+               "1"),
+             Contains("expected a number with an ordinary minus sign, -"));
+  CHECK_THAT(p("1\xC2\xA0"), Contains("expected a number without no-break spaces"));
+  CHECK_THAT(p("$(arg p)"), Contains("expected a number; a placeholder is to be filled in before"));
+  CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p: 1, u_clamp_max: inf}"),
+             Contains("u_clamp_max: the word 'inf', expected a number; infinity is .inf"));
+  CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p:\xC2\xA0"
+                                 "1}"),
+             Contains("expected no no-break spaces"));
+  CHECK_THAT(of_gains(joints + "shoulder_active_joint: {p:1, d:2}\n"),
+             Contains("test:2:25: shoulder_active_joint.p:1: unknown key 'p:1', expected a blank "
+                      "behind the colon"));
+  CHECK_THAT(of_gains(joints + "shoulder_active_joint:\n  p:1\n"),
+             Contains("the word 'p:1', expected a map, and a blank behind the colon"));
+  CHECK_THAT(of_gains(joints + "shoulder_active_joint: {p=1}\n"),
+             Contains("unknown key 'p=1', expected a colon and a blank in place of '='"));
+  CHECK_THAT(of_gains(joints + "shoulder_active_joint: {p: ${p}}\n"),
+             Contains("test:2:") && Contains("it is not YAML") &&
+                 Contains("expected placeholders such as ${...}"));
+  CHECK_THAT(of_gains("joints: [$(var prefix)elbow]\n"),
+             Contains("robot 'q2d' has no joint '$(var prefix)elbow', a placeholder, expected"));
+  CHECK(of_gains(std::string("\xFF\xFE"
+                             "j\0",
+                             4)) == "test:1:1: it is UTF-16, expected UTF-8");
+  // Carriage returns alone end lines as well.
+  CHECK_THAT(of_gains("joints: [shoulder_active_joint, elbow_active_joint]\r"
+                      "shoulder_active_joint: {p: 1}\relbow_active_joint: {p: many}\r"),
+             Contains("test:3:25: elbow_active_joint.p: the word 'many'"));
+}
+
+TEST_CASE("waveforms below a joint of a controller are told where they belong") {
+  const std::string expected =
+      "expected 'waveforms' in the section itself, and the joints below it: waveforms: "
+      "{elbow_active_joint: {amplitude: ..., frequency: ...}}";
+  for (const std::string wave :
+       {"waveforms: [{amplitude: 1, frequency: 1}]", "waveforms: {amplitude: 1, frequency: 1}",
+        "amplitude: 1, frequency: 1", "type: step, height: 1"}) {
+    INFO(wave);
+    CHECK(of_waves("c:\n  joint: elbow_active_joint\n  elbow_active_joint: {" + wave + "}\n") ==
+          "test:3:3: c.elbow_active_joint: waveforms below 'elbow_active_joint', " + expected);
+    CHECK(of_waves("c:\n  ros__parameters:\n    elbow_active_joint: {" + wave + "}\n") ==
+          "test:3:5: c.ros__parameters.elbow_active_joint: waveforms below 'elbow_active_joint', " +
+              expected);
+  }
+  // A section that is a joint's may have them.
+  CHECK(of_waves("c: {elbow_active_joint: {waveforms: [{amplitude: 1, frequency: 1}]}}") == "none");
+  CHECK_THAT(of_waves("waveforms: {type: sine, amplitude: 1}"),
+             Contains("waveforms.type: robot 'q2d' has no joint 'type', expected one of shoulder"));
+}
+
+TEST_CASE("a waveform with another one's keys is told its own") {
+  const auto wave = [](const std::string& keys) {
+    return of_waves("waveforms:\n  elbow_active_joint: {" + keys + "}\n");
+  };
+  const std::string ramp =
+      "expected the keys of a ramp: height, duration [s], start [s]; its rate is height / duration";
+  CHECK(wave("type: ramp, rate: 1, duration: 2") ==
+        "test:2:36: waveforms.elbow_active_joint.rate: unknown key 'rate', " + ramp);
+  CHECK_THAT(wave("type: ramp, height: 1, rate: 2"), Contains("unknown key 'rate', " + ramp));
+  CHECK_THAT(wave("type: ramp, height: 1, duration: 2, rate: 2"),
+             Contains("unknown key 'rate', " + ramp));
+  CHECK_THAT(wave("type: step, amplitude: 1"),
+             Contains("unknown key 'amplitude', expected the keys of a step: height, start [s]"));
+  CHECK_THAT(
+      wave("type: chirp, amplitude: 1, f0: 1"),
+      Contains("unknown key 'f0', expected the keys of a chirp: amplitude, first_frequency"));
+  CHECK_THAT(
+      wave("amplitude: 1, omega: 1"),
+      Contains("unknown key 'omega', expected the keys of a sine: amplitude, frequency [Hz]"));
+  CHECK_THAT(wave("type: ramp, heigth: 1, duration: 2"),
+             Contains("unknown key 'heigth', expected 'height'? the keys of a ramp"));
+}
+
+TEST_CASE("what is there is named where something is missing") {
+  CHECK(
+      of_gains(shoulder + "elbow_active_joint: {waveforms: []}\n") ==
+      "test:3:21: elbow_active_joint: the key 'p' is missing, expected it here, where 'waveforms' "
+      "is unknown");
+  CHECK(of_gains("a: {ros__parameters: {joints: [x]}}\nb: {ros__parameters: {joints: [x]}}\n") ==
+        "test: there is no controller with gains in it, expected one besides a, b");
+  CHECK(of_manager("gains: {elbow_active_joint: {p: 1}}\n") ==
+        "test: there is no controller_manager in it, expected one");
+  CHECK(of_gains("a:\n  ros__parameters:\n  joints: [x]\n") ==
+        "test:2:3: a.ros__parameters: nothing, expected a map of parameters, further to the right");
+}

@@ -20,16 +20,32 @@ using support::to_eigen;
 
 namespace {
 
-Link ball(const Name& name) {
+constexpr Link ball(const Name& name) {
   return {.name = name, .mass = 1, .inertia = {.xx = 1, .yy = 1, .zz = 1}};
 }
 
-Joint turning(const Name& name, const Name& parent, const Name& child) {
+constexpr Joint turning(const Name& name, const Name& parent, const Name& child) {
   return {.name = name, .type = JointType::revolute, .parent = parent, .child = child};
 }
 
 template <std::size_t N>
 using Names = std::array<std::string_view, N>;
+
+/// A chain whose description a function fills member by member.
+struct Chain {
+  static constexpr auto description = [] {
+    RobotDescription<3, 2> chain;
+    chain.name = "chain";
+    chain.links = {ball("root"), ball("upper"), ball("lower")};
+    for (std::size_t i = 0; i < chain.joints.size(); ++i) {
+      Joint& joint = chain.joints[i];
+      joint = turning(i == 0 ? "a" : "b", chain.links[i].name, chain.links[i + 1].name);
+      joint.origin = {0.3, 0, 0};
+      joint.orientation = {0.1, 0, 0.2};
+    }
+    return chain;
+  }();
+};
 
 }  // namespace
 
@@ -54,6 +70,16 @@ TEST_CASE("joints stand in the order of a depth-first walk, siblings by name") {
     for (std::size_t k = 0; k < 5; ++k) parents[k] = model.mechanism.bodies[k].parent;
     CHECK(parents == std::array{-1, 0, -1, 2, -1});
   } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("a description may be filled by a function") {
+  static_assert(joint_count<Chain> == 2);
+  const Blueprint same{.links = {ball("root"), ball("upper"), ball("lower")},
+                       .joints = {Chain::description.joints[0], Chain::description.joints[1]}};
+  const JointVector<2> q(0.4, -0.7);
+  const Eigen::Matrix4d placed = forward_kinematics(Chain{}, q, "lower").matrix();
+  const Eigen::Matrix4d expected = forward_kinematics(same.model<2>(), q, "lower").matrix();
+  CHECK((placed - expected).norm() < 4e-15);  // rounding: all numbers are about 1
 }
 
 TEST_CASE("fixed joints between siblings take part in the order") {

@@ -9,6 +9,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <utility>
 
 using namespace articula;
 using support::joint;
@@ -82,8 +84,67 @@ TEST_CASE("Text that is not XML") {
   CHECK(refusal("<!-- <robot>") == "URDF: line 1: a comment is not closed");
   CHECK(refusal("<![CDATA[ <robot>") == "URDF: line 1: a CDATA part is not closed");
   CHECK(refusal("<?xml version='1.0'>") == "URDF: line 1: a <? is not closed by ?>");
-  CHECK(refusal("<!DOCTYPE robot [<!ENTITY a 'aaaa'>]><robot/>") ==
-        "URDF: line 1: a document type or entity, which URDF has not");
+  CHECK(refusal("<!ELEMENT robot><robot/>") ==
+        "URDF: line 1: a <! that begins no comment, CDATA part or document type");
+  CHECK(refusal("<robot\n name='r' name='s'/>") ==
+        "URDF: line 2: the attribute 'name' is given twice");
+  CHECK(refusal(pendulum() + "\n" + pendulum()) ==
+        "URDF: line 2: a second element at the top; XML has one");
+  CHECK(refusal(pendulum() + "\n\n>") == "URDF: line 3: there is text outside of the robot");
+  const auto file = std::filesystem::temp_directory_path() / "articula_no_xml_test.urdf";
+  for (const auto& [text, fault] :
+       {std::pair<std::string, std::string>{" \n", "it is no XML: it has no tag"},
+        {"version 1", "it is no XML: it has no tag"},
+        {std::string("\xFF\xFE<\0r\0", 6), "it is UTF-16: save it as UTF-8"}}) {
+    std::ofstream(file, std::ios::binary) << text;
+    CHECK(refusal(file.string()) == file.string() + ": " + fault);
+  }
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("What a document type declares cannot be honoured, and is refused where it is used") {
+  const auto with = [](const std::string& declarations, const std::string& robot = pendulum()) {
+    return refusal("<!DOCTYPE robot [" + declarations + "]>\n" + robot);
+  };
+  const std::string entity = "<!ENTITY m '2'>";
+  CHECK(with(entity).empty());
+  std::string used = pendulum();
+  used.replace(used.find("\"2\""), 3, "\"&m;\"");
+  CHECK(with(entity, used) == "URDF: line 2: the entity &m; is used, but only XML's own are read");
+  CHECK(refusal("<robot name='r'>\n&m;</robot>") ==
+        "URDF: line 2: the entity &m; is used, but only XML's own are read");
+  CHECK(with("<!ATTLIST joint type CDATA 'fixed'>") ==
+        "URDF: line 1: a document type has values of attributes, which are not read");
+  CHECK(with("<!ATTLIST joint type CDATA #IMPLIED> <!ENTITY m '2'>").empty());
+  CHECK(with("<!ENTITY % x '<!ENTITY m 2>'>").empty());
+  CHECK(with("<!ENTITY % x ''> %x;") ==
+        "URDF: line 1: an entity of the document type is used, which is not read");
+  CHECK(with("<!ENTITY m ']>\n") == "URDF: line 1: a document type is not closed");
+  CHECK(refusal("<!DOCTYPE robot [\n") == "URDF: line 2: a document type is not closed");
+  CHECK(refusal("<!DOCTYPE robot [<!--\n]>") == "URDF: line 1: a comment is not closed");
+  CHECK(refusal("<robot name='r'><!DOCTYPE robot></robot>") ==
+        "URDF: line 1: a document type stands behind the beginning of the robot");
+  CHECK(refusal("<?x a=\"?>\"?>\n" + pendulum()) ==  // ends at the first ?>
+        "URDF: line 1: there is text outside of the robot");
+}
+
+TEST_CASE("What is left of xacro is named") {
+  const std::string advice = " is left of xacro: have it written out (xacro r.xacro > r.urdf)";
+  CHECK(refusal(robot("<xacro:property name='m' value='2'/><xacro:arm/>")) ==
+        "URDF: <xacro:property>" + advice);
+  std::string text = pendulum();  // complete, but for what is to be added
+  CHECK(refusal(text.insert(text.rfind("</robot>"), "<xacro:if value='1'/>")) ==
+        "URDF: <xacro:if>" + advice);
+  CHECK(refusal(with_joint("<limit effort=\"${e}\" velocity=\"1\"/>")) ==
+        "URDF: joint 'pivot': '${e}'" + advice);
+  CHECK(refusal(
+            pendulum(solid("$(arg p)rod"), joint("pivot", "continuous", "base", "$(arg p)rod"))) ==
+        "URDF: link '$(arg p)rod': '$(arg p)rod'" + advice);
+}
+
+TEST_CASE("Elements with capitals are not left out in silence") {
+  CHECK(refusal(robot(base + solid("rod") + "<Joint name=\"pivot\" type=\"fixed\"/>")) ==
+        "URDF: <Joint name=\"pivot\">: it is written <joint>");
 }
 
 TEST_CASE("Elements nested without end") {
@@ -93,7 +154,7 @@ TEST_CASE("Elements nested without end") {
 }
 
 TEST_CASE("XML that is no robot") {
-  CHECK(refusal("<link name='a'/>") == "URDF: there is no <robot>");
+  CHECK(refusal("<link name='a'/>") == "URDF: there is no <robot>, but <link>");
   CHECK(refusal("<robot/>") == "URDF: No name given for the robot.");
   CHECK(refusal(robot("")) == "URDF: No link elements found in urdf file");
   CHECK(refusal(robot(base)) == "URDF: robot 'r': no joint moves");
@@ -232,8 +293,10 @@ TEST_CASE("Joints that mimic nobody") {
   CHECK(mimics("j") ==
         "URDF: joint 'k': the joint that is to be mimicked is fixed or a mimic itself (j)");
   CHECK(mimics("k") == "URDF: joint 'k': it mimics itself");
-  CHECK(mimics("i", {.root = "a"}) ==
-        "URDF: joint 'k': it mimics 'i', which is not between root and tip");
+  CHECK(
+      mimics("i", {.root = "a"}) ==
+      "URDF: joint 'k': it mimics 'i', which is not between root and tip; lock 'i' where it is to "
+      "be, or choose root and tip with it between them");
 }
 
 TEST_CASE("Options that name nothing") {
@@ -245,6 +308,26 @@ TEST_CASE("Options that name nothing") {
         "URDF: link 'base': it is not beyond 'rod'");
   CHECK(refusal(pendulum(), {.locked = {"x"}}) ==
         "URDF: joint 'x': it is to be locked, but does not exist");
+}
+
+TEST_CASE("Options that are no figures of use") {
+  const auto tolerance = [](double value) {
+    return refusal(pendulum(), {.right_angle_tolerance = value});
+  };
+  CHECK(tolerance(0.1).empty());
+  CHECK(tolerance(0).empty());
+  CHECK(tolerance(0.2) == "URDF: right_angle_tolerance: it is 0.2, but must lie in 0 .. 0.1");
+  CHECK(tolerance(-1e-9) == "URDF: right_angle_tolerance: it is -1e-09, but must lie in 0 .. 0.1");
+  CHECK(tolerance(std::numeric_limits<double>::quiet_NaN()) ==
+        "URDF: right_angle_tolerance: it is nan, but must lie in 0 .. 0.1");
+  CHECK(tolerance(std::numeric_limits<double>::infinity()) ==
+        "URDF: right_angle_tolerance: it is inf, but must lie in 0 .. 0.1");
+  CHECK_THROWS_AS(read_urdf(pendulum(), {.right_angle_tolerance = 1}), UrdfError);
+
+  CHECK(refusal(pendulum(), {.locked = {{"pivot", 0}, {"pivot", 1}}}) ==
+        "URDF: joint 'pivot': it is to be locked at 0 and at 1");
+  CHECK(refusal(pendulum(), {.locked = {{"pivot", std::numeric_limits<double>::infinity()}}}) ==
+        "URDF: joint 'pivot': it cannot be locked at inf");
 }
 
 TEST_CASE("Limits in ros2_control that cannot be") {

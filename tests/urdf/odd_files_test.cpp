@@ -7,6 +7,7 @@
 #include "urdf_text.hpp"
 
 #include <string>
+#include <vector>
 
 using namespace articula;
 using Catch::Contains;
@@ -126,4 +127,138 @@ TEST_CASE("mimics that leave a joint no room are reported") {
                        finger("right", "b", "<mimic joint=\"left\" multiplier=\"-1\"/>"))));
   REQUIRE(description.notices.size() == 1);
   CHECK_THAT(description.notices[0], Contains("joint 'left'") && Contains("mimic"));
+}
+
+TEST_CASE("document types and processing instructions are passed over") {
+  const std::string rod = support::pendulum();
+  for (const std::string prolog :
+       {"<!DOCTYPE robot>", "<?xml version=\"1.0\"?>\n<!DOCTYPE robot SYSTEM \"a>b.dtd\">",
+        "<!DOCTYPE robot PUBLIC \"it's\" 'r\"' [\n]\n>",
+        "<!DOCTYPE robot [ <!ENTITY m \"]>\"> <!-- ]> ' --> <?pi ]> ' ?> <!ELEMENT robot (link)> "
+        "]>",
+        "<?x a > b \" ' <link> ?>", "<?xml version=\"1.0\"?><?xml-model href=\"a>b\"?>", "<?x?>"}) {
+    INFO(prolog);
+    CHECK_NOTHROW(load_urdf<1>(UrdfSource(prolog + "\n" + rod)));
+  }
+  std::string inside = rod;
+  inside.insert(inside.find("<joint"),
+                "<?x <joint> \" > & &m; ?><!-- &m; --><a><![CDATA[&m;]]></a>");
+  CHECK_NOTHROW(load_urdf<1>(UrdfSource(inside + "<?end > ?>")));
+  // Lines after it keep their numbers.
+  CHECK_THROWS_WITH(load_urdf<1>(UrdfSource("<!DOCTYPE robot [\n<!ENTITY m '2'>\n]>\n<robot a>")),
+                    Contains("line 4: an attribute has no value"));
+  // An ampersand alone is no XML, but people write it; entities of XML's own are read.
+  const auto named = load_urdf<1>(UrdfSource(
+      support::pendulum(solid("a & b"), joint("&lt;&#65;&amp;m;", "continuous", "base", "a & b"))));
+  CHECK(named.joints[0].name.view() == "<A&m;");
+}
+
+TEST_CASE("a mimic of a mimic that is left out follows the joint at the end of the line") {
+  // Two arms: end mimics mid, which is on the other one and mimics master.
+  const std::string file =
+      robot("<link name=\"base\"/>" + solid("a") + solid("b") + solid("c") +
+            joint("master", "continuous", "base", "a") +
+            joint("mid", "continuous", "base", "b",
+                  "<mimic joint=\"master\" multiplier=\"2\" offset=\"0.5\"/>") +
+            joint("end", "continuous", "a", "c",
+                  "<mimic joint=\"mid\" multiplier=\"-1\" offset=\"0.25\"/>"));
+  const auto end_of = [&](const UrdfOptions& options) {
+    const UrdfDescription robot = read_urdf(UrdfSource(file), options);
+    for (const Joint& joint : robot.joints) {
+      if (joint.name.view() == "end") return joint;
+    }
+    return Joint{};
+  };
+  for (const std::string tip : {"", "c"}) {
+    const Mimic mimic = end_of({.tip = tip}).mimic;
+    CHECK(mimic.joint.view() == "master");
+    CHECK(mimic.multiplier == -2);
+    CHECK(mimic.offset == -0.25);  // 0.25 - 0.5
+  }
+  // Held by one that is left out, at 0.25 - (2 * 0.125 + 0.5), or by the one between.
+  const std::string beyond = file.substr(0, file.rfind("</robot>")) + solid("d") +
+                             joint("tool", "continuous", "c", "d") + "</robot>";
+  const auto held = [&](const LockedJoint& lock) {
+    const UrdfDescription robot = read_urdf(UrdfSource(beyond), {.root = "a", .locked = {lock}});
+    REQUIRE(robot.joints[0].name.view() == "end");
+    CHECK(robot.joints[0].type == JointType::fixed);
+    return robot.joints[0].orientation.x;  // the axis is x
+  };
+  CHECK(held({"master", 0.125}) == Approx(-0.5));
+  CHECK(held({"mid", 1}) == Approx(-0.75));
+  CHECK_THROWS_WITH(read_urdf(UrdfSource(beyond), {.root = "a"}),
+                    Contains("joint 'end': it mimics 'master', which is not between root and tip; "
+                             "lock 'master' where it is to be"));
+}
+
+TEST_CASE("a place beyond the limits is reported") {
+  const std::string limit = "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"2\"/>";
+  const std::string file = robot(
+      "<link name=\"base\"/>" + solid("a") + solid("b") + solid("c") +
+      joint("elbow", "revolute", "base", "a", limit) +
+      joint("follower", "revolute", "a", "b", limit + "<mimic joint=\"elbow\" multiplier=\"2\"/>") +
+      joint("wheel", "continuous", "b", "c") +
+      "<ros2_control name=\"c\" type=\"system\"><joint name=\"elbow\"><state_interface "
+      "name=\"position\"><param name=\"initial_value\">1.5</param></state_interface></joint>"
+      "</ros2_control>");
+  const auto notices = [&](const UrdfOptions& options) {
+    return read_urdf(UrdfSource(file), options).notices;
+  };
+  using Notices = std::vector<std::string>;
+  CHECK(notices({}) ==
+        Notices{"joint 'elbow': its initial_value is 1.5, beyond its limits, -1 .. 1"});
+  CHECK(notices({.locked = {{"elbow", 0.5}, {"follower", -1}}}).empty());
+  CHECK(notices({.locked = {{"elbow", 0.75}}}) ==
+        Notices{"joint 'follower': it is locked at 1.5, beyond its limits, -1 .. 1"});
+  CHECK(notices({.locked = {{"elbow", -1.25}, "follower"}}) ==
+        Notices{"joint 'elbow': it is locked at -1.25, beyond its limits, -1 .. 1"});
+  CHECK(notices({.root = "b", .locked = {{"elbow", 3}, "follower"}}).size() == 1);
+  CHECK(notices({.locked = {{"wheel", 100}}}).size() == 1);  // of the initial_value
+}
+
+TEST_CASE("limits that do not count, and reductions of 0, are reported") {
+  const auto notices = [](const std::string& text) { return read_urdf(UrdfSource(text)).notices; };
+  const auto limited = [&](const std::string& bounds) {
+    return notices(support::pendulum(solid("rod"),
+                                     joint("pivot", "continuous", "base", "rod",
+                                           "<limit effort=\"1\" velocity=\"1\" " + bounds + "/>")));
+  };
+  CHECK(limited("").empty());
+  CHECK(limited("lower=\"0\" upper=\"0\"").empty());
+  REQUIRE(limited("lower=\"-1\" upper=\"2\"").size() == 1);
+  CHECK(limited("lower=\"-1\" upper=\"2\"")[0] ==
+        "joint 'pivot': it is continuous, so its position limits do not count, -1 .. 2");
+  CHECK(notices(controlled("<command_interface name=\"position\">" + param("max", "3") +
+                           "</command_interface>"))
+            .size() == 1);
+
+  std::string geared = support::pendulum();
+  geared.insert(geared.rfind("</robot>"),
+                "<transmission name=\"t\"><joint name=\"pivot\"/><actuator name=\"m\">"
+                "<mechanicalReduction>0</mechanicalReduction></actuator></transmission>");
+  REQUIRE(notices(geared).size() == 1);
+  CHECK(notices(geared)[0] ==
+        "transmission 't': actuator 'm': its mechanical reduction is 0, so that it moves nothing");
+}
+
+TEST_CASE("a mimic that stands in ros2_control alone is reported") {
+  const auto notices = [](const std::string& mimic, const std::string& attributes,
+                          const std::string& inside) {
+    return read_urdf(UrdfSource(robot("<link name=\"base\"/>" + solid("a") + solid("b") +
+                                      joint("i", "continuous", "base", "a") +
+                                      joint("k", "continuous", "base", "b", mimic) +
+                                      "<ros2_control name=\"c\" type=\"system\"><joint name=\"k\"" +
+                                      attributes + ">" + inside + "</joint></ros2_control>")))
+        .notices;
+  };
+  const std::string follower = "<mimic joint=\"i\"/>",
+                    counts = ", but only <mimic> in the joint itself counts";
+  CHECK(notices(follower, "", param("mimic", "i")).empty());
+  CHECK(notices(follower, " mimic=\"true\"", "").empty());
+  REQUIRE(notices("", "", param("mimic", "i") + param("multiplier", "2")).size() == 1);
+  CHECK(notices("", "", param("mimic", "i"))[0] ==
+        "<ros2_control>: joint 'k' is to mimic 'i'" + counts);
+  REQUIRE(notices(follower, " mimic=\"false\"", "").size() == 1);
+  CHECK(notices(follower, " mimic=\"false\"", "")[0] ==
+        "<ros2_control>: joint 'k' is to mimic nobody" + counts);
 }

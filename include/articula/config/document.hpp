@@ -2,6 +2,7 @@
 /// @file Reads YAML. Needs the CMake target articula::config (yaml-cpp).
 #pragma once
 
+#include "articula/config/characters.hpp"
 #include "articula/config/error.hpp"
 #include "articula/config/node.hpp"
 #include "articula/config/scalar.hpp"
@@ -200,34 +201,12 @@ class ConfigBuilder final : public YAML::EventHandler {
   ConfigNode root_{};
 };
 
-/// What YAML parsers disagree on: NUL, and tabs as indentation.
-inline void check_characters(const std::string& file, std::string_view text) {
-  int line = 1, column = 1;
-  bool indentation = true;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    const char c = text[k];
-    if (c == '\0') throw ConfigError({file, line, column, ""}, "a NUL character", "text");
-    if (c == '\t' && indentation) {
-      const std::size_t next = text.find_first_not_of(" \t\r", k);
-      if (next != std::string_view::npos && text[next] != '\n') {
-        throw ConfigError({file, line, column, ""}, "a tab in the indentation", "spaces");
-      }
-    }
-    if (c != ' ') indentation = false;
-    ++column;
-    if (c != '\n') continue;
-    ++line;
-    column = 1;
-    indentation = true;
-  }
-}
-
 /// Reads the one document of a YAML file. Equal keys, nesting without end and aliases that multiply
 /// are refused.
 /// @throws ConfigError with file, line and column
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ConfigNode read_document(const ConfigSource& source) {
-  const std::string text = source.contents();
+  const std::string text = with_line_feeds(source.contents());
   check_characters(source.name(), text);
   std::istringstream stream(text);
   ConfigBuilder builder(source.name());
@@ -236,7 +215,9 @@ inline void check_characters(const std::string& file, std::string_view text) {
     while (parser.HandleNextDocument(builder)) continue;
   } catch (const YAML::Exception& error) {
     const int line = std::max(error.mark.line, 0) + 1, column = std::max(error.mark.column, 0) + 1;
-    throw ConfigError({source.name(), line, column, ""}, "it is not YAML: " + shown(error.msg), "");
+    const bool is_template = has_placeholder(line_of(text, line));
+    throw ConfigError({source.name(), line, column, ""}, "it is not YAML: " + shown(error.msg),
+                      is_template ? "placeholders such as ${...} to be filled in before" : "");
   }
   ConfigNode root = builder.take();
   if (root.kind == ConfigNode::Kind::nothing) {

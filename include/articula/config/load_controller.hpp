@@ -3,6 +3,7 @@
 /// target articula::config (yaml-cpp).
 #pragma once
 
+#include "articula/config/chosen_sections.hpp"
 #include "articula/config/controller_config.hpp"
 #include "articula/config/read_controller.hpp"
 #include "articula/config/robot_joints.hpp"

@@ -8,6 +8,7 @@
 #include "articula/config/source.hpp"
 #include "articula/config/unused_parameters.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,15 @@ struct ControllerManagerConfig {
 };
 
 namespace detail {
+
+/// Whether parameters without a name can be those of the controller manager.
+[[nodiscard]] inline bool is_manager(const ConfigNode& parameters) {
+  for (const char* key : {"update_rate", "thread_priority", "cpu_affinity", "lock_memory"}) {
+    if (parameters.find(key) != nullptr) return true;
+  }
+  return std::any_of(parameters.items.begin(), parameters.items.end(),
+                     [](const ConfigNode& item) { return item.find("type") != nullptr; });
+}
 
 inline void take_unused_manager_parameters(ConfigMap& map) {
   using enum UnusedParameter::Kind;
@@ -70,7 +80,8 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
   const detail::ConfigSections all = detail::find_sections(source);
   const ConfigSection* section = nullptr;
   for (const ConfigSection& each : all.sections) {
-    if (each.name != "controller_manager" && !(each.name.empty() && all.sections.size() == 1)) {
+    const bool alone = each.name.empty() && all.sections.size() == 1;
+    if (each.name != "controller_manager" && !(alone && detail::is_manager(each.parameters))) {
       continue;
     }
     if (section != nullptr) {

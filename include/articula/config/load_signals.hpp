@@ -2,19 +2,18 @@
 /// @file Reads waveforms for joints from a file. Needs the CMake target articula::config (yaml-cpp).
 #pragma once
 
+#include "articula/config/chosen_sections.hpp"
+#include "articula/config/read_signal.hpp"
 #include "articula/config/reader.hpp"
 #include "articula/config/robot_joints.hpp"
-#include "articula/config/section.hpp"
 #include "articula/config/signal_bounds.hpp"
 #include "articula/config/source.hpp"
 #include "articula/config/unused_parameters.hpp"
 #include "articula/reference/joint_signals.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -47,6 +46,13 @@ class SignalReader {
   void read(const ConfigSection& section) {
     ConfigMap map(ConfigValue(file_, section.parameters, section.path), config_.notes);
     const ConfigNode& node = map.value().node();
+    if (const ConfigNode* joint = misplaced_waveforms(node, robot_)) {
+      throw ConfigError(
+          {file_, joint->key_mark.line, joint->key_mark.column, map.value().at(*joint).place().key},
+          "waveforms below '" + shown(joint->key) + "'",
+          "'waveforms' in the section itself, and the joints below it: waveforms: {" +
+              shown(joint->key) + ": {amplitude: ..., frequency: ...}}");
+    }
     const bool is_one = !section.name.empty() || node.find("joint") || node.find("joint_name");
     if (is_one && !node.find("waveforms")) {
       take_unused_controller_parameters(map);
@@ -81,6 +87,7 @@ class SignalReader {
         ConfigMap one(item, config_.notes);
         auto joint = named_joint(one);
         if (!joint && joints.size() == 1) joint = joints.front();
+        if (!joint && robot_.has(section.name)) joint = Joint{section.name, item.place()};
         if (!joint) {
           static_cast<void>(one.expect("joint"));
           one.finish();
@@ -93,6 +100,7 @@ class SignalReader {
     for (const ConfigNode& item : by_joint.value().node().items) {
       const ConfigValue value = waveforms->at(item);
       const Joint joint{item.key, value.place()};
+      static_cast<void>(robot_.index(joint.name, joint.place));  // before what is below it
       if (!item.is_list()) {
         read_one(ConfigMap(value, config_.notes), joint);
         continue;
@@ -176,7 +184,7 @@ class SignalReader {
     target = read_target(map, target);
     const bool effort = target == SignalTarget::effort;
     const double limit = effort ? limits_[index] : std::numeric_limits<double>::infinity();
-    const Signal signal = read_shape(map, limit);
+    const Signal signal = SignalShapeReader(map, limit).read();
     map.finish();
     const auto fault = std::visit([](const auto& any) { return any.fault(); }, signal);
     if (!fault.empty()) map.value().refuse(std::string(fault), "a signal that can be evaluated");
@@ -189,86 +197,6 @@ class SignalReader {
       drives_[index].signals.push_back(signal);
       drives_[index].last = map.value().place();
     }
-  }
-
-  [[nodiscard]] static std::string at_most(double limit) {
-    std::ostringstream text;
-    text << "at most the drive's limit, " << limit;
-    return text.str();
-  }
-
-  /// A number that must not be beyond what the drive can give: the loop would cut it off, and the
-  /// signal would be another.
-  [[nodiscard]] static double limited(const ConfigValue& value, double number, double limit) {
-    if (std::abs(number) <= limit) return number;
-    std::ostringstream reason;
-    reason << "an effort of " << std::abs(number) << " N m or N";
-    value.refuse(reason.str(), at_most(limit));
-  }
-
-  [[nodiscard]] static Signal read_shape(ConfigMap& map, double limit) {
-    const auto number = [&](std::string_view key) {
-      const auto value = map.find(key);
-      return value ? value->number() : 0;
-    };
-    const auto height = [&](std::string_view key) {
-      const auto value = map.expect(key);
-      return value ? limited(*value, value->number(), limit) : 0;
-    };
-    const auto positive = [&](std::string_view key) {
-      const auto value = map.expect(key);
-      return value ? value->positive() : 1;
-    };
-    std::size_t shape = 0;
-    if (const auto type = map.find("type")) {
-      if (type->node().text.find('/') != std::string::npos) {
-        static_cast<void>(type->word());
-        map.note(*type, "not used: a plugin's name, no waveform's; this one is a sine");
-      } else {
-        shape = type->one_of({"sine", "sin", "sinusoid", "step", "ramp", "chirp"});
-      }
-    }
-    if (shape == 3) return StepSignal{.height = height("height"), .start = number("start")};
-    if (shape == 4) {
-      return RampSignal{
-          .height = height("height"), .duration = positive("duration"), .start = number("start")};
-    }
-    if (shape == 5) {
-      return ChirpSignal{.amplitude = height("amplitude"),
-                         .first_frequency = frequency(map.expect("first_frequency")),
-                         .last_frequency = frequency(map.expect("last_frequency")),
-                         .duration = positive("duration"),
-                         .start = number("start")};
-    }
-    SineSignal sine{.amplitude = height("amplitude"),
-                    .frequency = read_frequency(map),
-                    .phase = number("phase")};
-    if (const auto offset = map.find("offset")) {
-      sine.offset = offset->number();
-      static_cast<void>(limited(*offset, std::abs(sine.offset) + std::abs(sine.amplitude), limit));
-    }
-    return sine;
-  }
-
-  /// In hertz, as a period or as an angular frequency; one of them.
-  [[nodiscard]] static double read_frequency(ConfigMap& map) {
-    const auto period = map.find("period"), angular = map.find("angular_frequency");
-    const auto hertz = period || angular ? map.find("frequency") : map.expect("frequency");
-    if (period && angular) angular->refuse("a period is given, too", "one of them");
-    if (hertz && (period || angular)) {
-      hertz->refuse("a period or an angular frequency is given, too", "one of them");
-    }
-    if (period) return frequency(*period, 1 / period->positive());
-    if (angular) return frequency(*angular, angular->positive() / (2 * std::numbers::pi));
-    return frequency(hertz);
-  }
-  [[nodiscard]] static double frequency(const std::optional<ConfigValue>& value) {
-    return value ? frequency(*value, value->positive()) : 1;
-  }
-  /// No joint follows a megahertz: a slip of the unit.
-  [[nodiscard]] static double frequency(const ConfigValue& value, double hertz) {
-    if (hertz > 1e6) value.refuse("at most 1e6 Hz");
-    return hertz;
   }
 
   const RobotJoints& robot_;
@@ -294,8 +222,7 @@ class SignalReader {
 /// @param source  a file, or a ConfigSource::text
 /// @param name    of the section; need not be given where all waveforms of the file are meant
 /// @throws ConfigError with file, line, key and what was expected: an unknown joint or key, a
-///         signal that cannot be evaluated, an effort beyond the drive's limit,
-///         alone or with the joint's others
+///         signal that cannot be evaluated, an effort beyond the drive's limit, alone or summed up
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] SignalConfig load_signals(const R& robot, const ConfigSource& source,
@@ -305,7 +232,8 @@ template <Robot R>
   const auto relevant = [&](const detail::ConfigSection& section) {
     const auto has = [&](const char* key) { return section.parameters.find(key) != nullptr; };
     return has("waveforms") || has("amplitude") || has("height") ||
-           detail::is_joint(section, joints);
+           detail::is_joint(section, joints) ||
+           detail::misplaced_waveforms(section.parameters, joints) != nullptr;
   };
   const auto limits = effort_limits(robot);
   detail::SignalReader reader(joints, {limits.data(), limits.data() + limits.size()}, all.file);

@@ -4,6 +4,7 @@
 
 #include "articula/config/controller_config.hpp"
 #include "articula/config/read_gains.hpp"
+#include "articula/config/read_lists.hpp"
 #include "articula/config/reader.hpp"
 #include "articula/config/robot_joints.hpp"
 #include "articula/config/section.hpp"
@@ -17,42 +18,6 @@
 #include <vector>
 
 namespace articula::detail {
-
-/// Names of joints, none of them twice.
-[[nodiscard]] inline std::vector<ConfiguredJoint> read_joint_list(const ConfigValue& value) {
-  constexpr std::size_t most = 1000;
-  std::vector<ConfiguredJoint> joints;
-  if (value.list().size() > most) value.refuse("at most 1000 names");
-  for (const ConfigValue& item : value.list()) {
-    const std::string name = item.word();
-    for (const ConfiguredJoint& joint : joints) {
-      if (joint.name == name)
-        item.refuse("'" + shown(name) + "' a second time", "every joint once");
-    }
-    joints.push_back({.name = name, .place = item.place()});
-  }
-  if (joints.empty()) value.refuse("the names of joints");
-  return joints;
-}
-
-[[nodiscard]] inline Vector3<double> read_vector(const ConfigValue& value,
-                                                 std::vector<std::string>& notes) {
-  if (value.node().is_list()) {
-    const auto items = value.list();
-    if (items.size() != 3) value.refuse("three numbers, or a map of x, y and z");
-    return {items[0].number(), items[1].number(), items[2].number()};
-  }
-  if (!value.node().is_map()) value.refuse("a map of x, y and z, or three numbers");
-  ConfigMap map(value, notes);
-  const auto part = [&](std::string_view key) {
-    const auto found = map.find(key);
-    return found ? found->number() : 0;
-  };
-  static_cast<void>(map.expect("z"));
-  const double x = part("x"), y = part("y"), z = part("z");
-  map.finish();
-  return {x, y, z};
-}
 
 /// Reads the parameters of one controller.
 class ControllerReader {
@@ -232,14 +197,12 @@ class ControllerReader {
       config_.gravity_place = value->place();
     }
     if (auto chain = map_.find_map("chain")) {
-      if (const auto root = chain->find("root")) {
-        config_.chain_root = root->word();
-        config_.chain_root_place = root->place();
-      }
-      if (const auto tip = chain->find("tip")) {
-        config_.chain_tip = tip->word();
-        config_.chain_tip_place = tip->place();
-      }
+      const auto read = [&](std::string_view key, std::string& to, ConfigPlace& place) {
+        const auto value = chain->find(key);
+        if (value) to = value->word(), place = value->place();
+      };
+      read("root", config_.chain_root, config_.chain_root_place);
+      read("tip", config_.chain_tip, config_.chain_tip_place);
       chain->finish();
     }
     if (const auto value = map_.find("priority")) {

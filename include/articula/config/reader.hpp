@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Takes values out of a configuration, and says what is wrong with them.
+/// @file Takes values out of the maps of a configuration, and says what is wrong with them.
 #pragma once
 
+#include "articula/config/config_value.hpp"
 #include "articula/config/error.hpp"
 #include "articula/config/node.hpp"
 #include "articula/config/scalar.hpp"
-#include "articula/core/finite.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -18,100 +17,6 @@
 
 namespace articula::detail {
 
-/// A value of a configuration and its place. It refers to the tree, which must live on.
-class ConfigValue {
- public:
-  ConfigValue(std::string file, const ConfigNode& node, std::string path)
-      : file_(std::move(file)), node_(&node), path_(std::move(path)) {}
-
-  [[nodiscard]] const ConfigNode& node() const noexcept { return *node_; }
-  [[nodiscard]] ConfigPlace place() const {
-    return {file_, node_->mark.line, node_->mark.column, path_};
-  }
-  [[noreturn]] void refuse(const std::string& reason, const std::string& expected) const {
-    throw ConfigError(place(), reason, expected);
-  }
-  /// @throws ConfigError: what stands there, and what should
-  [[noreturn]] void refuse(const std::string& expected) const { refuse(what_is(*node_), expected); }
-
-  /// A finite number.
-  [[nodiscard]] double number() const {
-    const double value = number_or_infinity();
-    if (!is_finite(value)) refuse("a finite number");
-    return value;
-  }
-  /// A number, or infinity in either direction.
-  [[nodiscard]] double number_or_infinity() const {
-    const auto value = plain() ? as_number(node_->text) : std::nullopt;
-    if (!value || std::isnan(*value)) refuse("a number");
-    return *value;
-  }
-  /// A finite number >= 0.
-  [[nodiscard]] double not_negative() const {
-    const double value = number();
-    if (value < 0) refuse("a number >= 0");
-    return value;
-  }
-  /// A finite number > 0.
-  [[nodiscard]] double positive() const {
-    const double value = number();
-    if (value <= 0) refuse("a number > 0");
-    return value;
-  }
-  /// A whole number.
-  [[nodiscard]] int integer(int lowest, int highest) const {
-    const std::string expected =
-        "a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest);
-    const auto value = plain() ? as_number(node_->text) : std::nullopt;
-    if (!value || !(*value >= lowest && *value <= highest) || *value != std::floor(*value)) {
-      refuse(expected);
-    }
-    return static_cast<int>(*value);
-  }
-  [[nodiscard]] bool truth() const {
-    const auto value = plain() ? as_truth(node_->text) : std::nullopt;
-    if (!value) refuse("true or false");
-    return *value;
-  }
-  /// A name: text that is no number and no truth value, unless it is quoted.
-  [[nodiscard]] std::string word() const {
-    const bool good =
-        node_->kind == ConfigNode::Kind::scalar && !node_->text.empty() &&
-        (node_->quoted || (!parse_number(node_->text).is_number && !as_truth(node_->text)));
-    if (!good) refuse("a name");
-    return node_->text;
-  }
-  /// One of some words; the index of it.
-  [[nodiscard]] std::size_t one_of(const std::vector<std::string>& words) const {
-    for (std::size_t k = 0; k < words.size(); ++k) {
-      if (node_->kind == ConfigNode::Kind::scalar && node_->text == words[k]) return k;
-    }
-    refuse(what_is(*node_), choice_text(words, node_->text));
-  }
-  [[nodiscard]] std::vector<ConfigValue> list() const {
-    if (!node_->is_list()) refuse("a list");
-    std::vector<ConfigValue> values;
-    for (std::size_t k = 0; k < node_->items.size(); ++k) {
-      values.emplace_back(file_, node_->items[k], path_ + "[" + std::to_string(k) + "]");
-    }
-    return values;
-  }
-  /// The value under a key of this map.
-  [[nodiscard]] ConfigValue at(const ConfigNode& item) const {
-    if (!item.from.empty()) return {file_, item, item.from};
-    return {file_, item, (path_.empty() ? "" : path_ + ".") + shown(item.key)};
-  }
-
- private:
-  [[nodiscard]] bool plain() const noexcept {
-    return node_->kind == ConfigNode::Kind::scalar && !node_->quoted;
-  }
-
-  std::string file_;
-  const ConfigNode* node_;
-  std::string path_;
-};
-
 /// A map of a configuration. It remembers what was asked for: what is left over in the end is
 /// unknown.
 class ConfigMap {
@@ -120,7 +25,10 @@ class ConfigMap {
   /// @throws ConfigError if the value is no map
   ConfigMap(ConfigValue value, std::vector<std::string>& notes)
       : value_(std::move(value)), notes_(&notes) {
-    if (!value_.node().is_map()) value_.refuse("a map");
+    const ConfigNode& node = value_.node();
+    if (node.is_map()) return;
+    const std::string hint = node.kind == ConfigNode::Kind::scalar ? key_hint(node.text) : "";
+    value_.refuse("a map" + (hint.empty() ? hint : ", and " + hint));
   }
 
   [[nodiscard]] const ConfigValue& value() const noexcept { return value_; }
@@ -174,6 +82,7 @@ class ConfigMap {
       if (item.inherited && !knows(item.key)) note(value_.at(item), "not used here");
     }
     const auto others = unknown();
+    refuse_slips(others);
     const ConfigNode* wrong = others.empty() ? nullptr : others.front();
     if (!missing_.empty()) {
       // What is almost a key is a slip, and the likely reason why another one is missing.
@@ -181,18 +90,57 @@ class ConfigMap {
           others.begin() + static_cast<std::ptrdiff_t>(std::min(others.size(), tried));
       const auto slip = std::find_if(
           others.begin(), last, [&](const ConfigNode* item) { return nearly_knows(item->key); });
-      if (slip == last) value_.refuse("the key '" + missing_.front() + "' is missing", "it here");
+      if (slip == last) {
+        const std::string unknown =
+            wrong == nullptr ? "" : ", where '" + shown(wrong->key) + "' is unknown";
+        value_.refuse("the key '" + missing_.front() + "' is missing", "it here" + unknown);
+      }
       wrong = *slip;
     }
-    if (wrong == nullptr) return;
-    ConfigPlace place = value_.at(*wrong).place();
-    place.line = wrong->key_mark.line;
-    place.column = wrong->key_mark.column;
-    throw ConfigError(place, "unknown key '" + shown(wrong->key) + "'",
-                      choice_text(known_, wrong->key, listed));
+    if (wrong != nullptr) refuse_key(*wrong, choice_text(known_, wrong->key, listed));
+  }
+
+  /// @param keys      that may stand here, besides those that were asked for
+  /// @param expected  what to say if there is another one
+  /// @throws ConfigError if there is
+  void allow_only(const std::vector<std::string>& keys, const std::string& expected) const {
+    auto others = unknown();
+    std::erase_if(others, [&](const ConfigNode* item) {
+      return std::find(keys.begin(), keys.end(), item->key) != keys.end();
+    });
+    refuse_slips(others);
+    if (others.empty()) return;
+    const std::string* nearest = nearest_name(keys, others.front()->key);
+    refuse_key(*others.front(), (nearest ? "'" + *nearest + "'? " : "") + expected);
   }
 
  private:
+  [[noreturn]] void refuse_key(const ConfigNode& item, const std::string& expected) const {
+    ConfigPlace place = value_.at(item).place();
+    place.line = item.key_mark.line;
+    place.column = item.key_mark.column;
+    throw ConfigError(place, "unknown key '" + shown(item.key) + "'", expected);
+  }
+  /// What YAML takes for a key though nobody has meant one.
+  void refuse_slips(const std::vector<const ConfigNode*>& others) const {
+    for (const ConfigNode* item : others) {
+      const std::string hint = key_hint(item->key);
+      if (!hint.empty()) refuse_key(*item, hint);
+      // {p: 1,5} is p: 1 and 5: nothing.
+      const auto& items = value_.node().items;
+      const auto place = static_cast<std::size_t>(item - items.data());
+      if (place == 0 || item->kind != ConfigNode::Kind::nothing ||
+          item->key.find_first_not_of("0123456789eE+-") != std::string::npos) {
+        continue;
+      }
+      const ConfigNode& before = items[place - 1];
+      const std::string number = before.text + "." + item->key;
+      if (before.key_mark.line != item->key_mark.line || !parse_number(number).is_number) continue;
+      value_.at(before).refuse("the number " + shown(before.text) +
+                                   " and behind a comma the key '" + shown(item->key) + "'",
+                               "a decimal point, " + shown(number));
+    }
+  }
   [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
     std::vector<const ConfigNode*> items;
     for (const ConfigNode& item : value_.node().items) {

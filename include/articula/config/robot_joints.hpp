@@ -38,7 +38,8 @@ struct RobotJoints {
     const auto other = others.find(name);
     throw ConfigError(place,
                       other == others.end()
-                          ? robot + " has no joint '" + shown(name) + "'"
+                          ? robot + " has no joint '" + shown(name) + "'" +
+                                (has_placeholder(name) ? ", a placeholder" : "")
                           : "joint '" + shown(name) + "' of " + robot + " " + other->second,
                       choice_text(names, name));
   }

@@ -78,6 +78,37 @@ struct ParsedNumber {
   return number.in_range ? std::optional(number.value) : std::nullopt;
 }
 
+/// True if whoever launches ROS puts something else in place of the text, or of a part of it.
+[[nodiscard]] inline bool has_placeholder(std::string_view text) {
+  return text.find("${") != std::string_view::npos || text.find("$(") != std::string_view::npos;
+}
+
+/// What is likely to be wrong with a text that is to be a number, to be said behind what was
+/// expected; empty if that is not known.
+[[nodiscard]] inline std::string number_hint(std::string_view text) {
+  if (has_placeholder(text)) return "; a placeholder is to be filled in before";
+  if (text.find("\xC2\xA0") != std::string_view::npos) return " without no-break spaces";
+  for (const char* dash : {"\xE2\x88\x92", "\xE2\x80\x93", "\xE2\x80\x90"}) {
+    if (text.find(dash) != std::string_view::npos) return " with an ordinary minus sign, -";
+  }
+  std::string pointed(text);
+  const std::size_t comma = pointed.find(',');
+  if (comma != std::string::npos) pointed[comma] = '.';
+  if (comma != std::string::npos && parse_number(pointed).is_number) {
+    return " with a decimal point, " + shown(pointed);
+  }
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  return is_one_of(text, {"inf", "infinity"}) ? "; infinity is .inf" : "";
+}
+
+/// What is likely to be wrong with a key; empty if that is not known.
+[[nodiscard]] inline std::string key_hint(std::string_view key) {
+  if (key.find("\xC2\xA0") != std::string_view::npos) return "no no-break spaces";
+  if (key.find(':') != std::string_view::npos) return "a blank behind the colon";
+  if (key.find('=') != std::string_view::npos) return "a colon and a blank in place of '='";
+  return "";
+}
+
 /// True or false; yes, no, on and off are likewise, as in YAML 1.1.
 [[nodiscard]] inline std::optional<bool> as_truth(std::string_view text) {
   if (is_one_of(text, {"true", "yes", "on"})) return true;

@@ -5,11 +5,9 @@
 #include "articula/config/document.hpp"
 #include "articula/config/merge.hpp"
 #include "articula/config/reader.hpp"
-#include "articula/config/robot_joints.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,11 +27,6 @@ struct ConfigSection {
   /// Where it begins, for messages.
   [[nodiscard]] int line() const noexcept { return parameters.key_mark.line; }
 };
-
-/// True if a section is named after a joint, not a controller that is.
-[[nodiscard]] inline bool is_joint(const ConfigSection& section, const RobotJoints& joints) {
-  return section.type.empty() && joints.has(section.name);
-}
 
 /// The sections of a file, and the place of the file's top.
 struct ConfigSections {
@@ -113,7 +106,7 @@ class SectionFinder {
       } else if (const ConfigNode* parameters = item.find(ros_parameters)) {
         if (!parameters->is_map()) {
           ConfigValue(found_.file, *parameters, here + "." + std::string(ros_parameters))
-              .refuse("a map of parameters");
+              .refuse("a map of parameters, further to the right");
         }
         add(name, group, joined(here, std::string(ros_parameters), "."), *parameters);
         ConfigNode others = item;
@@ -224,49 +217,6 @@ class SectionFinder {
 /// @throws ConfigError if it is no YAML, or not of the kind that has sections
 [[nodiscard]] inline ConfigSections find_sections(const ConfigSource& source) {
   return SectionFinder(source).take();
-}
-
-/// Those sections of a file that are meant.
-/// @param name      of a controller, a namespace or a type of controllers; empty: any
-/// @param relevant  without a name, sections for which this is false are left out, and noted
-/// @param what      is looked for, for the message
-/// @param notes     receives what was left out
-/// @throws ConfigError if there is none
-[[nodiscard]] inline std::vector<ConfigSection> chosen_sections(
-    const ConfigSections& all, std::string_view name,
-    const std::function<bool(const ConfigSection&)>& relevant, const std::string& what,
-    std::vector<std::string>& notes) {
-  while (name.starts_with('/')) name.remove_prefix(1);
-  std::vector<std::string> names, left_out;
-  std::vector<ConfigSection> full, exact, chosen;
-  for (const ConfigSection& section : all.sections) {
-    if (section.name == "controller_manager") continue;
-    names.push_back(section.full_name());
-    if (!name.empty() && section.full_name() == name) full.push_back(section);
-    if (!name.empty() && section.name == name) exact.push_back(section);
-    const bool within = name.empty() || section.type == name || section.group == name ||
-                        section.group.starts_with(std::string(name) + "/");
-    if (within && relevant(section)) {
-      chosen.push_back(section);
-    } else if (name.empty()) {
-      left_out.push_back(all.file + ":" + std::to_string(section.line()) + ": " + section.path +
-                         ": not used, it is no " + what);
-    }
-  }
-  if (!full.empty()) return full;
-  if (!exact.empty()) return exact;
-  // A file that is nothing but parameters is anybody's.
-  if (chosen.empty() && all.sections.size() == 1 && all.sections[0].name.empty()) {
-    return all.sections;
-  }
-  notes.insert(notes.end(), left_out.begin(), left_out.end());
-  if (!chosen.empty()) return chosen;
-  if (name.empty()) {
-    throw ConfigError({.file = all.file}, "there is no " + what + " in it", "one");
-  }
-  throw ConfigError({.file = all.file},
-                    "there is no " + what + " called '" + shown(name) + "' in it",
-                    names.empty() ? "one" : choice_text(names, name));
 }
 
 }  // namespace articula::detail

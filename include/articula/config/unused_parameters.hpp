@@ -49,6 +49,7 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
   constexpr std::string_view interfaces = "the types in the program decide what is commanded";
   constexpr std::string_view topics = "nothing is published or received here";
   constexpr std::string_view loop = "a loop has one period and one thread";
+  constexpr std::string_view gripper = "there is no action of a gripper here";
   constexpr std::string_view follower = "see docs/references.md for what the follower does";
   take_unused(map, {{"command_interfaces", words, interfaces},
                     {"state_interfaces", words, interfaces},
@@ -69,6 +70,12 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
                     {"fallback_controllers", words, "see SupervisedLoop"},
                     {"set_current_state_as_first_setpoint", truth, "it always is"},
                     {"set_last_command_interface_value_as_state_on_activation", truth, follower},
+                    {"start_with_holding", truth, "it always does"},
+                    {"goal_tolerance", number, gripper},
+                    {"max_effort", number, gripper},
+                    {"stall_velocity_threshold", number, gripper},
+                    {"stall_timeout", number, gripper},
+                    {"allow_stalling", truth, gripper},
                     {"interpolate_from_desired_state", truth, follower},
                     {"open_loop_control", truth, follower},
                     {"allow_trajectory_replacement", truth, follower},

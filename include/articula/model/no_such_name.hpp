@@ -2,9 +2,9 @@
 /// @file Why a joint or link that was asked for by name is not there.
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/model/model.hpp"
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -15,7 +15,7 @@ template <class Elements>
 [[nodiscard]] std::string listed_names(const Elements& elements) {
   std::string list;
   for (const auto& element : elements) {
-    list += (list.empty() ? "" : ", ") + std::string(element.name.view());
+    list.append(list.empty() ? "" : ", ").append(element.name.view());
   }
   return list;
 }
@@ -26,39 +26,39 @@ template <class Elements>
 /// @return       one line with the robot, the name and what may be asked for instead
 template <class AnyModel>
 [[nodiscard]] std::string no_such_joint_text(const AnyModel& model, std::string_view name) {
-  const std::string robot = "robot '" + std::string(model.name.view()) + "'";
-  const std::string joint = "joint '" + std::string(name) + "'";
+  const std::string robot = message_of({"robot '", model.name.view(), "'"});
+  const std::string joint = message_of({"joint '", name, "'"});
   for (std::size_t body = 0; body < model.moving_joints.size(); ++body) {
     if (model.moving_joints[body].view() != name) continue;
     const auto followed = static_cast<std::size_t>(model.mechanism.couplings[body].joint);
-    return robot + ": " + joint + " mimics '" + std::string(model.joints[followed].name.view()) +
-           "': ask for that";
+    return message_of(
+        {robot, ": ", joint, " mimics '", model.joints[followed].name.view(), "': ask for that"});
   }
-  const std::string choice = "; joints: " + listed_names(model.joints);
+  const std::string choice = message_of({"; joints: ", listed_names(model.joints)});
   for (const LinkFrame& link : model.links) {
     if (!link.carrier.empty() && link.carrier.view() == name) {
-      return robot + ": " + joint + " is fixed" + choice;
+      return message_of({robot, ": ", joint, " is fixed", choice});
     }
   }
-  return robot + " has no " + joint + choice;
+  return message_of({robot, " has no ", joint, choice});
 }
 
 /// Likewise for links.
 template <class AnyModel>
 [[nodiscard]] std::string no_such_link_text(const AnyModel& model, std::string_view name) {
-  return "robot '" + std::string(model.name.view()) + "' has no link '" + std::string(name) +
-         "'; links: " + listed_names(model.links);
+  return message_of({"robot '", model.name.view(), "' has no link '", name,
+                     "'; links: ", listed_names(model.links)});
 }
 
 /// No constant expressions: compilers name them where a constant asks for what is not there.
 template <class AnyModel>
 [[noreturn]] void no_such_joint(const AnyModel& model, std::string_view name) {
-  throw std::invalid_argument(no_such_joint_text(model, name));
+  refuse({no_such_joint_text(model, name)});
 }
 /// @copydoc no_such_joint
 template <class AnyModel>
 [[noreturn]] void no_such_link(const AnyModel& model, std::string_view name) {
-  throw std::invalid_argument(no_such_link_text(model, name));
+  refuse({no_such_link_text(model, name)});
 }
 
 }  // namespace articula::detail

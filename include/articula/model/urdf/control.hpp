@@ -50,6 +50,7 @@ class ControlReader {
     for_each_child(robot, "ros2_control", [this](const XmlElement& control) {
       for_each_child(control, "joint", [this](const auto& e) {
         add_limits(e);
+        add_mimic(e);
         add_initial_values(e);
       });
       for_each_child(control, "transmission", [this](const auto& e) { add_transmission(e); });
@@ -58,6 +59,7 @@ class ControlReader {
 
   std::map<std::string, JointLimits> limits{};                ///< of the commands, by joint
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint
+  std::map<std::string, std::string> mimics{};                ///< whom, by joint; empty: nobody
   std::vector<UrdfTransmission> transmissions{};
 
  private:
@@ -107,6 +109,15 @@ class ControlReader {
       if (kind != "position") return;
       narrowed.lower = std::max(narrowed.lower, bounds.lower);
       narrowed.upper = std::min(narrowed.upper, bounds.upper);
+    });
+  }
+
+  /// <joint mimic="false"> and, as in older versions, <param name="mimic">.
+  void add_mimic(const XmlElement& joint) {
+    const std::string name = attribute(joint, "name");
+    if (attribute(joint, "mimic") == "false") mimics[name] = "";
+    for_each_child(joint, "param", [&](const XmlElement& param) {
+      if (attribute(param, "name") == "mimic") mimics[name] = text_of(param);
     });
   }
 

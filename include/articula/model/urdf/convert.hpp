@@ -95,6 +95,7 @@ namespace detail {
           .orientation = document.joint_orientations.at(joint.name)};
 }
 
+/// A joint without whom it mimics, see leader_of.
 [[nodiscard]] inline Joint joint_of(const UrdfDocument& document, const urdf::Joint& joint) {
   Joint result = fixed_joint_of(document, joint);
   result.type = type_of(document, joint);
@@ -104,10 +105,6 @@ namespace detail {
   if (joint.dynamics) {
     result.damping = joint.dynamics->damping;
     result.friction = joint.dynamics->friction;
-  }
-  if (joint.mimic) {
-    result.mimic = {name_of(document, joint.mimic->joint_name), joint.mimic->multiplier,
-                    joint.mimic->offset};
   }
   return result;
 }

@@ -5,13 +5,13 @@
 #include "articula/model/urdf/convert.hpp"
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
+#include "articula/model/urdf/leader.hpp"
+#include "articula/model/urdf/notices.hpp"
 #include "articula/model/urdf/options.hpp"
 #include "articula/model/validation.hpp"
 
+#include <algorithm>
 #include <map>
-#include <optional>
-#include <set>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -31,9 +31,11 @@ struct UrdfDescription {
   std::vector<UrdfTransmission> transmissions{};              ///< all of the file
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint, from <ros2_control>
   std::vector<std::string> notices{};  ///< what the user should know, a line each:
-                                       ///< inertias that no real body has, limits of 0,
-                                       ///< links that move without <inertial>, and
-                                       ///< names that lead nowhere
+                                       ///< inertias that no real body has, limits of 0 and
+                                       ///< those of continuous joints, places beyond limits,
+                                       ///< links that move without <inertial>, names that lead
+                                       ///< nowhere, reductions of 0, and mimics that stand in
+                                       ///< <ros2_control> alone
 };
 
 namespace detail {
@@ -42,9 +44,10 @@ namespace detail {
 class UrdfReader {
  public:
   UrdfReader(const UrdfDocument& document, const UrdfOptions& options)
-      : document_(document), options_(options) {}
+      : document_(document), options_(options), notices_(document) {}
 
   [[nodiscard]] UrdfDescription read() {
+    check_options();
     result_ = {.file = document_.file,
                .name = name_of(document_, document_.robot->getName()),
                .gravity = options_.gravity,
@@ -55,9 +58,9 @@ class UrdfReader {
     select();
     lock();
     for (const urdf::Joint* joint : selected_) add(*joint);
-    fold_mimics();
     check();
-    note_oddities();
+    notices_.add_robot(result_.links, result_.joints);
+    result_.notices = notices_.take();
     return std::move(result_);
   }
 
@@ -99,58 +102,62 @@ class UrdfReader {
     }
   }
 
-  /// Where joints are held: those that are named, and those that mimic one of them.
+  [[noreturn]] void fail(const std::string& joint, const std::string& reason) const {
+    fail("joint '" + joint + "': " + reason);
+  }
+
+  void check_options() const {
+    const double tolerance = options_.right_angle_tolerance;
+    if (tolerance >= 0 && tolerance <= 0.1) return;
+    fail("right_angle_tolerance: it is " + rounded_text(tolerance) + ", but must lie in 0 .. 0.1");
+  }
+
+  /// Where joints are held that are named.
   void lock() {
-    for (const LockedJoint& locked : options_.locked) {
-      if (!document_.robot->joints_.contains(locked.name)) {
-        fail("joint '" + locked.name + "': it is to be locked, but does not exist");
+    for (const auto& [joint, position] : options_.locked) {
+      const auto found = document_.robot->joints_.find(joint);
+      if (found == document_.robot->joints_.end()) {
+        fail(joint, "it is to be locked, but does not exist");
       }
-      held_[locked.name] = locked.position;
-    }
-    for (std::size_t before = 0; before != held_.size();) {
-      before = held_.size();
-      for (const urdf::Joint* joint : selected_) {
-        if (!joint->mimic || held_.contains(joint->name)) continue;
-        const auto followed = held_.find(joint->mimic->joint_name);
-        if (followed == held_.end()) continue;
-        held_[joint->name] = joint->mimic->multiplier * followed->second + joint->mimic->offset;
+      if (!is_finite(position)) fail(joint, "it cannot be locked at " + rounded_text(position));
+      const auto [held, first] = held_.try_emplace(joint, position);
+      if (!first && held->second != position) {
+        fail(joint, "it is to be locked at " + rounded_text(held->second) + " and at " +
+                        rounded_text(position));
       }
+      if (first) notices_.add_lock(*found->second, position);
     }
   }
 
   void add(const urdf::Joint& joint) {
-    const auto held = held_.find(joint.name);
-    result_.joints.push_back(held == held_.end() ? joint_of(document_, joint)
-                                                 : locked_joint_of(document_, joint, held->second));
+    const Leader leader = leader_of(document_, held_, joint);
+    const bool mimics = leader.joint != joint.name;
+    if (const auto held = held_.find(leader.joint); held != held_.end()) {
+      const double position = leader.multiplier * held->second + leader.offset;
+      result_.joints.push_back(locked_joint_of(document_, joint, position));
+      if (mimics) notices_.add_lock(joint, position);
+    } else {
+      result_.joints.push_back(joint_of(document_, joint));
+      if (mimics) {
+        check_leader(joint.name, leader.joint);
+        result_.joints.back().mimic = {name_of(document_, leader.joint), leader.multiplier,
+                                       leader.offset};
+      }
+    }
     result_.links.push_back(link_of(document_, *document_.robot->links_.at(joint.child_link_name)));
   }
 
-  /// Lets a joint that mimics a mimic follow the joint at the end of the line.
-  void fold_mimics() {
-    std::map<std::string_view, Joint*> joints;
-    for (Joint& joint : result_.joints) joints[joint.name.view()] = &joint;
-    for (Joint& joint : result_.joints) {
-      for (std::size_t step = 0; !joint.mimic.joint.empty(); ++step) {
-        const auto found = joints.find(joint.mimic.joint.view());
-        if (found == joints.end() || found->second->mimic.joint.empty()) break;
-        if (step > joints.size()) {
-          fail("joint '" + std::string(joint.name.view()) + "': it mimics itself");
-        }
-        const Mimic& next = found->second->mimic;
-        joint.mimic = {next.joint, joint.mimic.multiplier * next.multiplier,
-                       joint.mimic.multiplier * next.offset + joint.mimic.offset};
-      }
-    }
+  /// Without its leader, nothing says where a joint is.
+  void check_leader(const std::string& joint, const std::string& leader) const {
+    const bool exists = document_.robot->joints_.contains(leader);  // else find_fault says so
+    const bool is_selected = std::any_of(selected_.begin(), selected_.end(),
+                                         [&](const auto* each) { return each->name == leader; });
+    if (!exists || is_selected) return;
+    fail(joint, "it mimics '" + leader + "', which is not between root and tip; lock '" + leader +
+                    "' where it is to be, or choose root and tip with it between them");
   }
 
   void check() const {
-    for (const Joint& joint : result_.joints) {
-      if (!joint.mimic.joint.empty() && index_of<Joint>(result_.joints, joint.mimic.joint) < 0 &&
-          document_.robot->joints_.contains(std::string(joint.mimic.joint.view()))) {
-        fail("joint '" + std::string(joint.name.view()) + "': it mimics '" +
-             std::string(joint.mimic.joint.view()) + "', which is not between root and tip");
-      }
-    }
     const DescriptionFault fault = find_fault(result_.name, result_.gravity, result_.links,
                                               result_.joints, options_.allow_unphysical);
     if (fault.rule == Rule::none) return;
@@ -159,65 +166,10 @@ class UrdfReader {
     fail(text);
   }
 
-  /// Limits of 0, as programs write them that do not know the figures. No reason to refuse a file:
-  /// dynamics have no use for them.
-  [[nodiscard]] static std::vector<std::string> limit_faults(const Joint& joint) {
-    std::vector<std::string> faults;
-    if (joint.type == JointType::fixed) return faults;
-    const std::string name = "joint '" + std::string(joint.name.view()) + "': ";
-    if (joint.limits.lower == joint.limits.upper) {
-      faults.push_back(name + "it has no room to move, lower and upper limit are " +
-                       rounded_text(joint.limits.lower));
-    }
-    if (joint.limits.velocity == 0) {
-      faults.push_back(name + "its velocity limit is 0, so it must not move");
-    }
-    if (joint.limits.effort == 0 && joint.mimic.joint.empty()) {
-      faults.push_back(name + "its effort limit is 0, so it cannot be driven");
-    }
-    return faults;
-  }
-
-  void note_oddities() {
-    const auto note = [this](const std::string& text) { result_.notices.push_back(text); };
-    for (const Link& link : result_.links) {
-      const Rule rule = broken_rule(link);
-      if (rule != Rule::none) note(fault_text({link.name, rule}, result_.links, {}));
-    }
-    for (const Joint& joint : result_.joints) {
-      const std::vector<std::string> faults = limit_faults(joint);
-      for (const std::string& fault : faults) note(fault);
-      if (joint.type != JointType::fixed && joint.mimic.joint.empty()) {
-        const JointLimits limits =
-            properties_of(std::span<const Joint>(result_.joints), joint).limits;
-        if (limits.lower == limits.upper && joint.limits.lower != joint.limits.upper) {
-          note("joint '" + std::string(joint.name.view()) +
-               "': those that mimic it leave it no room to move, lower and upper limit are " +
-               rounded_text(limits.lower));
-        }
-      }
-      const std::string child(joint.child.view());
-      if (joint.type == JointType::fixed || document_.robot->links_.at(child)->inertial) continue;
-      note("link '" + child + "': it has no <inertial>, so it counts as massless, though joint '" +
-           std::string(joint.name.view()) + "' moves it");
-    }
-    const auto exists = [this](const std::string& joint) {
-      return document_.robot->joints_.contains(joint);
-    };
-    for (const auto& [joint, limits] : document_.command_limits) {
-      if (!exists(joint)) note("<ros2_control>: joint '" + joint + "' does not exist");
-    }
-    for (const UrdfTransmission& transmission : document_.transmissions) {
-      for (const UrdfTransmissionEnd& end : transmission.joints) {
-        if (exists(end.name)) continue;
-        note("transmission '" + transmission.name + "': joint '" + end.name + "' does not exist");
-      }
-    }
-  }
-
   const UrdfDocument& document_;
   const UrdfOptions& options_;
   UrdfDescription result_{};
+  UrdfNotices notices_;
   std::vector<const urdf::Joint*> selected_{};
   std::map<std::string, double> held_{};  ///< position [rad or m] by joint
 };

@@ -30,6 +30,8 @@ struct UrdfDocument {
   std::map<std::string, Vector3<double>> inertia_orientations{};  ///< likewise by link
   std::map<std::string, JointLimits> command_limits{};            ///< from <ros2_control>, by joint
   std::map<std::string, UrdfInitialValues> initial_values{};      ///< likewise
+  std::map<std::string, std::string>
+      command_mimics{};  ///< likewise, whom a joint is to mimic; empty: nobody
   std::vector<UrdfTransmission> transmissions{};
 };
 
@@ -117,16 +119,23 @@ inline void blank_white_space(std::string& text) {
   UrdfDocument result{.file = source.name()};
   detail::XmlDocument document;
   detail::XmlElement& robot = detail::parse_xml(result.file, source.text(), document);
+  detail::refuse_xacro(result.file, robot);
 
   detail::ControlReader control(result.file);
   control.read(robot);
   result.command_limits = std::move(control.limits);
   result.initial_values = std::move(control.initial_values);
+  result.command_mimics = std::move(control.mimics);
   result.transmissions = std::move(control.transmissions);
 
   // TinyXML may read odd characters otherwise than it has written them, so from here on everybody
   // reads what it writes.
-  detail::keep_mechanics(robot);
+  detail::keep_mechanics(result.file, robot);
+  detail::for_each_child(robot, nullptr, [&](const detail::XmlElement& element) {
+    const std::string where =
+        std::string(element.Value()) + " '" + detail::attribute(element, "name") + "'";
+    detail::refuse_placeholders(result.file, where, element);
+  });
   detail::XmlPrinter printer;
   document.Accept(&printer);
   std::string text = printer.CStr();

@@ -29,14 +29,16 @@ struct UrdfOptions {
                        ///< Empty: the file's root
   std::string tip{};  ///< link at which a chain from the root ends; branches off the chain and what
                       ///< is beyond are left out with their mass. Empty: the whole tree
-  std::vector<LockedJoint> locked{};  ///< joints to hold. Joints that mimic one of them are held
-                                      ///< where it puts them
-  bool allow_unphysical = false;      ///< accept inertias that no real body has; see
-                                      ///< UrdfDescription::notices. Masses < 0 are never accepted
+  /// Joints to hold. Joints that mimic one of them are held where it puts them, also if it is left
+  /// out itself; a joint that mimics one that is left out and not held is an error. A place beyond a
+  /// joint's limits is among UrdfDescription::notices
+  std::vector<LockedJoint> locked{};
+  bool allow_unphysical = false;  ///< accept inertias that no real body has; see
+                                  ///< UrdfDescription::notices. Masses < 0 are never accepted
   /// Acceleration of free fall in the root link's frame [m/s^2], 3 x 1
   Vector3<double> gravity{0, 0, -9.81};
   /// What dynamics takes for a right angle that was written with few digits, see canonical_form;
-  /// 0 takes every angle as it is written
+  /// 0 takes every angle as it is written, 0.1 is the largest
   double right_angle_tolerance = default_right_angle_tolerance;
 };
 

@@ -32,11 +32,14 @@ class UrdfSource {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
   /// The XML.
-  /// @throws UrdfError if the file cannot be read, is larger than `capacity` or holds a NUL
+  /// @throws UrdfError if the file cannot be read, is larger than `capacity`, is UTF-16 or holds a NUL
   /// Real-time: no (reads a file).
   [[nodiscard]] std::string text() const {
     std::string text = xml_.empty() ? contents() : xml_;
     if (text.size() > capacity) throw UrdfError(name_, "it is larger than 64 MiB");
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
+      throw UrdfError(name_, "it is UTF-16: save it as UTF-8");
+    }
     if (text.find('\0') != std::string::npos) throw UrdfError(name_, "it is no text: it holds NUL");
     return text;
   }

@@ -61,15 +61,43 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
 
 /// Parses XML into a document and returns its <robot>.
 /// @throws UrdfError if it is not XML or no robot
-inline XmlElement& parse_xml(const std::string& file, const std::string& text,
-                             XmlDocument& document) {
+inline XmlElement& parse_xml(const std::string& file, std::string text, XmlDocument& document) {
+  if (text.find('<') == std::string::npos) throw UrdfError(file, "it is no XML: it has no tag");
   const std::string fault = tag_fault(text);
   if (!fault.empty()) throw UrdfError(file, fault);
   document.Parse(text.c_str());
   if (document.Error()) throw UrdfError(file, error_of(document));
   XmlElement* robot = document.FirstChildElement("robot");
-  if (!robot) throw UrdfError(file, "there is no <robot>");
+  if (!robot) {
+    const XmlElement* top = document.FirstChildElement();
+    throw UrdfError(file, "there is no <robot>" +
+                              (top ? ", but <" + std::string(top->Value()) + ">" : std::string()));
+  }
   return *robot;
+}
+
+inline constexpr const char* xacro_advice =
+    " is left of xacro: have it written out (xacro r.xacro > r.urdf)";
+
+/// @throws UrdfError if there is an element that xacro would have replaced, wherever it is: the robot
+///         without it would be another one
+inline void refuse_xacro(const std::string& file, const XmlElement& element) {
+  const std::string name = element.Value();
+  if (name.starts_with("xacro:")) throw UrdfError(file, "<" + name + ">" + xacro_advice);
+  for_each_child(element, nullptr, [&](const XmlElement& child) { refuse_xacro(file, child); });
+}
+
+/// @throws UrdfError if an attribute holds what xacro would have replaced
+/// @param where  element of the robot, for the message
+inline void refuse_placeholders(const std::string& file, const std::string& where,
+                                const XmlElement& element) {
+  for (auto each = element.FirstAttribute(); each; each = each->Next()) {
+    const std::string text = each->Value();
+    if (text.find("${") == std::string::npos && text.find("$(") == std::string::npos) continue;
+    throw UrdfError(file, where + ": '" + text + "'" + xacro_advice);
+  }
+  for_each_child(element, nullptr,
+                 [&](const XmlElement& child) { refuse_placeholders(file, where, child); });
 }
 
 /// Removes all child elements but those named.
@@ -85,7 +113,16 @@ inline void keep_only(XmlElement& parent, std::initializer_list<std::string_view
 
 /// Leaves of a robot what its mechanics need: what urdfdom would refuse elsewhere, such as a colour
 /// that is not defined, is no concern of ours.
-inline void keep_mechanics(XmlElement& robot) {
+/// @throws UrdfError if one is written <Link> or so, which would be left out in silence
+inline void keep_mechanics(const std::string& file, XmlElement& robot) {
+  for_each_child(robot, nullptr, [&](const XmlElement& child) {
+    std::string lower = child.Value();
+    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (lower != child.Value() && (lower == "link" || lower == "joint")) {
+      throw UrdfError(file, "<" + std::string(child.Value()) + " name=\"" +
+                                attribute(child, "name") + "\">: it is written <" + lower + ">");
+    }
+  });
   keep_only(robot, {"link", "joint"});
   for (XmlElement* child = robot.FirstChildElement(); child; child = child->NextSiblingElement()) {
     if (child->Value() == std::string_view("link")) {

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What is odd about a robot's description, but no reason to refuse it.
+#pragma once
+
+#include "articula/model/urdf/convert.hpp"
+#include "articula/model/urdf/document.hpp"
+#include "articula/model/urdf/fault_text.hpp"
+#include "articula/model/validation.hpp"
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace articula::detail {
+
+/// Collects what the user of a URDF should know, a line each.
+class UrdfNotices {
+ public:
+  explicit UrdfNotices(const UrdfDocument& document) : document_(document) {}
+
+  [[nodiscard]] std::vector<std::string> take() { return std::move(notices_); }
+
+  /// A joint that is held. Beyond its limits is no reason to refuse a robot, since a file may have
+  /// them wrong, but an odd place to be.
+  void add_lock(const urdf::Joint& joint, double position) {
+    add_position(joint, "it is locked at " + rounded_text(position), position);
+  }
+
+  /// All about a robot's links and joints, and names in the file that lead nowhere.
+  void add_robot(std::span<const Link> links, std::span<const Joint> joints) {
+    for (const Link& link : links) {
+      const Rule rule = broken_rule(link);
+      if (rule != Rule::none) add(fault_text({link.name, rule}, links, {}));
+    }
+    for (const Joint& joint : joints) {
+      if (joint.type != JointType::fixed) add_joint(joint, joints);
+    }
+    add_names();
+  }
+
+ private:
+  void add(const std::string& text) { notices_.push_back(text); }
+  void add(const Joint& joint, const std::string& text) {
+    add("joint '" + std::string(joint.name.view()) + "': " + text);
+  }
+  [[nodiscard]] static std::string range_text(const JointLimits& limits) {
+    return rounded_text(limits.lower) + " .. " + rounded_text(limits.upper);
+  }
+
+  void add_position(const urdf::Joint& joint, const std::string& text, double position) {
+    if (joint.type != urdf::Joint::REVOLUTE && joint.type != urdf::Joint::PRISMATIC) return;
+    const JointLimits limits = joint_limits(document_, joint);
+    if (position >= limits.lower && position <= limits.upper) return;
+    add("joint '" + joint.name + "': " + text + ", beyond its limits, " + range_text(limits));
+  }
+
+  /// A joint that moves.
+  void add_joint(const Joint& joint, std::span<const Joint> joints) {
+    const std::string name(joint.name.view()), child(joint.child.view());
+    const urdf::Joint& written = *document_.robot->joints_.at(name);
+    add_limits(joint);
+    if (joint.type == JointType::continuous) add_unused_limits(joint, written);
+    if (joint.mimic.joint.empty()) {
+      const JointLimits limits = properties_of(joints, joint).limits;
+      if (limits.lower == limits.upper && joint.limits.lower != joint.limits.upper) {
+        add(joint, "those that mimic it leave it no room to move, lower and upper limit are " +
+                       rounded_text(limits.lower));
+      }
+    }
+    const auto initial = document_.initial_values.find(name);
+    if (initial != document_.initial_values.end() && initial->second.position) {
+      const double position = *initial->second.position;
+      add_position(written, "its initial_value is " + rounded_text(position), position);
+    }
+    if (!document_.robot->links_.at(child)->inertial) {
+      add("link '" + child + "': it has no <inertial>, so it counts as massless, though joint '" +
+          name + "' moves it");
+    }
+  }
+
+  /// Limits of 0, as programs write them that do not know the figures. No reason to refuse a file:
+  /// dynamics have no use for them.
+  void add_limits(const Joint& joint) {
+    if (joint.limits.lower == joint.limits.upper) {
+      add(joint,
+          "it has no room to move, lower and upper limit are " + rounded_text(joint.limits.lower));
+    }
+    if (joint.limits.velocity == 0) {
+      add(joint, "its velocity limit is 0, so it must not move");
+    }
+    if (joint.limits.effort == 0 && joint.mimic.joint.empty()) {
+      add(joint, "its effort limit is 0, so it cannot be driven");
+    }
+  }
+
+  /// URDF has none for continuous joints, but people write them.
+  void add_unused_limits(const Joint& joint, const urdf::Joint& written) {
+    JointLimits unused;
+    const auto command = document_.command_limits.find(written.name);
+    if (command != document_.command_limits.end()) unused = command->second;
+    if (written.limits && (written.limits->lower != 0 || written.limits->upper != 0)) {
+      unused.lower = written.limits->lower;
+      unused.upper = written.limits->upper;
+    }
+    if (is_finite(unused.lower) || is_finite(unused.upper)) {
+      add(joint, "it is continuous, so its position limits do not count, " + range_text(unused));
+    }
+  }
+
+  /// What <ros2_control> and <transmission> say about joints.
+  void add_names() {
+    const auto exists = [this](const std::string& joint) {
+      return document_.robot->joints_.contains(joint);
+    };
+    for (const auto& [joint, limits] : document_.command_limits) {
+      if (!exists(joint)) add("<ros2_control>: joint '" + joint + "' does not exist");
+    }
+    for (const auto& [joint, leader] : document_.command_mimics) {
+      if (!exists(joint)) continue;
+      const auto& own = document_.robot->joints_.at(joint)->mimic;
+      if (leader == (own ? own->joint_name : "")) continue;
+      add("<ros2_control>: joint '" + joint + "' is to mimic " +
+          (leader.empty() ? "nobody" : "'" + leader + "'") +
+          ", but only <mimic> in the joint itself counts");
+    }
+    for (const UrdfTransmission& transmission : document_.transmissions) {
+      const std::string where = "transmission '" + transmission.name + "': ";
+      const auto add_reduction = [&](const char* kind, const UrdfTransmissionEnd& end) {
+        if (end.mechanical_reduction != 0) return;
+        add(where + kind + " '" + end.name +
+            "': its mechanical reduction is 0, so that it moves nothing");
+      };
+      for (const UrdfTransmissionEnd& end : transmission.joints) {
+        if (!exists(end.name)) add(where + "joint '" + end.name + "' does not exist");
+        add_reduction("joint", end);
+      }
+      for (const UrdfTransmissionEnd& end : transmission.actuators) add_reduction("actuator", end);
+    }
+  }
+
+  const UrdfDocument& document_;
+  std::vector<std::string> notices_{};
+};
+
+}  // namespace articula::detail
