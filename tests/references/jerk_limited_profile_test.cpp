@@ -195,6 +195,127 @@ TEST_CASE("no stop is faster") {
   }
 }
 
+TEST_CASE("all positions of a motion lie in the range that it says, and reach its ends") {
+  constexpr unsigned seed = 4713;
+  CAPTURE(seed);
+  support::Random random(seed);
+  int turning = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const auto l = random_limits(random);
+    const auto motion = fastest_stop(
+        {random.number(-1, 1), random.number(-1, 1) * l.V, random.number(-2, 2) * l.A}, l.A, l.J);
+    const PositionRange range = motion.positions();
+    const double first = motion.sample(0).position, last = motion.end().position;
+    turning += range.lowest < std::min(first, last) || range.highest > std::max(first, last);
+    constexpr int count = 2000;
+    double lowest = first, highest = first, fastest = 0;
+    for (int i = 0; i <= count; ++i) {
+      const auto now = motion.sample(motion.duration() * i / count);
+      lowest = std::min(lowest, now.position);
+      highest = std::max(highest, now.position);
+      fastest = std::max(fastest, std::abs(now.acceleration));
+    }
+    // What lies between two samples, h apart, is within a h^2 / 8 of them; the rest is rounding.
+    const double h = motion.duration() / count, size = 1 + std::abs(first) + std::abs(last);
+    const double between = fastest * h * h / 8 + 1e-13 * size;
+    CAPTURE(k, l.A, l.J);
+    REQUIRE(range.lowest <= lowest + 1e-13 * size);
+    REQUIRE(range.highest >= highest - 1e-13 * size);
+    REQUIRE(range.lowest >= lowest - between);
+    REQUIRE(range.highest <= highest + between);
+  }
+  CHECK(turning > 300);
+}
+
+TEST_CASE("a stop that has to stay within a range does, and is no harder than it must be") {
+  constexpr unsigned seed = 4714;
+  CAPTURE(seed);
+  support::Random random(seed);
+  int same = 0, harder = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    const auto l = random_limits(random);
+    const double upper = log_uniform(random, 1e-6, 1e2), lower = -log_uniform(random, 1e-6, 1e2);
+    const double a = random.one_in(3) ? 0 : random.number(-2, 2) * l.A;
+    const JointMotion start{0, random.number(-1, 1) * l.V, a};
+    const auto motion = stop_within(start, l.V, l.A, l.J, lower, upper);
+    const PositionRange range = motion.positions();
+    CAPTURE(k, l.A, l.J, start.velocity, start.acceleration, lower, upper);
+    REQUIRE(range.lowest >= lower);
+    REQUIRE(range.highest <= upper);
+    REQUIRE(motion.end().velocity == 0);
+    REQUIRE(motion.sample(0).velocity ==
+            start.velocity);  // there was a way: it does not stand at once
+    const auto free = stop_within(start, l.V, l.A, l.J, -infinity, infinity);
+    if (free.positions().highest <= upper && free.positions().lowest >= lower) {
+      ++same;
+      REQUIRE(motion.duration() == free.duration());
+      continue;
+    }
+    ++harder;
+    if (a != 0) continue;
+    // The way is v T/2 by symmetry, whatever k is; k is within 0.14 % of what uses all of it.
+    const double way = start.velocity > 0 ? upper : -lower;
+    REQUIRE(motion.duration() <= 2 * way / std::abs(start.velocity) * (1 + 1e-9));
+    REQUIRE(motion.duration() >= 2 * way / std::abs(start.velocity) * (1 - 2e-3));
+  }
+  CAPTURE(same, harder);
+  CHECK(same > 2000);
+  CHECK(harder > 2000);
+}
+
+// sqrt, square and a few sums: 1e-14
+TEST_CASE("no stop is faster than it began, or than its limit") {
+  constexpr unsigned seed = 4715;
+  CAPTURE(seed);
+  support::Random random(seed);
+  int dropped = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    const auto l = random_limits(random);
+    const JointMotion start{0, random.number(-1.5, 1.5) * l.V, random.number(-5, 5) * l.A};
+    const double range = random.one_in(2) ? infinity : log_uniform(random, 1e-3, 1e2);
+    const auto motion = stop_within(start, l.V, l.A, l.J, -range, range);
+    const double most = std::max(l.V, std::abs(start.velocity)) * (1 + 1e-14);
+    const double T = motion.duration();
+    CAPTURE(k, l.V, l.A, l.J, start.velocity, start.acceleration, range);
+    REQUIRE(motion.sample(0).velocity == start.velocity);
+    double fastest = 0;
+    for (int i = 0; i <= 50; ++i) {
+      fastest = std::max(fastest, std::abs(motion.sample(T * i / 50).velocity));
+    }
+    REQUIRE(fastest <= most);
+    const double a = motion.sample(0).acceleration;
+    const double left =
+        start.velocity + start.acceleration / 2 / l.J * std::abs(start.acceleration);
+    if (std::abs(left) <= most / (1 + 1e-14)) {
+      REQUIRE(a == start.acceleration);
+    } else {
+      ++dropped;
+      REQUIRE(std::abs(a) < std::abs(start.acceleration));
+      REQUIRE(a * start.acceleration >= 0);
+    }
+  }
+  CHECK(dropped > 2000);
+}
+
+TEST_CASE("a stop at the very end of its range, and beyond it") {
+  const auto at_once = stop_within({1, 0.5, 0}, 10, 2, 30, -1, 1);
+  CHECK(at_once.duration() == 0);
+  CHECK(at_once.sample(0).position == 1);
+  CHECK(at_once.sample(0).velocity == 0);
+  CHECK(stop_within({1, -0.5, 0}, 10, 2, 30, -1, 1).sample(0).velocity == -0.5);
+  // From outside, outwards: nothing can be done but to stop as always.
+  CHECK(stop_within({1.1, 0.5, 0}, 10, 2, 30, -1, 1).duration() ==
+        fastest_stop({1.1, 0.5, 0}, 2, 30).duration());
+  CHECK(stop_within({1.1, -5, 0}, 10, 2, 30, -1, 1).positions().lowest >= -1);
+  // the least distance that there is from 1, and 2 / 9 of a microsecond
+  CHECK(stop_within({1 - 0x1p-53, 9, 0}, 10, 1e-9, 1e-9, -1, 1).duration() == 0);
+  CHECK(stop_within({1 - 1e-6, 9, 0}, 10, 1e-9, 1e-9, -1, 1).duration() ==
+        Approx(2e-6 / 9).epsilon(2e-3));
+  for (const double bad : {infinity, -infinity, not_a_number}) {
+    CHECK(!is_finite(stop_within({bad, 1, 1}, 10, 1, 1, -1, 1).sample(0).position));
+  }
+}
+
 TEST_CASE("each of the four kinds of motion has the duration of the textbook") {
   // V, A reached; A not V; V not A; neither
   CHECK(rest_to_rest(0, 10, 2, 4, 8).duration() == Approx(5 + 0.5 + 0.5).epsilon(1e-14));
@@ -290,6 +411,16 @@ TEST_CASE("all joints of random profiles keep their limits, and each derivative 
     if (random.one_in(50)) to[1] = from[1];
     const auto profile = JerkLimitedProfile<Q2d>::move(from, to, l);
     const double T = profile.duration();
+    for (int i = 0; i <= 8; ++i) {  // near the ends rounding would pass them
+      const double near = T * std::pow(10, -2 * i);
+      for (const double t : {near, T - near}) {
+        const JointVector<2> there = profile.sample(t).position;
+        const auto q = there.array();
+        if ((q < from.cwiseMin(to).array()).any() || (q > from.cwiseMax(to).array()).any()) {
+          FAIL("position, case " << k << " at " << t << " s");
+        }
+      }
+    }
     for (int j = 0; j < 2; ++j) {
       const auto sample = [&](double t) {
         const auto r = profile.sample(t);

@@ -2,6 +2,8 @@
 #include <articula/reference/stop_and_return.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include <algorithm>
+
 #include "catch.hpp"
 #include "numbers.hpp"
 
@@ -41,4 +43,21 @@ TEST_CASE("a measurement beyond the joints' limits does not lead there") {
   // Who is beyond already is not pulled in by more than was asked, nor led further out.
   stop.begin(JointReference<2>{.position = {shoulder + 0.1, 0}}, Vector(shoulder + 0.2, 0));
   CHECK(stop.advance(60).position == Vector(shoulder + 0.1, 0));
+}
+
+TEST_CASE("a stop that would lead beyond the joints' limits ends at them") {
+  const MotionLimits<2> limits{{2, 10}, {20, 50}, {400, 1000}};
+  const double shoulder = Q2d::description.joints[1].limits.upper;
+  StopAndReturn<Q2d> stop({0, 0}, limits, Q2d());
+  // 2 rad/s take 0.14 m at these limits; the elbow's stop is what it always is
+  const JointReference<2> from{{shoulder - 0.05, 0}, {2, -1}, {1, 0}};
+  stop.begin(from);
+  CHECK(stop.advance(0).velocity == from.velocity);
+  double furthest = 0;
+  for (int k = 0; k < 1000; ++k) furthest = std::max(furthest, stop.advance(1e-3).position[0]);
+  CHECK(furthest <= shoulder);
+  CHECK(furthest > shoulder - 1e-3);  // 0.2 % of the way and as much more
+  CHECK_FALSE(stop.moves());
+  const auto alone = fastest_stop({0, -1, 0}, 50, 1000);
+  CHECK(stop.advance(0).position[1] == alone.end().position);
 }

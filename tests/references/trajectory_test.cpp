@@ -4,6 +4,7 @@
 #include <articula/reference/trajectory.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -198,6 +199,32 @@ TEST_CASE("points that make no trajectory are refused by point, joint, value and
   CHECK_THAT(message_of(p),
              Contains("last") && Contains("0.2") && Contains("'elbow_active_joint'"));
   CHECK(message_of(p, {.allow_motion_at_end = true}) == "accepted");
+}
+
+TEST_CASE("a way that swings out of a joint's limits is refused, as is an end that leaves them") {
+  // a cubic between two points at 1.5 rad, which rises by T v / 4 in the middle
+  const auto hump = [](double v, double q = 1.5) {
+    return message_of({{.position = {0, q}, .velocity = Vector(0, v)},
+                       {.time_from_start = 1, .position = {0, q}, .velocity = Vector(0, -v)},
+                       {.time_from_start = 2, .position = {0, q}, .velocity = Vector(0, 0)}});
+  };
+  const double left = std::numbers::pi / 2 - 1.5;
+  CHECK(hump(4 * left) == "accepted");
+  CHECK_THAT(hump(4 * left + 1e-6), Contains("point 2") && Contains("'elbow_active_joint'") &&
+                                        Contains("swing out") && Contains("1.5708"));
+  CHECK_THAT(hump(1), Contains("swing out to 1.75,"));
+  CHECK_THAT(hump(-1, -1.5), Contains("swing out to -1.75,"));
+  const auto end = [](double q, double v) {
+    return message_of({{.position = {0, 0}, .velocity = Vector(0, 0)},
+                       {.time_from_start = 2, .position = {q, 0}, .velocity = Vector(v, 0)}},
+                      {.allow_motion_at_end = true});
+  };
+  const double limit = Q2d::description.joints[1].limits.upper;
+  CHECK_THAT(end(limit, 0.1), Contains("last point") && Contains("leads out of its limits") &&
+                                  Contains("'shoulder_active_joint'"));
+  CHECK_THAT(end(-limit, -0.1), Contains("leads out of its limits"));
+  CHECK(end(limit - 1e-3, 0.1) == "accepted");
+  CHECK(end(limit, 1e-7) == "accepted");  // as good as none
 }
 
 TEST_CASE("any trajectory that is accepted has finite samples") {

@@ -3,21 +3,12 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
-#include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 namespace articula::detail {
-
-/// @throws std::invalid_argument with the parts as its message
-template <class... Parts>
-[[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
 
 /// Positions that a robot can be asked for: finite and within the limits of the joints.
 /// @param who       begins the message
@@ -29,12 +20,12 @@ void check_positions(std::string_view who, const JointVector<joint_count<R>>& po
   for (int j = 0; j < joint_count<R>; ++j) {
     const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
     if (!is_finite(position[j])) {
-      refuse(who, ": position ", position[j], " of joint '", joint.name.view(),
-             "' is not a finite number");
+      refuse({who, ": position ", position[j], " of joint '", joint.name.view(),
+              "' is not a finite number"});
     }
     if (position[j] < joint.limits.lower || position[j] > joint.limits.upper) {
-      refuse(who, ": position ", position[j], " of joint '", joint.name.view(),
-             "' is outside its limits ", joint.limits.lower, " .. ", joint.limits.upper);
+      refuse({who, ": position ", position[j], " of joint '", joint.name.view(),
+              "' is outside its limits ", joint.limits.lower, " .. ", joint.limits.upper});
     }
   }
 }

@@ -4,9 +4,12 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_reference.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/reference/checks.hpp"
 #include "articula/reference/jerk_motion.hpp"
 #include "articula/reference/motion_limits.hpp"
+#include "articula/reference/stop_within.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +26,8 @@ namespace articula {
 /// From rest to rest, each joint would take the least time that its limits allow (rest_to_rest);
 /// all take as long as the slowest. The others' motion is stretched in time by a factor s, which
 /// divides their velocities by s, accelerations by s^2 and jerks by s^3. A stop is the fastest of
-/// each joint alone (fastest_stop). Every sample keeps the limits to the last bit.
+/// each joint alone (fastest_stop). Every sample keeps the limits to the last bit; only a stop that is
+/// to stay within a range may be harder.
 /// @tparam R  the robot
 template <Robot R>
 class JerkLimitedProfile {
@@ -47,8 +51,8 @@ class JerkLimitedProfile {
     *this = move(from, to, limits);
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(from[j]) && is_finite(duration_)) continue;
-      detail::refuse("profile: from ", from[j], " to ", to[j], " joint '",
-                     joint_names(robot)[static_cast<std::size_t>(j)], "' never arrives");
+      detail::refuse({"profile: from ", from[j], " to ", to[j], " joint '",
+                      joint_names(robot)[static_cast<std::size_t>(j)], "' never arrives"});
     }
   }
 
@@ -62,6 +66,8 @@ class JerkLimitedProfile {
       const JointVector<joint_count>& effort = JointVector<joint_count>::Zero()) noexcept {
     JerkLimitedProfile profile;
     profile.effort_ = effort;
+    profile.lower_ = from.cwiseMin(to);
+    profile.upper_ = from.cwiseMax(to);
     for (int j = 0; j < joint_count; ++j) {
       JerkMotion& motion = profile.motions_[static_cast<std::size_t>(j)];
       motion =
@@ -75,21 +81,28 @@ class JerkLimitedProfile {
     return profile;
   }
 
-  /// The fastest stop, wherever that is. What the reference asked for is where it begins: position,
-  /// velocity and acceleration go on without a jump. The reference's effort stays as it is, for it
-  /// may be what carries the robot. A velocity beyond V only falls, once an acceleration in its
-  /// direction has faded.
+  /// The fastest stop, wherever that is, or within a range (stop_within). What the reference asked
+  /// for is where it begins: position and velocity go on without a jump, and so does an acceleration
+  /// that can fade without leading beyond V. The reference's effort stays as it is, for it may be
+  /// what carries the robot. A velocity beyond V only falls.
   /// @param from    what the joints were last asked for
   /// @param limits  that validate() accepts
+  /// @param lower   where the joints can be [rad or m], N x 1; for a joint whose fastest stop leads
+  /// @param upper   out of there, acceleration and jerk are as much higher as it takes
   /// Real-time: yes. O(N).
-  [[nodiscard]] static JerkLimitedProfile stop(const Reference& from,
-                                               const Limits& limits) noexcept {
+  [[nodiscard]] static JerkLimitedProfile stop(
+      const Reference& from, const Limits& limits,
+      const JointVector<joint_count>& lower = everywhere(-1),
+      const JointVector<joint_count>& upper = everywhere(1)) noexcept {
     JerkLimitedProfile profile;
     profile.effort_ = from.effort;
     for (int j = 0; j < joint_count; ++j) {
+      if (from.position[j] >= lower[j]) profile.lower_[j] = lower[j];
+      if (from.position[j] <= upper[j]) profile.upper_[j] = upper[j];
       JerkMotion& motion = profile.motions_[static_cast<std::size_t>(j)];
-      motion = fastest_stop({from.position[j], from.velocity[j], from.acceleration[j]},
-                            limits.acceleration[j], limits.jerk[j]);
+      motion = stop_within({from.position[j], from.velocity[j], from.acceleration[j]},
+                           limits.velocity[j], limits.acceleration[j], limits.jerk[j], lower[j],
+                           upper[j]);
       profile.duration_ = std::max(profile.duration_, motion.duration());
     }
     return profile;
@@ -112,7 +125,8 @@ class JerkLimitedProfile {
       const JerkMotion& joint = motions_[static_cast<std::size_t>(j)];
       const double own_time = time < duration_ ? std::max(0.0, time * pace_[j]) : duration_;
       const JointMotion motion = joint.sample(own_time);
-      reference.position[j] = motion.position;
+      reference.position[j] =
+          std::min(std::max(motion.position, lower_[j]), upper_[j]);  // rounding
       reference.velocity[j] = motion.velocity * pace_[j];
       reference.acceleration[j] = motion.acceleration * pace_[j] * pace_[j];
     }
@@ -122,7 +136,12 @@ class JerkLimitedProfile {
  private:
   JerkLimitedProfile() = default;
 
+  [[nodiscard]] static JointVector<joint_count> everywhere(double side) noexcept {
+    return JointVector<joint_count>::Constant(side * std::numeric_limits<double>::infinity());
+  }
+
   std::array<JerkMotion, static_cast<std::size_t>(joint_count)> motions_{};
+  JointVector<joint_count> lower_ = everywhere(-1), upper_ = everywhere(1);  ///< of all samples
   JointVector<joint_count> pace_ = JointVector<joint_count>::Ones();  ///< own time per time, <= 1
   JointVector<joint_count> effort_ = JointVector<joint_count>::Zero();
   double duration_ = 0;

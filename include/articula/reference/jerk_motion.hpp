@@ -16,6 +16,12 @@ struct JointMotion {
   double acceleration = 0;  ///< a [rad/s^2 or m/s^2]
 };
 
+/// Where a motion goes.
+struct PositionRange {
+  double lowest = 0;   ///< [rad or m]
+  double highest = 0;  ///< [rad or m]
+};
+
 /// A motion of one joint in at most seven stretches of constant jerk, and no motion after them.
 class JerkMotion {
  public:
@@ -61,6 +67,26 @@ class JerkMotion {
     motion.velocity = between(from.velocity, motion.velocity, to.velocity);
     motion.acceleration = between(from.acceleration, motion.acceleration, to.acceleration);
     return motion;
+  }
+
+  /// All positions on the way, start and end included. Real-time: yes.
+  [[nodiscard]] PositionRange positions() const noexcept {
+    PositionRange range{end_.position, end_.position};
+    const auto add = [&](double position) noexcept {
+      range = {std::min(range.lowest, position), std::max(range.highest, position)};
+    };
+    for (std::size_t k = 0; k < size_; ++k) {
+      const JointMotion& from = stretches_[k].from;
+      const JointMotion& to = k + 1 < size_ ? stretches_[k + 1].from : end_;
+      add(from.position);
+      const double side = from.velocity < 0 ? -1 : 1;
+      if (!(side * to.velocity < 0)) continue;
+      // The velocity falls to 0 once, since it does not turn around.
+      const double v = side * from.velocity, a = side * from.acceleration;
+      const double root = std::sqrt(std::max(0.0, a * a - 2 * side * stretches_[k].jerk * v));
+      add(advance(stretches_[k], v > 0 ? 2 * v / (root - a) : 0).position);
+    }
+    return range;
   }
 
  private:

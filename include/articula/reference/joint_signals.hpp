@@ -4,6 +4,7 @@
 
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/name.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/reference/checks.hpp"
 #include "articula/reference/signal.hpp"
@@ -57,22 +58,23 @@ class JointSignals {
         lower_(joint_values(robot, [](const auto& joint) { return joint.limits.lower; })),
         upper_(joint_values(robot, [](const auto& joint) { return joint.limits.upper; })) {
     detail::check_positions("signals", around.position, robot);
-    if (!is_finite(around)) detail::refuse("signals: what they are added to is not finite");
+    if (!is_finite(around)) detail::refuse({"signals: what they are added to is not finite"});
     if (signals.size() > entries_.size()) {
-      detail::refuse("signals: ", signals.size(), " are more than the capacity, ", Capacity);
+      detail::refuse({"signals: ", signals.size(), " are more than the capacity, ", Capacity});
     }
     JointReference<joint_count> peak{around.position.cwiseAbs(), around.velocity.cwiseAbs(),
                                      around.acceleration.cwiseAbs(), around.effort.cwiseAbs()};
     for (const JointSignal& s : signals) {
       const auto fault = std::visit([](const auto& signal) { return signal.fault(); }, s.signal);
       if (!fault.empty()) {
-        detail::refuse("signals: number ", size_ + 1, ", on joint '", s.joint.view(), "': ", fault);
+        detail::refuse(
+            {"signals: number ", size_ + 1, ", on joint '", s.joint.view(), "': ", fault});
       }
       const Entry entry{joint_index(robot, s.joint), s.signal, s.target};
       add(peak, entry, std::visit([](const auto& signal) { return signal.peak(); }, s.signal));
       if (!is_finite(peak)) {
-        detail::refuse("signals: number ", size_ + 1, ", on joint '", s.joint.view(),
-                       "': the sum of the joint's signals overflows");
+        detail::refuse({"signals: number ", size_ + 1, ", on joint '", s.joint.view(),
+                        "': the sum of the joint's signals overflows"});
       }
       entries_[size_++] = entry;
     }

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
-#include "articula/reference/checks.hpp"
 
 #include <string_view>
 
@@ -30,16 +30,16 @@ void validate(const MotionLimits<joint_count<R>>& limits, const R& robot) {
     const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
     const auto check = [&](std::string_view what, double value) {
       if (!is_finite(value) || value < 1e-9 || value > 1e9) {
-        detail::refuse("motion limits: ", what, " ", value, " of joint '", joint.name.view(),
-                       "' is not between 1e-9 and 1e9");
+        detail::refuse({"motion limits: ", what, " ", value, " of joint '", joint.name.view(),
+                        "' is not between 1e-9 and 1e9"});
       }
     };
     check("velocity", limits.velocity[j]);
     check("acceleration", limits.acceleration[j]);
     check("jerk", limits.jerk[j]);
     if (limits.velocity[j] > joint.limits.velocity) {
-      detail::refuse("motion limits: velocity ", limits.velocity[j], " of joint '",
-                     joint.name.view(), "' is above the joint's limit ", joint.limits.velocity);
+      detail::refuse({"motion limits: velocity ", limits.velocity[j], " of joint '",
+                      joint.name.view(), "' is above the joint's limit ", joint.limits.velocity});
     }
   }
 }

@@ -3,12 +3,12 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/reference/trajectory.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -56,10 +56,8 @@ template <int Capacity = 32, Robot R>
 [[nodiscard]] Trajectory<R, Capacity> arrange(const NamedTrajectory& named, const R& robot,
                                               const ArrangeOptions<joint_count<R>>& options = {}) {
   constexpr int n = joint_count<R>;
-  const auto refuse = [](TrajectoryOutcome outcome, const auto&... parts) {
-    std::ostringstream message;
-    (message << ... << parts);
-    throw TrajectoryError(outcome, message.str());
+  const auto refuse = [](TrajectoryOutcome outcome, detail::MessageParts parts) {
+    throw TrajectoryError(outcome, detail::message_of(parts));
   };
   const auto names = joint_names(robot);
   std::array<std::optional<std::size_t>, static_cast<std::size_t>(n)> column{};
@@ -67,16 +65,18 @@ template <int Capacity = 32, Robot R>
     const std::string& name = named.joint_names[c];
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-      refuse(TrajectoryOutcome::invalid_joints, detail::no_such_joint_text(model_of(robot), name));
+      refuse(TrajectoryOutcome::invalid_joints,
+             {detail::no_such_joint_text(model_of(robot), name)});
     }
     auto& mine = column[static_cast<std::size_t>(found - names.begin())];
-    if (mine) refuse(TrajectoryOutcome::invalid_joints, "joint '", name, "' is named twice");
+    if (mine) refuse(TrajectoryOutcome::invalid_joints, {"joint '", name, "' is named twice"});
     mine = c;
   }
   for (std::size_t j = 0; j < names.size(); ++j) {
     if (column[j] || (options.allow_partial_joints && options.from)) continue;
-    refuse(TrajectoryOutcome::invalid_joints, "joint '", names[j], "' is not named",
-           options.allow_partial_joints ? "; give `from`" : "");
+    refuse(TrajectoryOutcome::invalid_joints,
+           {"joint '", names[j], "' is not named",
+            options.allow_partial_joints ? "; give `from`" : ""});
   }
 
   std::vector<TrajectoryPoint<n>> points;
@@ -89,8 +89,8 @@ template <int Capacity = 32, Robot R>
                               const JointVector<n>& others) -> std::optional<JointVector<n>> {
       if (values.empty()) return std::nullopt;
       if (values.size() != named.joint_names.size()) {
-        refuse(TrajectoryOutcome::invalid_goal, "point ", k + 1, ": ", values.size(), " ", what,
-               " for ", named.joint_names.size(), " joints");
+        refuse(TrajectoryOutcome::invalid_goal, {"point ", k + 1, ": ", values.size(), " ", what,
+                                                 " for ", named.joint_names.size(), " joints"});
       }
       JointVector<n> result = others;
       for (int j = 0; j < n; ++j) {
@@ -109,10 +109,10 @@ template <int Capacity = 32, Robot R>
       point.position = *position;
     } else {
       if (!options.allow_integration || (!point.velocity && !point.acceleration)) {
-        refuse(TrajectoryOutcome::invalid_goal, "point ", k + 1, " has no positions");
+        refuse(TrajectoryOutcome::invalid_goal, {"point ", k + 1, " has no positions"});
       }
       if (k == 0 && !options.from) {
-        refuse(TrajectoryOutcome::invalid_goal, "point 1 has no positions; give `from`");
+        refuse(TrajectoryOutcome::invalid_goal, {"point 1 has no positions; give `from`"});
       }
       const double half = (given.time_from_start - time) / 2;
       if (!point.velocity) {

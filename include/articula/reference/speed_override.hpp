@@ -4,7 +4,7 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_reference.hpp"
-#include "articula/reference/checks.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,10 +29,10 @@ class SpeedOverride {
   ///         not between 1 and 1e9
   explicit SpeedOverride(double rate = 2, double highest = 1) : rate_(rate), highest_(highest) {
     if (!is_finite(rate) || rate < 1e-9 || rate > 1e9) {
-      detail::refuse("speed override: rate ", rate, " 1/s is not between 1e-9 and 1e9");
+      detail::refuse({"speed override: rate ", rate, " 1/s is not between 1e-9 and 1e9"});
     }
     if (!is_finite(highest) || highest < 1 || highest > 1e9) {
-      detail::refuse("speed override: highest speed ", highest, " is not between 1 and 1e9");
+      detail::refuse({"speed override: highest speed ", highest, " is not between 1 and 1e9"});
     }
   }
 

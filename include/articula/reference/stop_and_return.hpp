@@ -12,8 +12,10 @@
 
 namespace articula {
 
-/// The fastest stop from any motion, and then the way back, if it does not end where it should. The
-/// reference's effort stays.
+/// The fastest stop from any motion, and then the way back, if it does not end where it should. From
+/// within the joints' limits of position neither leads out of them: where the fastest stop would,
+/// it is harder than the limits of acceleration and jerk allow, by no more than it takes
+/// (stop_within). The reference's effort stays.
 /// @tparam R  the robot
 template <Robot R>
 class StopAndReturn {
@@ -40,7 +42,7 @@ class StopAndReturn {
   ///              it began
   /// Real-time: yes. O(N).
   void begin(const Reference& from, const std::optional<Position>& back = {}) noexcept {
-    way_ = JerkLimitedProfile<R>::stop(from, limits_);
+    way_ = JerkLimitedProfile<R>::stop(from, limits_, lower_, upper_);
     time_ = 0;
     const Position end = way_.sample(way_.duration()).position;
     const Position wanted = back && is_finite(*back) ? *back : end;

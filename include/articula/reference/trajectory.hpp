@@ -3,9 +3,11 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/reference/trajectory_outcome.hpp"
 #include "articula/reference/trajectory_point.hpp"
+#include "articula/reference/way_peaks.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +16,7 @@
 #include <initializer_list>
 #include <limits>
 #include <span>
-#include <sstream>
+#include <string_view>
 
 namespace articula {
 
@@ -56,21 +58,22 @@ class Trajectory {
   /// @param options  what lies between them
   /// @throws TrajectoryError (invalid_goal) if there is no point or too many, a time is negative or
   ///         not after the one before, a number is not finite or overflows, a position is beyond
-  ///         the joint's limits, a velocity or the mean velocity to a point above its limit, or
-  ///         the last velocity is not zero; the message names point, joint, value and limit
+  ///         the joint's limits, at a point or on the way to it, a velocity or the mean velocity to
+  ///         a point above its limit, or the last velocity is not zero, or leads out of the limits
+  ///         of a joint that stands at one; the message names point, joint, value and limit
   explicit Trajectory(std::span<const Point> points, const TrajectoryOptions& options = {},
                       const R& robot = described<R>())
       : options_(options), size_(points.size()) {
-    if (points.empty()) refuse("it has no point");
+    if (points.empty()) refuse({"it has no point"});
     if (points.size() > points_.size()) {
-      refuse(points.size(), " points are more than the capacity, ", Capacity);
+      refuse({points.size(), " points are more than the capacity, ", Capacity});
     }
     for (std::size_t k = 0; k < points.size(); ++k) {
       check_time(points, k);
       check_numbers(points[k], k, robot);
       if (k > 0 && options.interpolation == Interpolation::splines) check_way(points, k, robot);
     }
-    if (!options.allow_motion_at_end) check_end(points.back(), robot);
+    check_end(points.back(), options.allow_motion_at_end, robot);
     std::copy(points.begin(), points.end(), points_.begin());
   }
   explicit Trajectory(std::initializer_list<Point> points, const TrajectoryOptions& options = {},
@@ -117,45 +120,42 @@ class Trajectory {
   }
 
  private:
-  template <class... Parts>
-  [[noreturn]] static void refuse(const Parts&... parts) {
-    std::ostringstream message;
-    (message << ... << parts);
-    throw TrajectoryError(TrajectoryOutcome::invalid_goal, message.str());
+  [[noreturn]] static void refuse(detail::MessageParts parts) {
+    throw TrajectoryError(TrajectoryOutcome::invalid_goal, detail::message_of(parts));
   }
 
   static void check_time(std::span<const Point> points, std::size_t k) {
     const double time = points[k].time_from_start;
     if (!is_finite(time) || time < 0) {
-      refuse("point ", k + 1, ": time_from_start ", time, " s is not a number >= 0");
+      refuse({"point ", k + 1, ": time_from_start ", time, " s is not a number >= 0"});
     }
     if (k > 0 && !(time > points[k - 1].time_from_start)) {
-      refuse("point ", k + 1, ": time_from_start ", time,
-             " s is not after that of the point before, ", points[k - 1].time_from_start, " s");
+      refuse({"point ", k + 1, ": time_from_start ", time,
+              " s is not after that of the point before, ", points[k - 1].time_from_start, " s"});
     }
   }
 
   static void check_numbers(const Point& point, std::size_t k, const R& robot) {
     for (int j = 0; j < joint_count; ++j) {
       const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
-      const auto complain = [&](const char* what, double value, const auto&... reason) {
-        refuse("point ", k + 1, " at ", point.time_from_start, " s: ", what, " ", value,
-               " of joint '", joint.name.view(), "' ", reason...);
+      const auto complain = [&](std::string_view what, double value, detail::MessageParts reason) {
+        refuse({"point ", k + 1, " at ", point.time_from_start, " s: ", what, " ", value,
+                " of joint '", joint.name.view(), "' ", detail::message_of(reason)});
       };
-      const auto check_finite = [&](const char* what, double value) {
-        if (!is_finite(value)) complain(what, value, "is not a finite number");
+      const auto check_finite = [&](std::string_view what, double value) {
+        if (!is_finite(value)) complain(what, value, {"is not a finite number"});
       };
       check_finite("position", point.position[j]);
       check_finite("effort", point.effort[j]);
       if (point.acceleration) check_finite("acceleration", (*point.acceleration)[j]);
       if (point.position[j] < joint.limits.lower || point.position[j] > joint.limits.upper) {
-        complain("position", point.position[j], "is outside its limits ", joint.limits.lower,
-                 " .. ", joint.limits.upper);
+        complain("position", point.position[j],
+                 {"is outside its limits ", joint.limits.lower, " .. ", joint.limits.upper});
       }
       if (!point.velocity) continue;
       check_finite("velocity", (*point.velocity)[j]);
       if (std::abs((*point.velocity)[j]) > joint.limits.velocity) {
-        complain("velocity", (*point.velocity)[j], "is above its limit ", joint.limits.velocity);
+        complain("velocity", (*point.velocity)[j], {"is above its limit ", joint.limits.velocity});
       }
     }
   }
@@ -167,23 +167,50 @@ class Trajectory {
       const double speed =
           std::abs(b.position[j] - a.position[j]) / (b.time_from_start - a.time_from_start);
       if (is_finite(speed) && speed <= joint.limits.velocity * (1 + 1e-9)) continue;  // rounding
-      refuse("point ", k + 1, " at ", b.time_from_start, " s: joint '", joint.name.view(),
-             "' would need a mean velocity of ", speed, " from the point before, its limit is ",
-             joint.limits.velocity);
+      refuse({"point ", k + 1, " at ", b.time_from_start, " s: joint '", joint.name.view(),
+              "' would need a mean velocity of ", speed, " from the point before, its limit is ",
+              joint.limits.velocity});
     }
     const double period = b.time_from_start - a.time_from_start;
     if (!is_finite(interpolate(a, b, period / 2)) || !is_finite(interpolate(a, b, period))) {
-      refuse("point ", k + 1, " at ", b.time_from_start,
-             " s: the way from the point before overflows");
+      refuse({"point ", k + 1, " at ", b.time_from_start,
+              " s: the way from the point before overflows"});
+    }
+    constexpr double rounding = 1e-9;  // [rad or m]
+    WayPeaks<joint_count> limits;      // of velocity and acceleration: not asked here
+    limits.velocity.setConstant(std::numeric_limits<double>::infinity());
+    limits.acceleration = limits.velocity;
+    for (int j = 0; j < joint_count; ++j) {
+      const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+      limits.lowest[j] = joint.limits.lower - rounding;
+      limits.highest[j] = joint.limits.upper + rounding;
+    }
+    const WayPeaks<joint_count> peaks = peaks_between(a, b, limits);
+    for (int j = 0; j < joint_count; ++j) {
+      const bool below = peaks.lowest[j] < limits.lowest[j];
+      if (!below && !(peaks.highest[j] > limits.highest[j])) continue;
+      const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+      refuse({"point ", k + 1, " at ", b.time_from_start,
+              " s: on the way from the point before joint '", joint.name.view(),
+              "' would swing out to ", below ? peaks.lowest[j] : peaks.highest[j],
+              ", outside its limits ", joint.limits.lower, " .. ", joint.limits.upper});
     }
   }
 
-  static void check_end(const Point& last, const R& robot) {
+  static void check_end(const Point& last, bool may_move, const R& robot) {
     if (!last.velocity) return;
     for (int j = 0; j < joint_count; ++j) {
-      if (std::abs((*last.velocity)[j]) <= still_velocity) continue;
-      refuse("the last point moves: velocity ", (*last.velocity)[j], " of joint '",
-             joint_names(robot)[static_cast<std::size_t>(j)], "' is not 0");
+      const double v = (*last.velocity)[j], q = last.position[j];
+      if (std::abs(v) <= still_velocity) continue;
+      const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+      const auto complain = [&](detail::MessageParts reason) {
+        refuse({"the last point moves: velocity ", v, " of joint '", joint.name.view(), "' ",
+                detail::message_of(reason)});
+      };
+      if (!may_move) complain({"is not 0"});
+      if (q == (v < 0 ? joint.limits.lower : joint.limits.upper)) {
+        complain({"leads out of its limits ", joint.limits.lower, " .. ", joint.limits.upper});
+      }
     }
   }
 

@@ -4,12 +4,11 @@
 
 #include "articula/core/joint_reference.hpp"
 #include "articula/reference/motion_limits.hpp"
-#include "articula/reference/polynomial_peak.hpp"
 #include "articula/reference/trajectory.hpp"
 #include "articula/reference/trajectory_refusal.hpp"
+#include "articula/reference/way_peaks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -55,46 +54,6 @@ struct JointRange {
   JointVector<N> lower, upper;  ///< limits of the position [rad or m], N x 1
   JointVector<N> turn;          ///< how far on it is the same: 2 pi, or 0 for nowhere [rad], N x 1
 };
-
-namespace detail {
-
-/// How far a way between two points goes.
-template <int N>
-struct WayPeaks {
-  JointVector<N> lowest, highest;         ///< position [rad or m], N x 1
-  JointVector<N> velocity, acceleration;  ///< either way, N x 1
-};
-
-/// The peaks of the way between two points.
-/// @param known  limits of interest, which the peaks are at least
-template <int N>
-[[nodiscard]] WayPeaks<N> peaks_between(const TrajectoryPoint<N>& a, const TrajectoryPoint<N>& b,
-                                        const WayPeaks<N>& known) noexcept {
-  const auto way = way_between(a, b);
-  const double T = b.time_from_start - a.time_from_start;
-  WayPeaks<N> peaks;
-  for (int j = 0; j < N; ++j) {
-    const double c1 = way[0][j], c2 = way[1][j], c3 = way[2][j], c4 = way[3][j], c5 = way[4][j];
-    const auto depth = [](auto c, double least) {  // how far it goes below 0
-      for (double& x : c) x = -x;
-      return polynomial_peak(c, least);
-    };
-    const auto size = [&](const auto& c, double least) {
-      return std::max(polynomial_peak(c, least), depth(c, least));
-    };
-    const std::array<double, 6> q{a.position[j], c1, c2, c3, c4, c5};
-    const std::array<double, 5> v{c1 / T, 2 * c2 / T, 3 * c3 / T, 4 * c4 / T, 5 * c5 / T};
-    const std::array<double, 4> acceleration{2 * c2 / T / T, 6 * c3 / T / T, 12 * c4 / T / T,
-                                             20 * c5 / T / T};
-    peaks.lowest[j] = -depth(q, -known.lowest[j]);
-    peaks.highest[j] = polynomial_peak(q, known.highest[j]);
-    peaks.velocity[j] = size(v, known.velocity[j]);
-    peaks.acceleration[j] = size(acceleration, known.acceleration[j]);
-  }
-  return peaks;
-}
-
-}  // namespace detail
 
 /// Finds the way into a trajectory. From rest it is what interpolate() makes of a point at rest and
 /// the trajectory's first point ahead. From motion it is the quintic that ends with the velocity
@@ -159,12 +118,11 @@ template <Robot R, int Capacity, int N = joint_count<R>>
     };
     const JointReference<N> end = at_point(bridge.to);
     constexpr double rounding = 1e-9;  // [rad or m]
-    const detail::WayPeaks<N> most{
-        range.lower.cwiseMin(present.position).array() - rounding,
-        range.upper.cwiseMax(present.position).array() + rounding,
-        highest(present.velocity, end.velocity, limits.velocity),
-        highest(present.acceleration, end.acceleration, limits.acceleration)};
-    const auto peaks = detail::peaks_between(bridge.from, bridge.to, most);
+    const WayPeaks<N> most{range.lower.cwiseMin(present.position).array() - rounding,
+                           range.upper.cwiseMax(present.position).array() + rounding,
+                           highest(present.velocity, end.velocity, limits.velocity),
+                           highest(present.acceleration, end.acceleration, limits.acceleration)};
+    const auto peaks = peaks_between(bridge.from, bridge.to, most);
     if (within("velocity on the way to the last point", peaks.velocity, most.velocity) &&
         within("acceleration on the way to the last point", peaks.acceleration,
                most.acceleration) &&

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/joint_state.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/reference/motion_limits.hpp"
 #include "articula/reference/speed_override.hpp"
 #include "articula/reference/stop_and_return.hpp"
@@ -41,10 +42,12 @@ struct FollowerOptions {
 /// of a trajectory themselves jump: a new trajectory is entered by a bridge (TrajectoryBridge); a
 /// trajectory that is canceled ends in the fastest stop within the limits of acceleration and jerk;
 /// one that leaves its tolerances likewise, and then goes back to where the joints were measured,
-/// so that nothing is pushed against. A stop that is longer than the way to a joint's limit goes
-/// beyond it, and back: between its points a trajectory may have higher accelerations than stops.
-/// The reference's effort stays. The follower never lets go of the joints: all it makes is a
-/// reference, and gravity is the controller's part.
+/// so that nothing is pushed against. A stop that would be longer than the way to a joint's limit is
+/// as much harder as it takes to end there: between its points a trajectory may have higher
+/// accelerations than stops. So no position limit is passed, to the last bit, and who begins beyond
+/// one goes no further; nor does a stop get faster than the velocity limit, or than it began. The
+/// reference's effort stays. The follower never lets go of the joints: all it makes is a reference,
+/// and gravity is the controller's part.
 /// @tparam R         the robot
 /// @tparam Capacity  most points of a trajectory
 template <Robot R, int Capacity = 32>
@@ -77,8 +80,8 @@ class TrajectoryFollower {
     for (int j = 0; j < joint_count; ++j) {
       const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
       if (!is_finite(position[j])) {
-        detail::refuse("trajectory follower: position ", position[j], " of joint '",
-                       joint.name.view(), "' is not a finite number");
+        detail::refuse({"trajectory follower: position ", position[j], " of joint '",
+                        joint.name.view(), "' is not a finite number"});
       }
       range_.turn[j] = joint.type == JointType::continuous ? 2 * std::numbers::pi : 0;
     }
@@ -233,7 +236,10 @@ class TrajectoryFollower {
   }
 
   [[nodiscard]] auto bridge_to(const TrajectoryType& trajectory, double own_time) noexcept {
-    return find_bridge(speed_.unapply(reference_), trajectory, own_time, limits_, range_, refusal_);
+    // While the speed is all but 0, a division by its square would leave nothing but rounding.
+    const bool known = own_ && speed_.speed() > 0;
+    return find_bridge(known ? *own_ : speed_.unapply(reference_), trajectory, own_time, limits_,
+                       range_, refusal_);
   }
 
   void begin(const TrajectoryType& trajectory, const Tolerances& tolerances,
@@ -272,7 +278,11 @@ class TrajectoryFollower {
     if (following_) {
       const double beyond = speed_.time() - trajectory_->duration();
       if (beyond < 0) {
-        reference_ = speed_.apply(bridge_->sample(*trajectory_, speed_.time()));
+        const auto lowest = range_.lower.cwiseMin(reference_.position).eval();
+        const auto highest = range_.upper.cwiseMax(reference_.position).eval();
+        own_ = bridge_->sample(*trajectory_, speed_.time());
+        own_->position = own_->position.cwiseMax(lowest).cwiseMin(highest);  // rounding
+        reference_ = speed_.apply(*own_);
         return;
       }
       Reference last = at_point(trajectory_->points().back());
@@ -287,6 +297,7 @@ class TrajectoryFollower {
       period = speed_.speed() > 0 ? std::min(period, beyond / speed_.speed()) : 0;
     }
     reference_ = rest_.advance(period);
+    own_.reset();
     if (rest_.moves()) arrival_ = speed_.time();
   }
 
@@ -308,6 +319,7 @@ class TrajectoryFollower {
   bool clock_runs_ = false;
   double time_ = 0;
   Reference reference_{};
+  std::optional<Reference> own_{};  ///< the same in the trajectory's time, if it is of one
   TrajectoryOutcome outcome_ = TrajectoryOutcome::idle;
   TrajectoryRefusal refusal_{};
 };

@@ -2,10 +2,10 @@
 /// @file Why a trajectory was refused in the loop, in figures.
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -27,15 +27,14 @@ struct TrajectoryRefusal {
 template <Robot R>
 [[nodiscard]] std::string to_string(const TrajectoryRefusal& refusal, const R& robot) {
   if (refusal.what.empty()) return {};
-  std::ostringstream text;
-  text << refusal.what << ' ' << refusal.value;
+  std::string text = detail::message_of({refusal.what, " ", refusal.value});
   if (refusal.joint >= 0) {
-    text << " of joint '" << model_of(robot).joints[static_cast<std::size_t>(refusal.joint)].name
-         << '\'';
+    const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(refusal.joint)];
+    text += detail::message_of({" of joint '", joint.name.view(), "'"});
   }
-  text << ' ' << refusal.rule;
-  if (refusal.limit) text << ' ' << *refusal.limit;
-  return text.str();
+  text += detail::message_of({" ", refusal.rule});
+  if (refusal.limit) text += detail::message_of({" ", *refusal.limit});
+  return text;
 }
 
 }  // namespace articula

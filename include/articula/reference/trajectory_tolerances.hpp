@@ -4,8 +4,8 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_vector.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
-#include "articula/reference/checks.hpp"
 #include "articula/reference/trajectory_refusal.hpp"
 
 #include <string_view>
@@ -57,7 +57,7 @@ template <int N>
 template <Robot R>
 void validate(const TrajectoryTolerances<joint_count<R>>& tolerances, const R& robot) {
   const std::string text = to_string(refusal_of(tolerances), robot);
-  if (!text.empty()) detail::refuse("tolerances: ", text);
+  if (!text.empty()) detail::refuse({"tolerances: ", text});
 }
 
 /// Tolerances that come with a goal, over those that are set: 0 leaves what is set, -1 means that
