@@ -5,6 +5,7 @@
 #include <articula/hardware/simple_transmission.hpp>
 
 #include <cmath>
+#include <sstream>
 #include <string>
 #include <vector>
 

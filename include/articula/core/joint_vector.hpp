@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <utility>
+
 namespace articula {
 
 /// One real number per joint: a column vector of compile-time size. Unit as the user of it says.
@@ -22,5 +24,31 @@ using JointMatrix = Eigen::Matrix<double, N, N>;
 /// @tparam K  number of robots (>= 2)
 template <int N, int K>
 using JointVectors = Eigen::Matrix<double, N, K, Eigen::RowMajor>;
+
+/// The vector with the number f(j) for each joint j. It does what Eigen's expressions do, for which
+/// compilers need ten times as long, because each is a type of its own.
+/// @tparam N  number of joints
+/// @param f   callable with an int -> double
+/// Real-time: yes if f is. O(N).
+template <int N, class Function>
+[[nodiscard, gnu::always_inline]] inline JointVector<N> for_each_joint(const Function& f) noexcept {
+  JointVector<N> vector;
+  // A fold and not a loop: compilers leave vectors in memory that are filled by loops.
+  [&]<int... J>(std::integer_sequence<int, J...>) __attribute__((always_inline)) {
+    ((vector.coeffRef(J) = f(J)), ...);
+  }
+  (std::make_integer_sequence<int, N>{});
+  return vector;
+}
+
+/// A x. Real-time: yes. O(N^2).
+template <int N>
+[[nodiscard]] JointVector<N> product(const JointMatrix<N>& a, const JointVector<N>& x) noexcept {
+  return for_each_joint<N>([&](int i) noexcept {
+    double sum = 0;
+    for (int j = 0; j < N; ++j) sum += a(i, j) * x[j];
+    return sum;
+  });
+}
 
 }  // namespace articula

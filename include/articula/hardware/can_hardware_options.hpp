@@ -2,10 +2,10 @@
 /// @file How patient the CAN driver is, and what it counts.
 #pragma once
 
+#include "articula/core/refuse.hpp"
+
 #include <chrono>
 #include <cstdint>
-#include <sstream>
-#include <stdexcept>
 
 namespace articula {
 
@@ -33,24 +33,29 @@ struct CanHardwareOptions {
 /// @throws std::invalid_argument naming the option, the value and the limit
 /// Real-time: no (throws).
 inline void validate(const CanHardwareOptions& options) {
-  const auto require = [](bool condition, const auto&... parts) {
-    if (condition) return;
-    std::ostringstream message;
-    message << "CAN hardware: ";
-    (message << ... << parts);
-    throw std::invalid_argument(message.str());
+  const auto refuse = [](detail::MessageParts parts) {
+    detail::refuse({"CAN hardware: ", detail::message_of(parts)});
   };
-  require(options.stale_after >= 1, "stale_after ", options.stale_after, " is less than 1 cycle");
-  require(options.silent_after >= options.stale_after, "silent_after ", options.silent_after,
-          " is less than stale_after ", options.stale_after);
-  require(options.not_sent_after >= 1, "not_sent_after ", options.not_sent_after,
-          " is less than 1 cycle");
-  require(options.feedback_time.count() >= 0, "feedback_time ", options.feedback_time.count(),
-          " ns is negative");
-  require(options.set_up_period.count() > 0, "set_up_period ", options.set_up_period.count(),
-          " ns is not positive");
-  require(options.set_up_time >= options.set_up_period, "set_up_time ", options.set_up_time.count(),
-          " ns is less than set_up_period ", options.set_up_period.count(), " ns");
+  if (options.stale_after < 1) {
+    refuse({"stale_after ", options.stale_after, " is less than 1 cycle"});
+  }
+  if (options.silent_after < options.stale_after) {
+    refuse(
+        {"silent_after ", options.silent_after, " is less than stale_after ", options.stale_after});
+  }
+  if (options.not_sent_after < 1) {
+    refuse({"not_sent_after ", options.not_sent_after, " is less than 1 cycle"});
+  }
+  if (options.feedback_time.count() < 0) {
+    refuse({"feedback_time ", options.feedback_time.count(), " ns is negative"});
+  }
+  if (options.set_up_period.count() <= 0) {
+    refuse({"set_up_period ", options.set_up_period.count(), " ns is not positive"});
+  }
+  if (options.set_up_time < options.set_up_period) {
+    refuse({"set_up_time ", options.set_up_time.count(), " ns is less than set_up_period ",
+            options.set_up_period.count(), " ns"});
+  }
 }
 
 /// What the CAN driver has counted since it was made.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/hardware/canopen.hpp"
 #include "articula/model/robot.hpp"
 
@@ -10,8 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <sstream>
-#include <stdexcept>
+#include <string_view>
 
 namespace articula {
 
@@ -39,33 +39,33 @@ void validate(const R& robot, const Cia402DriveList<joint_count<R>>& drives) {
   for (std::size_t j = 0; j < drives.size(); ++j) {
     const Cia402Drive& drive = drives[j];
     const JointProperties& joint = model_of(robot).joints[j];
-    const auto require = [&](bool condition, const auto&... parts) {
-      if (condition) return;
-      std::ostringstream message;
-      message << "CiA 402 drive of '" << joint.name.view() << "': ";
-      (message << ... << parts);
-      throw std::invalid_argument(message.str());
+    const auto refuse = [&](detail::MessageParts parts) {
+      detail::refuse({"CiA 402 drive of '", joint.name.view(), "': ", detail::message_of(parts)});
     };
-    require(drive.node >= 1 && drive.node <= canopen::last_node, "node ", int{drive.node},
-            " is not within 1 .. ", int{canopen::last_node});
-    for (std::size_t other = 0; other < j; ++other) {
-      require(drives[other].node != drive.node, "node ", int{drive.node}, " is used twice");
+    if (drive.node < 1 || drive.node > canopen::last_node) {
+      refuse({"node ", int{drive.node}, " is not within 1 .. ", int{canopen::last_node}});
     }
-    const auto scale = [&](const char* what, double value) {
-      require(is_finite(value) && value != 0, what, " ", value, " is not a number other than 0");
+    for (std::size_t other = 0; other < j; ++other) {
+      if (drives[other].node == drive.node) refuse({"node ", int{drive.node}, " is used twice"});
+    }
+    const auto scale = [&](std::string_view what, double value) {
+      if (is_finite(value) && value != 0) return;
+      refuse({what, " ", value, " is not a number other than 0"});
     };
     scale("rated_effort", drive.rated_effort);
     scale("position_scale", drive.position_scale);
     scale("velocity_scale", drive.velocity_scale);
     const double highest_effort = 32.767 * std::abs(drive.rated_effort);  // 16 bits of per mille
-    require(!is_finite(joint.limits.effort) || joint.limits.effort <= highest_effort,
-            "the joint's effort limit ", joint.limits.effort, " N m is above the ", highest_effort,
-            " N m that a frame can carry");
+    if (is_finite(joint.limits.effort) && !(joint.limits.effort <= highest_effort)) {
+      refuse({"the joint's effort limit ", joint.limits.effort, " N m is above the ",
+              highest_effort, " N m that a frame can carry"});
+    }
     for (const double limit : {joint.limits.lower, joint.limits.upper}) {
       if (!is_finite(limit)) continue;
       const double units = std::abs(limit * drive.position_scale + drive.zero_position);
-      require(units <= 2147483647.0, "the joint's limit ", limit, " is ", units,
-              " position units, above the 2147483647 that a frame can carry");
+      if (units <= 2147483647.0) continue;
+      refuse({"the joint's limit ", limit, " is ", units,
+              " position units, above the 2147483647 that a frame can carry"});
     }
   }
 }

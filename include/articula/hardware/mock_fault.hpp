@@ -3,12 +3,11 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 namespace articula {
@@ -46,16 +45,13 @@ struct MockFault {
 /// @throws std::invalid_argument naming the fault, the value and the limit
 /// Real-time: no (throws).
 inline void validate(const std::vector<MockFault>& script, int joint_count, double period) {
-  const auto refuse = [](const auto&... parts) {
-    std::ostringstream message;
-    message << "mock hardware: ";
-    (message << ... << parts);
-    throw std::invalid_argument(message.str());
-  };
-  if (!is_finite(period) || period <= 0) refuse("period ", period, " s is not a positive number");
+  if (!is_finite(period) || period <= 0) {
+    detail::refuse({"mock hardware: period ", period, " s is not a positive number"});
+  }
   for (std::size_t i = 0; i < script.size(); ++i) {
     if (script[i].joint < -1 || script[i].joint >= joint_count) {
-      refuse("fault ", i, ": joint ", script[i].joint, " is not between -1 and ", joint_count - 1);
+      detail::refuse({"mock hardware: fault ", i, ": joint ", script[i].joint,
+                      " is not between -1 and ", joint_count - 1});
     }
   }
 }

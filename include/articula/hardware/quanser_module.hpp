@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/hardware/quanser_protocol.hpp"
 #include "articula/model/robot.hpp"
 
@@ -11,8 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <sstream>
-#include <stdexcept>
+#include <string_view>
 
 namespace articula {
 
@@ -49,37 +49,40 @@ void validate(const R& robot, const QuanserModules<joint_count<R>>& modules) {
   for (std::size_t j = 0; j < modules.size(); ++j) {
     const QuanserModule& module = modules[j];
     const JointProperties& joint = model_of(robot).joints[j];
-    const auto require = [&](bool condition, const auto&... parts) {
-      if (condition) return;
-      std::ostringstream message;
-      message << "joint module of '" << joint.name.view() << "': ";
-      (message << ... << parts);
-      throw std::invalid_argument(message.str());
+    const auto refuse = [&](detail::MessageParts parts) {
+      detail::refuse({"joint module of '", joint.name.view(), "': ", detail::message_of(parts)});
     };
-    require(joint.type != JointType::prismatic, "the joint slides, and the protocol is for turns");
-    require(module.node >= 1 && module.node <= quanser::last_node, "node ", int{module.node},
-            " is not within 1 .. ", int{quanser::last_node});
-    for (std::size_t other = 0; other < j; ++other) {
-      require(modules[other].node != module.node, "node ", int{module.node}, " is used twice");
+    if (joint.type == JointType::prismatic) {
+      refuse({"the joint slides, and the protocol is for turns"});
     }
-    const auto scale = [&](const char* what, double value) {
-      require(is_finite(value) && value != 0, what, " ", value, " is not a number other than 0");
+    if (module.node < 1 || module.node > quanser::last_node) {
+      refuse({"node ", int{module.node}, " is not within 1 .. ", int{quanser::last_node}});
+    }
+    for (std::size_t other = 0; other < j; ++other) {
+      if (modules[other].node == module.node) refuse({"node ", int{module.node}, " is used twice"});
+    }
+    const auto scale = [&](std::string_view what, double value) {
+      if (is_finite(value) && value != 0) return;
+      refuse({what, " ", value, " is not a number other than 0"});
     };
     scale("motor_counts_per_turn", module.motor_counts_per_turn);
     scale("gear_ratio", module.gear_ratio);
     scale("load_counts_per_turn", module.load_counts_per_turn);
-    require(is_finite(module.position_at_zero), "position_at_zero ", module.position_at_zero,
-            " is not finite");
+    if (!is_finite(module.position_at_zero)) {
+      refuse({"position_at_zero ", module.position_at_zero, " is not finite"});
+    }
     const double highest_effort = 32.767;  // N m, see Effort
-    require(joint.limits.effort <= highest_effort, "the joint's effort limit ", joint.limits.effort,
-            " N m is above the ", highest_effort, " N m that a frame can carry");
+    if (!(joint.limits.effort <= highest_effort)) {
+      refuse({"the joint's effort limit ", joint.limits.effort, " N m is above the ",
+              highest_effort, " N m that a frame can carry"});
+    }
     for (const double limit : {joint.limits.lower, joint.limits.upper}) {
       if (!is_finite(limit)) continue;
       for (const double per_radian : {module.motor_scale(), module.load_scale()}) {
         const double counts = std::abs((limit - module.position_at_zero) * per_radian);
-        require(counts <= quanser::detail::largest_count, "the joint's limit ", limit, " rad is ",
-                counts, " counts, above the ", quanser::detail::largest_count,
-                " that a frame can carry");
+        if (counts <= quanser::detail::largest_count) continue;
+        refuse({"the joint's limit ", limit, " rad is ", counts, " counts, above the ",
+                quanser::detail::largest_count, " that a frame can carry"});
       }
     }
   }

@@ -2,6 +2,7 @@
 /// @file The way to a CAN bus through Linux. CMake target: articula::socketcan.
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/hardware/can_error_frame.hpp"
 #include "articula/hardware/can_transport.hpp"
 
@@ -67,12 +68,11 @@ class SocketCan {
                      std::chrono::nanoseconds confirmation_time = std::chrono::milliseconds(3))
       : interface_(std::move(interface)), confirmation_time_(confirmation_time) {
     if (confirmation_time.count() <= 0) {
-      throw std::invalid_argument("socketcan: confirmation_time " +
-                                  std::to_string(confirmation_time.count()) +
-                                  " ns is not positive");
+      detail::refuse(
+          {"socketcan: confirmation_time ", confirmation_time.count(), " ns is not positive"});
     }
     if (interface_.empty() || interface_.size() >= IF_NAMESIZE) {
-      throw std::invalid_argument("socketcan: '" + interface_ + "' is no name of an interface");
+      detail::refuse({"socketcan: '", interface_, "' is no name of an interface"});
     }
     if (open({}) != Status::ok) {
       throw std::runtime_error("socketcan: interface '" + interface_ + "': " + error_);

@@ -4,13 +4,12 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_vector.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/joint.hpp"
 
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 namespace articula {
@@ -50,17 +49,12 @@ namespace detail {
 /// overflow nor vanish.
 inline void check_reduction(std::string_view where, std::string_view what, double reduction) {
   if (is_finite(reduction) && std::abs(reduction) >= 1e-100 && std::abs(reduction) <= 1e100) return;
-  std::ostringstream message;
-  message << where << ": " << what << " " << reduction
-          << " is not a number between 1e-100 and 1e100 in size";
-  throw std::invalid_argument(message.str());
+  refuse({where, ": ", what, " ", reduction, " is not a number between 1e-100 and 1e100 in size"});
 }
 
 inline void check_offset(std::string_view where, std::string_view what, double offset) {
   if (is_finite(offset)) return;
-  std::ostringstream message;
-  message << where << ": " << what << " " << offset << " is not finite";
-  throw std::invalid_argument(message.str());
+  refuse({where, ": ", what, " ", offset, " is not finite"});
 }
 
 }  // namespace detail

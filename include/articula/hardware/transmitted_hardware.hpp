@@ -5,6 +5,7 @@
 #include "articula/control/drive_spring.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/hardware/transmission.hpp"
 #include "articula/model/robot.hpp"
 
@@ -15,7 +16,6 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -192,8 +192,7 @@ class TransmittedHardware {
     try {
       return joint_index(side, name.view());
     } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("transmissions: '" + std::string(name.view()) + "' is to be " +
-                                  what + ": " + error.what());
+      detail::refuse({"transmissions: '", name.view(), "' is to be ", what, ": ", error.what()});
     }
   }
 
@@ -210,14 +209,12 @@ class TransmittedHardware {
       if (lower <= upper && lower < infinity && upper > -infinity && velocity >= 0 && effort >= 0) {
         continue;
       }
-      std::ostringstream message;
-      message << "limits of actuator '" << gearing.actuators[k].view() << "': position " << lower
-              << " .. " << upper << ", velocity " << velocity << ", effort " << effort
-              << " leave nothing to do";
-      throw std::invalid_argument(message.str());
+      detail::refuse({"limits of actuator '", gearing.actuators[k].view(), "': position ", lower,
+                      " .. ", upper, ", velocity ", velocity, ", effort ", effort,
+                      " leave nothing to do"});
     }
     std::string where = "transmission of joint";
-    for (const Name& joint : gearing.joints) where += " '" + std::string(joint.view()) + "'";
+    for (const Name& joint : gearing.joints) where += detail::message_of({" '", joint.view(), "'"});
     validate(gearing.transmission, where);
     return part;
   }
@@ -226,8 +223,7 @@ class TransmittedHardware {
     std::array<bool, static_cast<std::size_t>(joint_count)> has_joint{}, has_actuator{};
     const auto add = [](auto& has, int index, const char* kind, const Name& name) {
       if (!std::exchange(has[static_cast<std::size_t>(index)], true)) return;
-      throw std::invalid_argument(std::string("transmissions: ") + kind + " '" +
-                                  std::string(name.view()) + "' is there twice");
+      detail::refuse({"transmissions: ", kind, " '", name.view(), "' is there twice"});
     };
     const auto add_part = [&](const auto& part) {
       for (std::size_t k = 0; k < part.joints.size(); ++k) {

@@ -2,6 +2,7 @@
 /// @file Transmissions with the figures of a URDF. Needs the CMake target articula::urdf (urdfdom).
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/hardware/differential_transmission.hpp"
 #include "articula/hardware/four_bar_transmission.hpp"
 #include "articula/hardware/simple_transmission.hpp"
@@ -52,7 +53,7 @@ requires(!detail::urdf_transmission<T>.empty())
   const std::string where = description.file + ": transmission '" + std::string(name) + "'";
   const auto found = std::ranges::find(description.transmissions, name, &UrdfTransmission::name);
   if (found == description.transmissions.end()) {
-    throw std::invalid_argument(where + " does not exist");
+    detail::refuse({where, " does not exist"});
   }
   // "transmission_interface/SimpleTransmission": the last part counts.
   const std::string type = found->type.substr(found->type.find_last_of("/:") + 1);
@@ -60,21 +61,18 @@ requires(!detail::urdf_transmission<T>.empty())
                                 detail::urdf_transmission<DifferentialTransmission>,
                                 detail::urdf_transmission<FourBarTransmission>};
   if (type != detail::urdf_transmission<T> && std::ranges::find(known, type) != known.end()) {
-    throw std::invalid_argument(where + " is a " + type + ", not a " +
-                                std::string(detail::urdf_transmission<T>));
+    detail::refuse({where, " is a ", type, ", not a ", detail::urdf_transmission<T>});
   }
   const auto in_order = [&](std::vector<UrdfTransmissionEnd> ends, const char* kind) {
     if (ends.size() != Gearing<T>::size) {
-      throw std::invalid_argument(where + " has " + std::to_string(ends.size()) + " " + kind +
-                                  "s instead of " + std::to_string(Gearing<T>::size));
+      detail::refuse({where, " has ", ends.size(), " ", kind, "s instead of ", Gearing<T>::size});
     }
     std::ranges::stable_sort(ends, {}, &UrdfTransmissionEnd::role);
     const bool none = ends.back().role.empty();
     const bool twice =
         std::ranges::adjacent_find(ends, {}, &UrdfTransmissionEnd::role) != ends.end();
     if (!none && (ends.front().role.empty() || twice)) {
-      throw std::invalid_argument(where + ": each " + kind +
-                                  " must have a role of its own, or none");
+      detail::refuse({where, ": each ", kind, " must have a role of its own, or none"});
     }
     return ends;
   };

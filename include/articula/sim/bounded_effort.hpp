@@ -53,18 +53,18 @@ template <int N>
   constexpr int rounds = 16 * N;  // far beyond what was seen; the limit only bounds the time
   for (int round = 0; round < rounds; ++round) {
     // Held joints leave the equations: identity rows and columns, zero right-hand side.
-    JointMatrix<N> m = mass_matrix;
-    JointVector<N> b = load + answer.effort;
-    for (int j = 0; j < N; ++j) {
-      if (!answer.held[static_cast<std::size_t>(j)]) continue;
-      m.row(j).setZero();
-      m.col(j).setZero();
-      m(j, j) = 1;
-      b[j] = 0;
+    JointRows<double, N> m = detail::to_rows(mass_matrix);
+    JointArray<double, N> b;
+    for (std::size_t j = 0; j < m.size(); ++j) {
+      const auto row = static_cast<Eigen::Index>(j);
+      b[j] = answer.held[j] ? 0 : load[row] + answer.effort[row];
+      if (!answer.held[j]) continue;
+      for (std::size_t i = 0; i < m.size(); ++i) m[i][j] = m[j][i] = i == j ? 1 : 0;
     }
-    const auto factors = factorise<double, N>(parents, detail::to_rows(m));
-    answer.motion = detail::to_vector(solve<double, N>(parents, factors, detail::to_array(b)));
-    const JointVector<N> needed = mass_matrix * answer.motion - load;
+    const auto factors = factorise<double, N>(parents, m);
+    answer.motion = detail::to_vector(solve<double, N>(parents, factors, b));
+    const JointVector<N> taken = product<N>(mass_matrix, answer.motion);
+    const auto needed = for_each_joint<N>([&](int j) noexcept { return taken[j] - load[j]; });
     int wrong = -1;
     for (int j = N - 1; j >= 0; --j) {
       const auto i = static_cast<std::size_t>(j);

@@ -106,8 +106,9 @@ class JointDynamics {
     return m.position[j] >= upper_[j];
   }
   [[nodiscard]] bool any_at_stop(const Motion<joint_count>& m) const noexcept {
-    return (m.position.array() <= lower_.array()).any() ||
-           (m.position.array() >= upper_.array()).any();
+    bool any = false;
+    for (int j = 0; j < joint_count; ++j) any = any || at_lower(m, j) || at_upper(m, j);
+    return any;
   }
 
   /// The velocity after all joints that run into their stops have hit them. Without rebound, all
@@ -125,8 +126,9 @@ class JointDynamics {
     }
     if (hits) {
       const JointMatrix<joint_count> m = mass_matrix(robot_, motion.position);
-      motion.velocity =
-          hold_within_bounds<joint_count>(parents_, m, m * motion.velocity, impulse).motion;
+      motion.velocity = hold_within_bounds<joint_count>(
+                            parents_, m, product<joint_count>(m, motion.velocity), impulse)
+                            .motion;
     }
     return motion;
   }
@@ -148,12 +150,7 @@ class JointDynamics {
       may_hold = may_hold || bounds.lower[j] < bounds.upper[j];
     }
     if (!may_hold) return phase;
-    const JointVector<joint_count> load =
-        effort(motion.position, motion.velocity) + phase.sliding -
-        damping_.cwiseProduct(motion.velocity) -
-        nonlinear_effects(robot_, motion.position, motion.velocity);
-    const auto answer = hold_within_bounds<joint_count>(
-        parents_, mass_matrix(robot_, motion.position), load, bounds);
+    const auto answer = held_within(bounds, phase, motion.position, motion.velocity, effort);
     phase.held = answer.held;
     for (int j = 0; j < joint_count; ++j) {
       const bool held = answer.held[static_cast<std::size_t>(j)];
@@ -172,8 +169,7 @@ class JointDynamics {
     if (!phase.any_held) {
       return runge_kutta_step<joint_count>(
           motion, step, [&](const auto& q, const auto& v) noexcept {
-            return forward_dynamics(robot_, q, v,
-                                    effort(q, v) + phase.sliding - damping_.cwiseProduct(v));
+            return forward_dynamics(robot_, q, v, applied(phase, v, effort(q, v)));
           });
     }
     EffortBounds<joint_count> bounds;
@@ -183,10 +179,30 @@ class JointDynamics {
       bounds.upper[j] = JointLimits::infinity;
     }
     return runge_kutta_step<joint_count>(motion, step, [&](const auto& q, const auto& v) noexcept {
-      const JointVector<joint_count> load =
-          effort(q, v) + phase.sliding - damping_.cwiseProduct(v) - nonlinear_effects(robot_, q, v);
-      return hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), load, bounds).motion;
+      return held_within(bounds, phase, q, v, effort).motion;
     });
+  }
+
+  /// The efforts on the joints: of the drives, of friction where joints slide, and of damping.
+  [[nodiscard]] JointVector<joint_count> applied(
+      const Phase& phase, const JointVector<joint_count>& v,
+      const JointVector<joint_count>& drives) const noexcept {
+    return for_each_joint<joint_count>(
+        [&](int j) noexcept { return drives[j] + phase.sliding[j] - damping_[j] * v[j]; });
+  }
+
+  /// The accelerations where friction and stops hold joints still as far as they can.
+  template <class Drives>
+  [[nodiscard]] BoundedEffort<joint_count> held_within(const EffortBounds<joint_count>& bounds,
+                                                       const Phase& phase,
+                                                       const JointVector<joint_count>& q,
+                                                       const JointVector<joint_count>& v,
+                                                       const Drives& effort) const noexcept {
+    const JointVector<joint_count> effects = nonlinear_effects(robot_, q, v);
+    const JointVector<joint_count> given = applied(phase, v, effort(q, v));
+    const auto load =
+        for_each_joint<joint_count>([&](int j) noexcept { return given[j] - effects[j]; });
+    return hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), load, bounds);
   }
 
   /// How far a joint has passed its stop, or one that slid against friction has turned back, at most;
@@ -205,8 +221,8 @@ class JointDynamics {
   /// stopped to rest.
   [[nodiscard]] Motion<joint_count> settle(const Phase& phase,
                                            Motion<joint_count> motion) const noexcept {
-    motion.position = motion.position.cwiseMax(lower_).cwiseMin(upper_);
     for (int j = 0; j < joint_count; ++j) {
+      motion.position[j] = std::clamp(motion.position[j], lower_[j], upper_[j]);
       if (motion.velocity[j] * phase.sliding[j] > 0) motion.velocity[j] = 0;
     }
     return motion;

@@ -24,16 +24,25 @@ struct Motion {
 template <int N, class Acceleration>
 [[nodiscard]] Motion<N> runge_kutta_step(const Motion<N>& start, double step,
                                          const Acceleration& acceleration) noexcept {
-  const JointVector<N>& q = start.position;
-  const JointVector<N>& v1 = start.velocity;
-  const JointVector<N> a1 = acceleration(q, v1);
-  const JointVector<N> v2 = v1 + step / 2 * a1;
-  const JointVector<N> a2 = acceleration(q + step / 2 * v1, v2);
-  const JointVector<N> v3 = v1 + step / 2 * a2;
-  const JointVector<N> a3 = acceleration(q + step / 2 * v2, v3);
-  const JointVector<N> v4 = v1 + step * a3;
-  const JointVector<N> a4 = acceleration(q + step * v3, v4);
-  return {q + step / 6 * (v1 + 2 * (v2 + v3) + v4), v1 + step / 6 * (a1 + 2 * (a2 + a3) + a4)};
+  using Vector = JointVector<N>;
+  const auto after = [](double time, const Vector& x, const Vector& rate) noexcept {
+    return for_each_joint<N>([&](int j) noexcept { return x[j] + time * rate[j]; });
+  };
+  const auto at_end = [step](const Vector& x, const Vector& k1, const Vector& k2, const Vector& k3,
+                             const Vector& k4) noexcept {
+    return for_each_joint<N>(
+        [&](int j) noexcept { return x[j] + step / 6 * (k1[j] + 2 * (k2[j] + k3[j]) + k4[j]); });
+  };
+  const Vector& q = start.position;
+  const Vector& v1 = start.velocity;
+  const Vector a1 = acceleration(q, v1);
+  const Vector v2 = after(step / 2, v1, a1);
+  const Vector a2 = acceleration(after(step / 2, q, v1), v2);
+  const Vector v3 = after(step / 2, v1, a2);
+  const Vector a3 = acceleration(after(step / 2, q, v2), v3);
+  const Vector v4 = after(step, v1, a3);
+  const Vector a4 = acceleration(after(step, q, v3), v4);
+  return {at_end(q, v1, v2, v3, v4), at_end(v1, a1, a2, a3, a4)};
 }
 
 }  // namespace articula

@@ -8,6 +8,7 @@
 #include "articula/sim/bounded_effort.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace articula {
 
@@ -22,8 +23,8 @@ namespace articula {
 /// weight and friction, and as if it were alone. That is the cascaded control of industrial drives
 /// with a perfect feed-forward, [Siciliano et al. 2009, section 8.5.2].
 ///
-/// A drive gives no more than its effort limit. While one is at its limit, its joint lags behind, and
-/// the others still follow. Positions are asked for within the joint's limits only, and a drive does
+/// A drive gives no more than its effort limit. While one is at its limit, its joint lags behind, or
+/// overshoots where it cannot brake as hard as it should, and the others still follow. Positions are asked for within the joint's limits only, and a drive does
 /// not push on where its joint rests at a stop. Where a joint has no velocity limit, V is 1e6 rad/s or
 /// m/s, so that a wish of any size to one drive leaves the others theirs.
 /// @tparam R  the robot
@@ -55,9 +56,11 @@ class ServoDrives {
   /// Real-time: yes.
   [[nodiscard]] Vector effort_to_position(const Vector& target, const Vector& q,
                                           const Vector& v) const noexcept {
-    const Vector reachable = target.cwiseMax(lower_).cwiseMin(upper_);
-    const Vector velocity = within_velocity_limits(bandwidth_.cwiseProduct(reachable - q) / 2);
-    return effort_for(2 * bandwidth_.cwiseProduct(velocity - v), q, v);
+    const auto acceleration = for_each_joint<joint_count>([&](int j) noexcept {
+      const double w = bandwidth_[j], reachable = std::clamp(target[j], lower_[j], upper_[j]);
+      return 2 * w * (within_velocity_limit(j, w / 2 * (reachable - q[j])) - v[j]);
+    });
+    return effort_for(acceleration, q, v);
   }
 
   /// What the drives give to reach velocities.
@@ -68,12 +71,15 @@ class ServoDrives {
   /// Real-time: yes.
   [[nodiscard]] Vector effort_to_velocity(const Vector& target, const Vector& q,
                                           const Vector& v) const noexcept {
-    return effort_for(bandwidth_.cwiseProduct(within_velocity_limits(target) - v), q, v);
+    const auto acceleration = for_each_joint<joint_count>([&](int j) noexcept {
+      return bandwidth_[j] * (within_velocity_limit(j, target[j]) - v[j]);
+    });
+    return effort_for(acceleration, q, v);
   }
 
  private:
-  [[nodiscard]] Vector within_velocity_limits(const Vector& velocity) const noexcept {
-    return velocity.cwiseMin(most_velocity_).cwiseMax(-most_velocity_);
+  [[nodiscard]] double within_velocity_limit(int j, double velocity) const noexcept {
+    return std::clamp(velocity, -most_velocity_[j], most_velocity_[j]);
   }
 
   /// The effort for an acceleration a. If that is more than some drive can give, the joints move with
@@ -88,13 +94,21 @@ class ServoDrives {
       const double sign = direction > 0 ? 1 : direction < 0 ? -1 : 0;
       resistance[j] = damping_[j] * v[j] + friction_[j] * sign;
     }
-    const Vector needed = inverse_dynamics(robot_, q, v, a) + resistance;
+    Vector needed = inverse_dynamics(robot_, q, v, a);
+    bool within_limits = true;
+    for (int j = 0; j < joint_count; ++j) {
+      needed[j] += resistance[j];
+      within_limits = within_limits && std::abs(needed[j]) <= most_effort_[j];
+    }
     if (!is_finite(needed)) return Vector::Zero();
-    if ((needed.array().abs() <= most_effort_.array()).all()) return needed;
-    const Vector given = hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), -needed,
-                                                         {-most_effort_, most_effort_})
-                             .effort;
-    return given.cwiseMin(most_effort_).cwiseMax(-most_effort_);
+    if (within_limits) return needed;
+    Vector given = hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), -needed,
+                                                   {-most_effort_, most_effort_})
+                       .effort;
+    for (int j = 0; j < joint_count; ++j) {
+      given[j] = std::clamp(given[j], -most_effort_[j], most_effort_[j]);
+    }
+    return given;
   }
 
   [[no_unique_address]] R robot_;

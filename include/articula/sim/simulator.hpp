@@ -72,8 +72,9 @@ class Simulator {
   /// comes to rest against dry friction.
   [[nodiscard]] Status write(const EffortCommand<joint_count>& command) noexcept {
     const bool accepted = is_finite(command);
-    truth_.effort.setZero();
-    if (accepted) truth_.effort = command.effort.cwiseMin(limits_).cwiseMax(-limits_);
+    truth_.effort = for_each_joint<joint_count>([&](int j) noexcept {
+      return accepted ? std::clamp(command.effort[j], -limits_[j], limits_[j]) : 0.0;
+    });
     advance(options_.substeps, [this](const auto&, const auto&) noexcept { return truth_.effort; });
     return accepted ? Status::ok : Status::non_finite_command;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/tree_factors.hpp"
 #include "articula/model/robot.hpp"
@@ -12,8 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
+#include <string>
 #include <string_view>
 
 namespace articula {
@@ -79,16 +79,13 @@ template <Robot R>
 template <Robot R>
 void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
   constexpr int n = joint_count<R>;
-  const auto refuse = [](const auto&... parts) {
-    std::ostringstream message;
-    message << "simulator: ";
-    (message << ... << parts);
-    throw std::invalid_argument(message.str());
+  const auto refuse = [](detail::MessageParts parts) {
+    detail::refuse({"simulator: ", detail::message_of(parts)});
   };
   if (!is_finite(options.period) || options.period <= 0) {
-    refuse("period ", options.period, " s is not a positive number");
+    refuse({"period ", options.period, " s is not a positive number"});
   }
-  if (options.substeps < 1) refuse("substeps ", options.substeps, " is less than 1");
+  if (options.substeps < 1) refuse({"substeps ", options.substeps, " is less than 1"});
 
   const JointVector<n> q = initial_position(robot, options);
   for (int j = 0; j < n; ++j) {
@@ -96,7 +93,7 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     const std::string_view name = joint.name.view();
     const auto check_not_negative = [&](std::string_view what, double value) {
       if (!is_finite(value) || value < 0) {
-        refuse(what, " ", value, " of joint '", name, "' is not a number >= 0");
+        refuse({what, " ", value, " of joint '", name, "' is not a number >= 0"});
       }
     };
     check_not_negative("encoder_resolution", options.encoder_resolution[j]);
@@ -107,17 +104,17 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     const double most_bandwidth = 0.2 * most_steps / options.period;
     const double bandwidth = options.servo_bandwidth[j];
     if (!is_finite(bandwidth) || bandwidth <= 0 || bandwidth > most_bandwidth) {
-      refuse("servo_bandwidth ", bandwidth, " rad/s of joint '", name,
-             "' is not a number > 0 and at most ", most_bandwidth,
-             ", where a period takes a million steps");
+      refuse({"servo_bandwidth ", bandwidth, " rad/s of joint '", name,
+              "' is not a number > 0 and at most ", most_bandwidth,
+              ", where a period takes a million steps"});
     }
     if (!is_finite(options.initial_velocity[j])) {
-      refuse("initial_velocity ", options.initial_velocity[j], " of joint '", name,
-             "' is not finite");
+      refuse({"initial_velocity ", options.initial_velocity[j], " of joint '", name,
+              "' is not finite"});
     }
     if (!is_finite(q[j]) || q[j] < joint.limits.lower || q[j] > joint.limits.upper) {
-      refuse("initial_position ", q[j], " of joint '", name, "' is outside its limits ",
-             joint.limits.lower, " .. ", joint.limits.upper);
+      refuse({"initial_position ", q[j], " of joint '", name, "' is outside its limits ",
+              joint.limits.lower, " .. ", joint.limits.upper});
     }
   }
 
@@ -128,9 +125,9 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     const double pivot = 1 / factors.inverse_pivot[static_cast<std::size_t>(j)];
     const double whole = mass_matrix(robot, q)(j, j);
     if (!(pivot > 1e-12 * whole)) {  // what cancellation leaves of nothing is some 1e-16
-      refuse("the mass matrix is singular at the initial position: joint '",
-             model_of(robot).joints[static_cast<std::size_t>(j)].name.view(),
-             "' moves no mass when the joints that it carries give way");
+      refuse({"the mass matrix is singular at the initial position: joint '",
+              model_of(robot).joints[static_cast<std::size_t>(j)].name.view(),
+              "' moves no mass when the joints that it carries give way"});
     }
   }
 
@@ -140,27 +137,31 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
   // short, so half of it is asked for.
   const JointVector<n> damping =
       joint_values(robot, [](const JointProperties& joint) { return joint.damping; });
-  JointVector<n> mode;  // to begin with, one that no robot's symmetry makes a slow one
-  for (int j = 0; j < n; ++j) mode[j] = 1 / (1.0 + j);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  JointArray<double, n> mode;  // to begin with, one that no robot's symmetry makes a slow one
+  for (std::size_t j = 0; j < mode.size(); ++j) mode[j] = 1 / (1.0 + static_cast<double>(j));
   double rate = 0;
   for (int k = 0; k < 100; ++k) {
-    const JointVector<n> next = detail::to_vector(
-        solve<double, n>(parents, factors, detail::to_array<n>(damping.cwiseProduct(mode))));
-    rate = next.cwiseAbs().maxCoeff();  // of squares the sum may overflow
+    for (std::size_t j = 0; j < mode.size(); ++j) {
+      mode[j] *= damping[static_cast<Eigen::Index>(j)];
+    }
+    mode = solve<double, n>(parents, factors, mode);
+    rate = 0;  // the largest number; of squares the sum may overflow
+    for (const double x : mode) rate = std::fmax(rate, is_finite(x) ? std::abs(x) : infinity);
     if (rate == 0) return;
-    if (!is_finite(rate)) refuse("joint damping decays too fast for a number");
-    mode = next / rate;
+    if (!is_finite(rate)) refuse({"joint damping decays too fast for a number"});
+    for (double& x : mode) x /= rate;
   }
   const double most = 2.785 / 2 / rate;
   if (options.period / options.substeps > most) {
-    std::ostringstream advice;
+    std::string advice;
     const double needed = std::ceil(options.period / most);
     if (needed < std::numeric_limits<int>::max()) {
-      advice << ": ask for at least " << static_cast<int>(needed) << " substeps instead of "
-             << options.substeps;
+      advice = detail::message_of({": ask for at least ", static_cast<int>(needed),
+                                   " substeps instead of ", options.substeps});
     }
-    refuse("joint damping decays with ", rate,
-           " 1/s at the initial position, which needs steps of at most ", most, " s", advice.str());
+    refuse({"joint damping decays with ", rate,
+            " 1/s at the initial position, which needs steps of at most ", most, " s", advice});
   }
 }
 
