@@ -123,23 +123,26 @@ template <class Algorithm, DescribedRobot R>
   }
 }
 
-/// The program of an algorithm, or of its `Alternative`, another one with the same inputs and results,
-/// if that is the cheaper one. It is tried only where it says that it `may_pay`.
+/// Whether an algorithm has an `Alternative`, another one with the same inputs and results, that makes
+/// the cheaper program. It is tried only where it says that it `may_pay`.
 template <class Algorithm, DescribedRobot R>
-[[nodiscard]] consteval const auto& cheapest_program() {
-  constexpr Frames frames = frames_for<Algorithm, R>();
+[[nodiscard]] consteval bool has_cheaper_alternative() {
   if constexpr (requires { typename Algorithm::Alternative; }) {
     using Other = typename Algorithm::Alternative;
     if constexpr (Other::may_pay(mechanism_for<Algorithm>(R{}))) {
-      constexpr int own_cost = program_in<Algorithm, R, frames>.operations().cost();
-      if constexpr (program_in<Other, R, frames>.operations().cost() < own_cost) {
-        return program_in<Other, R, frames>;
-      } else {
-        return program_in<Algorithm, R, frames>;
-      }
-    } else {
-      return program_in<Algorithm, R, frames>;
+      constexpr Frames frames = frames_for<Algorithm, R>();
+      return program_in<Other, R, frames>.operations().cost() <
+             program_in<Algorithm, R, frames>.operations().cost();
     }
+  }
+  return false;
+}
+
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval const auto& cheapest_program() {
+  constexpr Frames frames = frames_for<Algorithm, R>();
+  if constexpr (has_cheaper_alternative<Algorithm, R>()) {
+    return program_in<typename Algorithm::Alternative, R, frames>;
   } else {
     return program_in<Algorithm, R, frames>;
   }

@@ -86,14 +86,12 @@ requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_registe
   [[gnu::always_inline]] friend void sincos(const std::array<Pack, K>& angle,
                                             std::array<Pack, K>& sine,
                                             std::array<Pack, K>& cosine) noexcept {
-    Reals sizes{};
-    for (std::size_t i = 0; i < K; ++i) sizes += detail::magnitude<Lanes>(angle[i].reals_);
-    double size = 0;
-    for (int lane = 0; lane < Lanes; ++lane) size += sizes[lane];
-    if (size <= detail::largest_reduced_angle) [[likely]] {
-      for (std::size_t i = 0; i < K; ++i) {
-        detail::sine_cosine_by_lane<Lanes>(angle[i].reals_, sine[i].reals_, cosine[i].reals_);
-      }
+    Reals squares{};
+    for (std::size_t i = 0; i < K; ++i) squares += angle[i].reals_ * angle[i].reals_;
+    double sum = 0;
+    for (int lane = 0; lane < Lanes; ++lane) sum += squares[lane];
+    if (sum <= detail::largest_reduced_square) [[likely]] {
+      sincos_of_small<0>(angle, sine, cosine);
     } else {
       sincos_of_large(angle, sine, cosine);
     }
@@ -106,6 +104,25 @@ requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_registe
     Pack pack;
     pack.reals_ = reals;
     return pack;
+  }
+  /// Of the angles from one on, three packs at a time: more do not fit into the registers.
+  template <std::size_t Begin, std::size_t K>
+  [[gnu::always_inline]] static void sincos_of_small(const std::array<Pack, K>& angle,
+                                                     std::array<Pack, K>& sine,
+                                                     std::array<Pack, K>& cosine) noexcept {
+    if constexpr (Begin < K) {
+      constexpr std::size_t count = K - Begin < 3 ? K - Begin : 3;
+      std::array<Reals, count> x, s, c;
+      detail::for_each_index<count>([&](std::size_t i) __attribute__((always_inline)) {
+        x[i] = angle[Begin + i].reals_;
+      });
+      detail::sine_cosine_by_lane<Lanes, count>(x, s, c);
+      detail::for_each_index<count>([&](std::size_t i) __attribute__((always_inline)) {
+        sine[Begin + i].reals_ = s[i];
+        cosine[Begin + i].reals_ = c[i];
+      });
+      sincos_of_small<Begin + count>(angle, sine, cosine);
+    }
   }
   template <std::size_t K>
   [[gnu::noinline, gnu::cold]] static void sincos_of_large(const std::array<Pack, K>& angle,

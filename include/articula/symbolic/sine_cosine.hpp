@@ -14,13 +14,6 @@ namespace articula::symbolic {
 
 namespace detail {
 
-/// Calls f with 0 to Count - 1. (Compilers leave arrays in memory that are filled by loops.)
-template <std::size_t Count, class Function>
-[[gnu::always_inline]] inline void for_each_index(const Function& f) noexcept {
-  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) { (f(I), ...); }
-  (std::make_index_sequence<Count>{});
-}
-
 /// The lanes for a number of angles: few are left empty.
 [[nodiscard]] constexpr int lanes_for(std::size_t angles) noexcept {
   int lanes = 2;
@@ -64,11 +57,11 @@ template <std::size_t Begin, std::size_t K>
   } else if constexpr (rest > 0) {
     constexpr int lanes = lanes_for(rest);
     constexpr std::size_t taken = rest < lanes ? rest : lanes;
-    Reals<lanes> s, c;
-    sine_cosine_by_lane<lanes>(in_lanes<lanes, Begin, 1>(angle), s, c);
+    std::array<Reals<lanes>, 1> s, c;
+    sine_cosine_by_lane<lanes, 1>({in_lanes<lanes, Begin, 1>(angle)}, s, c);
     for_each_index<taken>([&](std::size_t i) __attribute__((always_inline)) {
-      sine[Begin + i] = s[i];
-      cosine[Begin + i] = c[i];
+      sine[Begin + i] = s[0][i];
+      cosine[Begin + i] = c[0][i];
     });
     sine_cosine_in_lanes<Begin + taken>(angle, sine, cosine);
   }
@@ -96,10 +89,11 @@ template <class S, std::size_t K>
                                                std::array<S, K>& sine,
                                                std::array<S, K>& cosine) noexcept {
   if constexpr (std::same_as<S, double>) {
-    double size = 0;
-    detail::for_each_index<K>([&](auto i)
-                                  __attribute__((always_inline)) { size += std::abs(angle[i]); });
-    if (size <= detail::largest_reduced_angle) [[likely]] {
+    double squares = 0;
+    detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
+      squares += angle[i] * angle[i];
+    });
+    if (squares <= detail::largest_reduced_square) [[likely]] {
       std::array<double, K> ordered, s, c;
       detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
         ordered[i] = angle[detail::in_order<K>(i)];

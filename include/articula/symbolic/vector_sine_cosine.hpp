@@ -2,11 +2,19 @@
 /// @file Sines and cosines of the lanes of compilers' vectors, without branches.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
 namespace articula::symbolic::detail {
+
+/// Calls f with 0 to Count - 1. (Compilers leave arrays in memory that are filled by loops.)
+template <std::size_t Count, class Function>
+[[gnu::always_inline]] inline void for_each_index(const Function& f) noexcept {
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) { (f(I), ...); }
+  (std::make_index_sequence<Count>{});
+}
 
 /// The vectors of g++ and clang++: they have the operators of numbers, lane by lane.
 template <int Lanes>
@@ -48,15 +56,11 @@ template <int Lanes>
   (std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
 }
 
-/// Absolute values.
-template <int Lanes>
-[[gnu::always_inline]] inline Reals<Lanes> magnitude(const Reals<Lanes>& x) noexcept {
-  constexpr std::int64_t all_but_the_sign = INT64_MAX;
-  return reinterpret_cast<Reals<Lanes>>(reinterpret_cast<Integers<Lanes>>(x) & all_but_the_sign);
-}
-
 /// The largest angle that is reduced right [rad].
 inline constexpr double largest_reduced_angle = 1e6;
+/// Its square, with which a sum of squares is compared: that asks once whether all angles of many are
+/// small, finite numbers.
+inline constexpr double largest_reduced_square = largest_reduced_angle * largest_reduced_angle;
 
 /// An angle as right angles and the rest.
 template <int Lanes>
@@ -87,25 +91,41 @@ template <int Lanes>
 // are summed in pairs, so that little waits for anything. Signs by the number of right angles are
 // + + - - for the sine, + - - + for the cosine; an odd number has them change places.
 
+/// Stage by stage for several vectors: processors look ahead not much farther than one of them goes, and
+/// what they find to do beside it is the next one's part in the same stage.
 /// @param[out] sine, cosine  of the angle in each lane
 /// @pre the angles are no larger than largest_reduced_angle
-template <int Lanes>
-[[gnu::always_inline]] inline void sine_cosine_by_lane(const Reals<Lanes>& angle,
-                                                       Reals<Lanes>& sine,
-                                                       Reals<Lanes>& cosine) noexcept {
-  const auto [x, turns] = reduce<Lanes>(angle);
-  const Reals<Lanes> z = x * x, z2 = z * z, z4 = z2 * z2;
-  const Reals<Lanes> p = (-0x1.5555555555555p-3 + z * 0x1.1111111110bb2p-7) +
-                         z2 * (-0x1.a01a019e83816p-13 + z * 0x1.71de379654304p-19) +
-                         z4 * (-0x1.ae600aca92c64p-26 + z * 0x1.5e0b05bff20f2p-33);
-  const Reals<Lanes> q = (0x1.5555555555555p-5 + z * -0x1.6c16c16c16967p-10) +
-                         z2 * (0x1.a01a019f4e9b4p-16 + z * -0x1.27e4fa17bf139p-22) +
-                         z4 * (0x1.1eeb68cd22f56p-29 + z * -0x1.907d8f29fe831p-37);
-  const auto s = reinterpret_cast<Integers<Lanes>>(x + (x * z) * p);
-  const auto c = reinterpret_cast<Integers<Lanes>>((1.0 - 0.5 * z) + z2 * q);
-  const Integers<Lanes> swap = (s ^ c) & -(turns & 1);
-  sine = reinterpret_cast<Reals<Lanes>>(s ^ swap ^ ((turns & 2) << 62));
-  cosine = reinterpret_cast<Reals<Lanes>>(c ^ swap ^ (((turns + 1) & 2) << 62));
+template <int Lanes, std::size_t Count>
+[[gnu::always_inline]] inline void sine_cosine_by_lane(
+    const std::array<Reals<Lanes>, Count>& angle, std::array<Reals<Lanes>, Count>& sine,
+    std::array<Reals<Lanes>, Count>& cosine) noexcept {
+  using Vector = Reals<Lanes>;
+  std::array<ReducedAngle<Lanes>, Count> reduced;
+  std::array<Vector, Count> z, p, q;
+  const auto each = [](const auto& stage) __attribute__((always_inline)) {
+    for_each_index<Count>(stage);
+  };
+  each([&](std::size_t i) __attribute__((always_inline)) { reduced[i] = reduce<Lanes>(angle[i]); });
+  each([&](std::size_t i)
+           __attribute__((always_inline)) { z[i] = reduced[i].rest * reduced[i].rest; });
+  each([&](std::size_t i) __attribute__((always_inline)) {
+    const Vector z2 = z[i] * z[i], z4 = z2 * z2;
+    p[i] = (-0x1.5555555555555p-3 + z[i] * 0x1.1111111110bb2p-7) +
+           z2 * (-0x1.a01a019e83816p-13 + z[i] * 0x1.71de379654304p-19) +
+           z4 * (-0x1.ae600aca92c64p-26 + z[i] * 0x1.5e0b05bff20f2p-33);
+    q[i] = (0x1.5555555555555p-5 + z[i] * -0x1.6c16c16c16967p-10) +
+           z2 * (0x1.a01a019f4e9b4p-16 + z[i] * -0x1.27e4fa17bf139p-22) +
+           z4 * (0x1.1eeb68cd22f56p-29 + z[i] * -0x1.907d8f29fe831p-37);
+  });
+  each([&](std::size_t i) __attribute__((always_inline)) {
+    const auto& [x, right_angles] = reduced[i];
+    const auto s = reinterpret_cast<Integers<Lanes>>(x + (x * z[i]) * p[i]);
+    const auto c = reinterpret_cast<Integers<Lanes>>((1.0 - 0.5 * z[i]) + (z[i] * z[i]) * q[i]);
+    const Integers<Lanes> swap = (s ^ c) & -(right_angles & 1);
+    const Integers<Lanes> sign = (right_angles & 2) << 62;
+    sine[i] = reinterpret_cast<Vector>(s ^ swap ^ sign);
+    cosine[i] = reinterpret_cast<Vector>(c ^ swap ^ sign ^ (right_angles << 63));
+  });
 }
 
 /// The same for few angles, with half the work: the sine in one lane, the cosine in the next.
