@@ -278,4 +278,12 @@ TEST_CASE("negative gains are taken, as control_toolbox takes them") {
   auto current = law_of(ControlToolbox::current, g);
   static_cast<void>(output(current, 0.1, 0.1));
   CHECK(current.integral()[0] == Approx(-1).epsilon(1e-15));
+  // Of gains with different signs sqrt(d/i) is no number: that of their sizes is, sqrt(1 / 100).
+  g.derivative = 1;
+  g.anti_windup = AntiWindup::back_calculation;
+  g.derivative_of = DerivativeOf::measured_velocity;
+  g.output_clamp_max = -(g.output_clamp_min = -0.1);
+  auto tracking = law_of(ControlToolbox::current, g);
+  CHECK(output(tracking, 0.1, 0.01) == -0.1);  // of -0.2
+  CHECK(tracking.integral()[0] == Approx(0.01 * (-10 + 0.1 / 0.1)).epsilon(1e-14));
 }

@@ -9,6 +9,7 @@
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/control/switch.hpp>
 #include <articula/robots/q2d.hpp>
+#include <articula/sim/simulator.hpp>
 
 #include <array>
 #include <cmath>
@@ -67,6 +68,9 @@ struct Faltering {
     return {Vector::Constant(bad)};
   }
 };
+
+template <class R>
+using Parting = Groups<R, Bypass<R>, Faltering<R>>;
 
 using Counters = Groups<Arm, Counter<2>, Counter<2>>;
 static_assert(Controller<Counters, 2> && LimitAware<Counters, 2>);
@@ -177,6 +181,36 @@ TEST_CASE("a group that fails gets the safe command, the others go on, and it is
   }
 }
 
+TEST_CASE("the joints of a group that fails are braked, within limits around the groups, too") {
+  using Free = Model<2>;  // its joints would coast: it has no damping
+  const Free robot = support::free_arm<Arm>();
+  const auto bare = [&] {
+    return Parting<Free>({{{"s", {shoulder}}, {"e", {elbow}}}}, Bypass<Free>(robot), {}, robot);
+  };
+  CommandLimits<2> limits;
+  limits.acceleration = {100, 100};
+  Parting<Free> groups = bare();
+  Limited<Free, Parting> limited(limits, bare(), robot);
+  const auto speed_after = [&](auto& controller, auto& failing) {
+    Simulator<Free> arm(robot, SimulatorOptions<2>{.initial_velocity = Vector(0, -1)});
+    JointState<2> state;
+    REQUIRE(arm.read(state) == Status::ok);
+    controller.start(state);
+    failing.bad = not_a_number;
+    for (int k = 0; k < 300; ++k) {
+      REQUIRE(arm.read(state) == Status::ok);
+      JointReference<2> reference;
+      reference.effort = gravity(robot, state.position);
+      REQUIRE(arm.write(controller.update(state, reference, dt)) == Status::ok);
+      REQUIRE(controller.failed());
+    }
+    return std::abs(state.velocity[1]);
+  };
+  // Three time constants leave 5 %; as much again for what the shoulder, which is free, takes along.
+  CHECK(speed_after(groups, groups.member<1>()) < 0.1);
+  CHECK(speed_after(limited, limited.controller().member<1>()) < 0.1);
+}
+
 TEST_CASE("where state or reference are to blame there is no command, and no group has failed") {
   Counters groups = counters(1, 1);
   groups.start({});
@@ -202,19 +236,21 @@ TEST_CASE("a limited controller brakes its group, and a switch in one goes on fr
   JointState<2> state;
   state.position = {0.5, -0.4};
   state.velocity = {1, -1};
-  const double weight = gravity(Arm(), state.position)[1];
+  // Its own motion decays in 0.1 s, whatever the shoulder does.
+  const double safe = damping_effort(Arm(), state.position, Vector(0, -1), 0.1)[1];
+  REQUIRE(std::abs(safe - gravity(Arm(), state.position)[1]) > 0.1);
   parts.start(state);
   alone.start(state);
   parts.member<0>().controller().bad = alone.controller().bad = not_a_number;
   parts.member<1>().member<0>().bad = not_a_number;
   for (int k = 0; k < 3; ++k) {
     const Vector braking = alone.update(state, {}, dt).effort;
-    CHECK((parts.update(state, {}, dt).effort - Vector(braking[0], weight)).norm() < 1e-12);
+    CHECK((parts.update(state, {}, dt).effort - Vector(braking[0], safe)).norm() < 1e-12);
     CHECK(parts.status_of(0) == ControllerStatus::failed);
     CHECK(parts.status_of(1) == ControllerStatus::failed);
   }
   parts.member<1>().member<0>() = {};
-  CHECK(std::abs(parts.update(state, {}, dt).effort[1] - weight) < 1e-12);
+  CHECK(std::abs(parts.update(state, {}, dt).effort[1] - safe) < 1e-12);
   CHECK(parts.status_of(1) == ControllerStatus::active);
 }
 

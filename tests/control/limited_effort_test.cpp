@@ -257,6 +257,29 @@ TEST_CASE("efforts change no faster than asked for") {
   }
 }
 
+TEST_CASE("after a start efforts change no faster than asked for from what was given last") {
+  const Model<1> robot = support::slider();
+  CommandLimits<1> limits;
+  limits.effort[0] = 20;
+  limits.effort_rate[0] = 1000;
+  Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+  const JointVector<1> last(7.0), bad(not_a_number);
+  JointReference<1> reference;
+  reference.effort[0] = 10;
+  const JointState<1> state;  // no effort is measured
+  for (const bool primed : {true, false}) {
+    controller.start(state);
+    if (primed) static_cast<void>(controller.prime(state, reference, dt, last));
+    if (!primed) controller.given(last);
+    CHECK(controller.update(state, reference, dt).effort[0] == 8);
+    controller.given(JointVector<1>(4.0));  // others cut it off
+    CHECK(controller.update(state, reference, dt).effort[0] == 5);
+    controller.start(state);
+    controller.given(bad);
+    CHECK(controller.update(state, reference, dt).effort[0] == 1);  // from what is measured
+  }
+}
+
 TEST_CASE("where efforts change slowly, a jerk that they can follow lets joints brake in time") {
   for (const bool jerk : {false, true}) {
     const Model<1> robot = support::slider();  // 2 kg

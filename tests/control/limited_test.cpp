@@ -208,6 +208,72 @@ TEST_CASE("what is within the limits passes to the last bit, and is not reported
   }
 }
 
+TEST_CASE("a constant position is approached without crossing it, and then held to the last bit") {
+  constexpr unsigned seed = 14;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 200; ++k) {
+    CommandLimits<1> limits = random_limits(random);
+    if (k == 0) {  // known to ring by 0.097 where nothing looks ahead
+      limits = {};
+      limits.velocity[0] = 1;
+      limits.acceleration[0] = 10;
+      limits.jerk[0] = 100;
+    }
+    CAPTURE(k, limits.velocity[0], limits.acceleration[0], limits.deceleration[0], limits.jerk[0]);
+    Positions controller = positions_within(limits);
+    Watch watch{limits};
+    controller.start(at(0));
+    for (int leg = 0; leg < 3; ++leg) {
+      const double goal =
+          k == 0 ? 0.5 - 0.4 * leg
+                 : random.number(std::max(limits.lower[0], -2.0), std::min(limits.upper[0], 2.0));
+      CAPTURE(leg, goal, watch.q);
+      const double side = goal > watch.q ? 1 : -1;
+      double beyond = 0;
+      int cycles = 0;
+      // It rests there for ten cycles; the slowest way takes 4 m at 0.1 m/s, and 4 s to speed up.
+      for (int held = 0; held < 10 && cycles < 50000; ++cycles) {
+        REQUIRE(watch.follow(controller.update(at(watch.q), to_position(goal), dt).position[0]));
+        beyond = std::max(beyond, side * (watch.q - goal));
+        held = watch.q == goal ? held + 1 : 0;
+      }
+      CHECK(beyond < 1e-12);  // rounding
+      CHECK(cycles < 50000);
+      CHECK(watch.v == 0);
+      CHECK(watch.a == 0);
+    }
+  }
+}
+
+TEST_CASE("a position that moves is met in its own motion, and followed") {
+  CommandLimits<1> limits;
+  limits.velocity[0] = 1;
+  limits.acceleration[0] = 10;
+  limits.jerk[0] = 100;
+  // A joint at rest cannot follow these from the first cycle on: it must catch up.
+  const auto ramp = [](double t) { return 0.3 * t; };
+  const auto wave = [](double t) { return 0.3 * std::sin(2 * t); };
+  const auto check = [&](const auto& signal, double crossed) {
+    Positions controller = positions_within(limits);
+    Watch watch{limits};
+    controller.start(at(0));
+    double beyond = 0;
+    for (int k = 1; k < 3000; ++k) {
+      CAPTURE(k);
+      const double asked = signal(k * dt);
+      REQUIRE(watch.follow(controller.update(at(watch.q), to_position(asked), dt).position[0]));
+      beyond = std::max(beyond, watch.q - asked);
+      // The ramp is met exactly. Where the wave turns round a stop that is rounded to cycles may miss a
+      // limit by little, which costs it less than J dt^3.
+      if (k > 500) REQUIRE(std::abs(watch.q - asked) <= (crossed < 1e-6 ? 0 : 1e-7));
+    }
+    CHECK(beyond <= crossed);
+  };
+  check(ramp, 1e-12);  // rounding
+  check(wave, 5e-3);   // its acceleration is not constant, as is foreseen
+}
+
 TEST_CASE("the report says which limit it was") {
   CommandLimits<1> limits;
   const auto report_of = [&](double wish) {

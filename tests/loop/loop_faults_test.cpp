@@ -204,6 +204,16 @@ struct Integrating : Pid<R> {
                 PidGains{.proportional = 10, .integral = 1000}}) {}
 };
 
+/// One whose p/i is 100 s.
+template <Robot R>
+struct SlowlyIntegrating : Pid<R> {
+  SlowlyIntegrating()
+      : Pid<R>({PidGains{.proportional = 100, .integral = 1},
+                PidGains{.proportional = 100, .integral = 1}}) {}
+};
+template <class R>
+using SwitchedSlowlyIntegrating = Switch<R, SlowlyIntegrating<R>>;
+
 template <class R>
 using CarefulPosition = Limited<R, support::PositionForward>;
 
@@ -270,6 +280,17 @@ TEST_CASE(
   REQUIRE(loop.command().effort == holding_effort());
   CHECK(loop.update() == Status::ok);
   CHECK((loop.command().effort - holding_effort()).norm() < 1e-12 * holding_effort().norm());
+}
+
+TEST_CASE("slow integrals begin with the effort that held the arm, too") {
+  const auto check = [](auto loop) {
+    loop.reference().position = place;
+    have_bad_cycles(loop, Status::non_finite_reference, 10);
+    CHECK(loop.update() == Status::ok);
+    CHECK((loop.command().effort - holding_effort()).norm() < 1e-12 * holding_effort().norm());
+  };
+  check(running_loop<SlowlyIntegrating>());
+  check(running_loop<SwitchedSlowlyIntegrating>());
 }
 
 TEST_CASE("limits begin at the measured state after a fault, not where they were before") {

@@ -7,13 +7,12 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <sstream>
-#include <stdexcept>
 
 namespace articula {
 
@@ -48,10 +47,8 @@ class BumplessTransfer {
   BumplessTransfer(const R& robot, const Vector& slew) : slew_(slew) {
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(slew[j]) && slew[j] > 0) continue;
-      std::ostringstream message;
-      message << "switch: slew " << slew[j] << " of joint '"
-              << joint_names(robot)[static_cast<std::size_t>(j)] << "' is not a number > 0";
-      throw std::invalid_argument(message.str());
+      detail::refuse({"switch: slew ", slew[j], " of joint '",
+                      joint_names(robot)[static_cast<std::size_t>(j)], "' is not a number > 0"});
     }
     // Infinite limits are taken for huge ones, so that no sum or difference overflows.
     const auto range = detail::command_range<C>(robot);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/control/equivalent_inertia.hpp"
-#include "articula/control/valid_gains.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/dynamics/configuration.hpp"
 #include "articula/dynamics/evaluate.hpp"
 #include "articula/model/robot.hpp"
@@ -48,8 +48,8 @@ template <Robot R>
     const int moved_by = n == b ? i : mechanism.couplings[static_cast<std::size_t>(i)].joint;
     if (moved_by != joint) continue;
     if (own >= 0) {
-      detail::refuse_gains("joint '", joint_names(robot)[static_cast<std::size_t>(joint)],
-                           "' is mimicked by others and carries more than one body");
+      detail::refuse({"joint '", joint_names(robot)[static_cast<std::size_t>(joint)],
+                      "' is mimicked by others and carries more than one body"});
     }
     own = i;
   }

@@ -3,11 +3,10 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 namespace articula {
@@ -60,31 +59,29 @@ template <Robot R>
 void validate(const CommandLimits<joint_count<R>>& limits, const R& robot) {
   for (int j = 0; j < joint_count<R>; ++j) {
     const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
-    const auto refuse = [&](const auto&... parts) {
-      std::ostringstream message;
-      message << "command limits of joint '" << joint.name.view() << "': ";
-      (message << ... << parts);
-      throw std::invalid_argument(message.str());
+    const auto refuse = [&](detail::MessageParts parts) {
+      detail::refuse(
+          {"command limits of joint '", joint.name.view(), "': ", detail::message_of(parts)});
     };
     const auto check_range = [&](std::string_view soft, double lower, double upper, double lowest,
                                  double highest) {
       if (!(lower <= upper) || lower == CommandLimits<1>::infinity ||
           upper == -CommandLimits<1>::infinity) {
-        refuse(soft, "lower ", lower, " and ", soft, "upper ", upper, " leave no position");
+        refuse({soft, "lower ", lower, " and ", soft, "upper ", upper, " leave no position"});
       }
-      if (lower < lowest) refuse(soft, "lower ", lower, " is below the limit ", lowest);
-      if (upper > highest) refuse(soft, "upper ", upper, " is above the limit ", highest);
+      if (lower < lowest) refuse({soft, "lower ", lower, " is below the limit ", lowest});
+      if (upper > highest) refuse({soft, "upper ", upper, " is above the limit ", highest});
     };
     const auto check = [&](std::string_view what, double value, double most) {
-      if (!(value > 0)) refuse(what, " ", value, " is not a number > 0");
-      if (value > most) refuse(what, " ", value, " is above the limit ", most);
+      if (!(value > 0)) refuse({what, " ", value, " is not a number > 0"});
+      if (value > most) refuse({what, " ", value, " is above the limit ", most});
     };
     constexpr double infinity = CommandLimits<1>::infinity;
     check_range("", limits.lower[j], limits.upper[j], joint.limits.lower, joint.limits.upper);
     check_range("soft_", limits.soft_lower[j], limits.soft_upper[j], -infinity, infinity);
     if (!(limits.soft_lower[j] <= limits.upper[j] && limits.soft_upper[j] >= limits.lower[j])) {
-      refuse("soft_lower ", limits.soft_lower[j], " and soft_upper ", limits.soft_upper[j],
-             " are beyond the limits ", limits.lower[j], " .. ", limits.upper[j]);
+      refuse({"soft_lower ", limits.soft_lower[j], " and soft_upper ", limits.soft_upper[j],
+              " are beyond the limits ", limits.lower[j], " .. ", limits.upper[j]});
     }
     check("soft_rate", limits.soft_rate[j], infinity);
     if (limits.velocity[j] != 0) check("velocity", limits.velocity[j], joint.limits.velocity);

@@ -48,10 +48,12 @@ class ComputedTorqueLaw {
   /// @return  the effort that reference and integrals ask for [N m or N], N x 1
   JointVector<joint_count> prime(const JointState<joint_count>& state,
                                  const JointReference<joint_count>& reference, double period,
-                                 const JointVector<joint_count>& effort) noexcept {
+                                 const JointVector<joint_count>& effort,
+                                 LastCommand is = LastCommand::any) noexcept {
     const JointVector<joint_count> share = feedback_.prime(
         state, reference, period,
-        forward_dynamics(robot_, state.position, state.velocity, effort) - reference.acceleration);
+        forward_dynamics(robot_, state.position, state.velocity, effort) - reference.acceleration,
+        is);
     return inverse_dynamics(robot_, state.position, state.velocity, reference.acceleration + share);
   }
 

@@ -41,7 +41,8 @@ enum class ControlToolbox : unsigned char {
 /// e_last is 0 at the start, so that the first e' kicks; noetic alone leaves the first one out. A
 /// period of 0 gives the last output again (current) or 0. An error or e' that is not finite gives NaN
 /// (current) or 0, and the integral stays. The other gains are not used. It is not told what is cut off
-/// from the total. Negative gains are taken, as control_toolbox takes them.
+/// from the total. Negative gains are taken, as control_toolbox takes them; only the T_t that follows
+/// from gains is that of their sizes, where theirs would be negative or none.
 /// Source: control_toolbox, pid.cpp of the branches named.
 /// @tparam N  number of joints
 template <int N>

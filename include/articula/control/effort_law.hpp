@@ -56,6 +56,28 @@ concept Primable = requires(L law, const JointState<N>& state, const JointRefere
   noexcept->std::convertible_to<JointVector<N>>;
 };
 
+/// What is known of the command that a Primable part begins with. A part that minds takes it as a last
+/// argument of `prime`; where there is none it is `any`.
+enum class LastCommand {
+  any,   ///< It may have been a passing push of another controller.
+  load,  ///< It has held the joints.
+};
+
+namespace detail {
+
+/// Primes a part, and tells it what the command is if it minds. Real-time: yes.
+template <class Law, int N>
+JointVector<N> prime(Law& law, const JointState<N>& state, const JointReference<N>& reference,
+                     double period, const JointVector<N>& command, LastCommand is) noexcept {
+  if constexpr (requires { law.prime(state, reference, period, command, is); }) {
+    return law.prime(state, reference, period, command, is);
+  } else {
+    return law.prime(state, reference, period, command);
+  }
+}
+
+}  // namespace detail
+
 /// What can go on with other gains of the kind `Gains` between two cycles.
 template <class L, class Gains>
 concept TakesGains = requires(L law, const Gains& gains) {

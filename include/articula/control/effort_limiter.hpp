@@ -71,6 +71,12 @@ class EffortLimiter {
     acceleration_.setZero();
   }
 
+  /// Goes on from an effort that was given in place of the last one, or by others, N x 1; not from one
+  /// that is not finite. Real-time: yes.
+  void given(const Vector& effort) noexcept {
+    if (is_finite(effort)) effort_ = effort.cwiseMax(-limits_.effort).cwiseMin(limits_.effort);
+  }
+
   /// Goes on with cycles of another length [s]. Real-time: yes.
   void set_period(double period) noexcept {
     for (JointLimiter& limiter : limiters_) limiter.start({}, period);

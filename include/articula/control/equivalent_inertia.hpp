@@ -2,8 +2,8 @@
 /// @file The inertia that one joint's drive sees.
 #pragma once
 
-#include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/tree_factors.hpp"
 #include "articula/model/robot.hpp"
@@ -26,13 +26,13 @@ namespace detail {
 template <Robot R>
 void check_joint_and_positions(const R& robot, const JointVector<joint_count<R>>& q, int joint) {
   if (joint < 0 || joint >= joint_count<R>) {
-    refuse_gains("robot '", model_of(robot).name.view(), "': joint index ", joint,
-                 " is not within 0 .. ", joint_count<R> - 1);
+    refuse({"robot '", model_of(robot).name.view(), "': joint index ", joint,
+            " is not within 0 .. ", joint_count<R> - 1});
   }
   for (int j = 0; j < joint_count<R>; ++j) {
     if (is_finite(q[j])) continue;
-    refuse_gains("position ", q[j], " of joint '", joint_names(robot)[static_cast<std::size_t>(j)],
-                 "' is not finite");
+    refuse({"position ", q[j], " of joint '", joint_names(robot)[static_cast<std::size_t>(j)],
+            "' is not finite"});
   }
 }
 
@@ -67,9 +67,9 @@ template <Robot R>
     const double pivot = 1 / factors.inverse_pivot[static_cast<std::size_t>(j)];
     if (pivot > 1e-12 * matrix(j, j))
       continue;  // what cancellation leaves of nothing is some 1e-16
-    detail::refuse_gains("the mass matrix is singular: joint '",
-                         joint_names(robot)[static_cast<std::size_t>(j)],
-                         "' moves no mass when the joints that it carries give way");
+    detail::refuse({"the mass matrix is singular: joint '",
+                    joint_names(robot)[static_cast<std::size_t>(j)],
+                    "' moves no mass when the joints that it carries give way"});
   }
   JointArray<double, n> effort{};
   effort[static_cast<std::size_t>(joint)] = 1;

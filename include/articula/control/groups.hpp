@@ -2,6 +2,8 @@
 /// @file Controllers for groups of a robot's joints, each at its own rate.
 #pragma once
 
+#include "articula/control/command_numbers.hpp"
+#include "articula/control/damping_effort.hpp"
 #include "articula/control/effort_law.hpp"
 #include "articula/control/joint_group.hpp"
 #include "articula/control/safe_command.hpp"
@@ -39,8 +41,9 @@ namespace articula {
 ///   then on, with the period k dt. In between its command is held.
 /// - A group has failed if its command is not finite although state and reference are, or if its
 ///   controller says so (TellsFailure). Its joints, and no others, get the safe command (see
-///   safe_command), or the controller's own if that is safe. `failed` and `status_of` tell; Loop
-///   reports it. The controller is asked again in the next cycle, with the time since the last one.
+///   safe_command), or the controller's own if that is safe. Efforts brake them as those of Standby do.
+///   `failed` and `status_of` tell; Loop reports it. The controller is asked again in the next cycle,
+///   with the time since the last one.
 /// - Controllers in a Switch, or a Limited one, go by the group's name and theirs, "arm/pid".
 ///   A strict request may be about several groups.
 /// @tparam R            the robot
@@ -122,8 +125,11 @@ class Groups {
         const bool counts = is_finite(next) && command_counts(controller);
         const bool well = counts && !has_failed(controller);
         if (usable) part.status = well ? ControllerStatus::active : ControllerStatus::failed;
-        if (!counts) next = merged(safe_command(robot_, state.position, command_), part);
+        if (!counts) next = merged(safe(part, state, period), part);
         if (counts || usable) command_ = next;
+        if constexpr (TakesGiven<decltype(controller), joint_count>) {
+          if (!counts && usable) controller.given(numbers_of(command_, state));
+        }
         complete = complete && (counts || usable);
         if (well) part.wait = part.divisor;
       }
@@ -146,16 +152,17 @@ class Groups {
   /// Lets the groups' controllers begin with what was given last, those that can. After `start`.
   /// Real-time: yes.
   /// @return  what they begin with of it, N x 1
-  Vector prime(const State& state, const Reference& reference, double period,
-               const Vector& command) noexcept requires(Primable<Controllers, joint_count> || ...) {
+  Vector prime(const State& state, const Reference& reference, double period, const Vector& command,
+               LastCommand is = LastCommand::any) noexcept
+      requires(Primable<Controllers, joint_count> || ...) {
     Vector share = Vector::Zero();
     for_each([&](auto& controller, std::size_t g) noexcept {
       if constexpr (Primable<decltype(controller), joint_count>) {
         const Part& part = parts_[g];
         // What the others are given counts, too: by the model it moves this group's joints.
         share +=
-            chosen(part, controller.prime(state, of_group(part, state, reference),
-                                          static_cast<double>(part.divisor) * period, command));
+            chosen(part, detail::prime(controller, state, of_group(part, state, reference),
+                                       static_cast<double>(part.divisor) * period, command, is));
       }
     });
     return share;
@@ -265,6 +272,19 @@ class Groups {
     return all;
   }
 
+  /// The safe command for a group that has failed. Others go on moving, so it is not enough to carry
+  /// its weight: the motion of its own joints, and no others', decays as in Standby.
+  [[nodiscard]] Command safe(const Part& part, const State& state, double period) const noexcept {
+    Command command = safe_command(robot_, state.position, command_);
+    if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {
+      const double time = is_finite(period) ? std::max(damping_time, 2 * period) : damping_time;
+      const Vector effort =
+          damping_effort(robot_, state.position, chosen(part, state.velocity), time);
+      if (is_finite(effort)) command = articula::limited(robot_, Command{effort});
+    }
+    return command;
+  }
+
   void for_each(auto function) noexcept {
     [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
       (function(std::get<I>(controllers_), I), ...);
@@ -286,6 +306,8 @@ class Groups {
     }
     (std::index_sequence_for<Controllers...>());
   }
+
+  static constexpr double damping_time = 0.1;  ///< that of Standby [s]
 
   std::tuple<Controllers...> controllers_;
   [[no_unique_address]] R robot_;

@@ -4,6 +4,7 @@
 
 #include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <array>
 #include <cstddef>
@@ -34,8 +35,8 @@ void validate(const std::array<ImpedanceGains, N>& gains,
   for (std::size_t i = 0; i < N; ++i) {
     const auto check = [&](std::string_view what, double value) {
       if (is_finite(value) && value >= 0) return;
-      detail::refuse_gains("impedance of joint '", names[i], "': ", what, " ", value,
-                           " is not a number >= 0");
+      detail::refuse(
+          {"impedance of joint '", names[i], "': ", what, " ", value, " is not a number >= 0"});
     };
     check("stiffness", gains[i].stiffness);
     check("damping", gains[i].damping);

@@ -3,13 +3,11 @@
 #pragma once
 
 #include "articula/core/name.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
 #include <array>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace articula {
@@ -30,34 +28,32 @@ struct JointGroup {
 template <std::size_t GroupCount, Robot R>
 [[nodiscard]] std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> group_of_each_joint(
     const std::array<JointGroup, GroupCount>& groups, const R& robot) {
-  const auto refuse = [](const std::string& what) {
-    throw std::invalid_argument("groups: " + what);
-  };
-  const auto quoted = [](std::string_view name) { return "'" + std::string(name) + "'"; };
   std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> owners;
   owners.fill(GroupCount);
   for (std::size_t g = 0; g < GroupCount; ++g) {
     const JointGroup& group = groups[g];
-    if (group.name.empty()) refuse("group " + std::to_string(g + 1) + " has no name");
+    if (group.name.empty()) detail::refuse({"groups: group ", g + 1, " has no name"});
     for (std::size_t other = 0; other < g; ++other) {
-      if (groups[other].name == group.name) refuse("two are named " + quoted(group.name));
+      if (groups[other].name == group.name) {
+        detail::refuse({"groups: two are named '", group.name.view(), "'"});
+      }
     }
     if (group.divisor < 1) {
-      refuse("divisor " + std::to_string(group.divisor) + " of group " + quoted(group.name) +
-             " is below 1");
+      detail::refuse(
+          {"groups: divisor ", group.divisor, " of group '", group.name.view(), "' is below 1"});
     }
     for (const Name& joint : group.joints) {
       std::size_t& owner = owners[static_cast<std::size_t>(joint_index(robot, joint.view()))];
       if (owner != GroupCount) {
-        refuse("joint " + quoted(joint) + " of group " + quoted(group.name) + " is in group " +
-               quoted(groups[owner].name) + " already");
+        detail::refuse({"groups: joint '", joint.view(), "' of group '", group.name.view(),
+                        "' is in group '", groups[owner].name.view(), "' already"});
       }
       owner = g;
     }
   }
   const auto names = joint_names(robot);
   for (std::size_t j = 0; j < names.size(); ++j) {
-    if (owners[j] == GroupCount) refuse("joint " + quoted(names[j]) + " is in no group");
+    if (owners[j] == GroupCount) detail::refuse({"groups: joint '", names[j], "' is in no group"});
   }
   return owners;
 }

@@ -67,9 +67,12 @@ class JointLimiter {
   /// The next cycle's motion, as close to the wish as the limits allow.
   /// @param velocity  the wish, v_(k+1) [rad/s or m/s]; if not finite, the joint brakes
   /// @param report    what changed it is added here
+  /// @param planned   a stop from the wish that the caller has in hand: rounded to cycles, it may be
+  ///                  there where StoppingMotion finds none
   /// @return          true if the wish was granted as it is; motion() is what is given
   /// Real-time: yes. At most 40 stops are computed.
-  [[nodiscard]] bool move(double velocity, JointLimitReport& report) noexcept {
+  [[nodiscard]] bool move(double velocity, JointLimitReport& report,
+                          const StoppingMotion* planned = nullptr) noexcept {
     StoppingMotion braking = stop_;
     braking.advance();
     if (!is_finite(velocity)) {
@@ -106,7 +109,9 @@ class JointLimiter {
     const auto going = [&](double v, double a) {
       return stop_from({now.position + v * period_, v, a});
     };
-    const StoppingMotion granted = going(wish, acceleration);
+    StoppingMotion granted = going(wish, acceleration);
+    const bool as_planned = planned != nullptr && is_close(planned->motion(), wish, acceleration);
+    if (as_planned && !has_stop(granted)) granted = *planned;
     if (has_stop(granted)) {
       stop_ = granted;
       return unchanged;
@@ -141,6 +146,14 @@ class JointLimiter {
   }
   [[nodiscard]] static bool within(const ValueRange& range, const ValueRange& limits) noexcept {
     return range.lowest >= limits.lowest && range.highest <= limits.highest;
+  }
+
+  /// Whether a motion is the one that is wished for, but for what limits do not tell from rounding.
+  [[nodiscard]] bool is_close(const CommandMotion& motion, double velocity,
+                              double acceleration) const noexcept {
+    const double close = std::min(5e-9 * acceleration_, 5e-7 * jerk_ * period_);
+    return std::abs(motion.velocity - velocity) <= close * period_ &&
+           std::abs(motion.acceleration - acceleration) <= close;
   }
 
   /// How far a stop leads beyond the position limits [rad or m].

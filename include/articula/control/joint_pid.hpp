@@ -2,6 +2,7 @@
 /// @file The PID law of one joint.
 #pragma once
 
+#include "articula/control/effort_law.hpp"
 #include "articula/control/pid_gains.hpp"
 #include "articula/core/finite.hpp"
 
@@ -50,17 +51,17 @@ class JointPid {
     fresh_ = true;
   }
 
-  /// The slowest integral that begins with an output of others, see `prime` [s].
+  /// The slowest integral that begins with what may have been a push, see `prime` [s].
   static constexpr double slowest_primed = 10;
 
-  /// Lets the integral begin with an output that was given by another controller, as far as its
-  /// clamps allow. After `start`. The output may have been no load but a passing push. Then the
-  /// error is off by I/p, and goes as the integral takes that back, with the time constant p/i. So
-  /// it does nothing where p/i is more than ten seconds, as without an integral gain, nor with an
-  /// output that is not finite. Real-time: yes.
-  void prime(const PidGains& g, double output) noexcept {
+  /// Lets the integral begin with an output that was given last, as far as its clamps allow. After
+  /// `start`. If the output was no load but a passing push, the error is off by I/p, and goes as the
+  /// integral takes that back, with the time constant p/i. So it does nothing where p/i is more than
+  /// ten seconds and the output may have been one; nor without an integral gain, nor with an output
+  /// that is not finite. Real-time: yes.
+  void prime(const PidGains& g, double output, LastCommand is = LastCommand::any) noexcept {
     const bool soon = g.proportional <= slowest_primed * g.integral;
-    if (g.integral == 0 || !soon || !is_finite(output)) return;
+    if (g.integral == 0 || (is == LastCommand::any && !soon) || !is_finite(output)) return;
     set_integral(g, output);
     previous_integral_ = integral_;
   }

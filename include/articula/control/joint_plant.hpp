@@ -3,8 +3,8 @@
 #pragma once
 
 #include "articula/control/equivalent_inertia.hpp"
-#include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
 #include <limits>
@@ -33,12 +33,12 @@ struct JointPlant {
 /// Real-time: no (throws).
 inline void validate(const JointPlant& plant) {
   if (!is_finite(plant.inertia) || !(plant.inertia > 0)) {
-    detail::refuse_gains("joint plant: inertia ", plant.inertia, " is not a finite number > 0");
+    detail::refuse({"joint plant: inertia ", plant.inertia, " is not a finite number > 0"});
   }
   const double rate = plant.decay_rate();  // 0 for infinity, NaN for NaN
   if (!is_finite(rate) || rate < 0 || !(plant.time_constant > 0)) {
-    detail::refuse_gains("joint plant: time_constant ", plant.time_constant,
-                         " s is not a number > 0 (infinity: undamped)");
+    detail::refuse({"joint plant: time_constant ", plant.time_constant,
+                    " s is not a number > 0 (infinity: undamped)"});
   }
 }
 
@@ -49,7 +49,7 @@ inline void validate(const JointPlant& plant) {
 /// Real-time: no (throws).
 [[nodiscard]] inline JointPlant damped_plant(double inertia, double damping) {
   if (!is_finite(damping) || damping < 0) {
-    detail::refuse_gains("joint plant: damping ", damping, " is not a finite number >= 0");
+    detail::refuse({"joint plant: damping ", damping, " is not a finite number >= 0"});
   }
   JointPlant plant{.inertia = inertia};
   if (damping > 0) plant.time_constant = inertia / damping;
@@ -72,8 +72,8 @@ template <Robot R>
   const double inertia = equivalent_inertia(robot, q, joint, others);
   const JointProperties& properties = model_of(robot).joints[static_cast<std::size_t>(joint)];
   if (!is_finite(inertia) || !(inertia > 0)) {
-    detail::refuse_gains("joint '", properties.name.view(), "': equivalent inertia ", inertia,
-                         " is not a finite number > 0");
+    detail::refuse({"joint '", properties.name.view(), "': equivalent inertia ", inertia,
+                    " is not a finite number > 0"});
   }
   return damped_plant(inertia, properties.damping);
 }

@@ -7,6 +7,7 @@
 #include "articula/control/effort_law.hpp"
 #include "articula/control/effort_limiter.hpp"
 #include "articula/control/joint_limiter.hpp"
+#include "articula/control/position_approach.hpp"
 #include "articula/control/tells_failure.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_reference.hpp"
@@ -17,6 +18,7 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -37,8 +39,8 @@ namespace articula {
 ///
 /// What is within the limits passes unchanged. A command that is not finite, or does not count because
 /// the controller says that it has failed (TellsFailure), brakes all joints, and `failed` tells. (Groups
-/// put gravity efforts in place of a failed group's: its joints coast within the limits.) The controller is told what was cut off, and what was given, if it wants to know (LimitAware,
-/// TakesGiven).
+/// brake the joints of a failed group themselves.) The controller is told what was cut off, and what was
+/// given, if it wants to know (LimitAware, TakesGiven).
 /// @tparam R                   the robot
 /// @tparam ControllerTemplate  makes the controller of a robot
 template <Robot R, template <class> class ControllerTemplate>
@@ -67,14 +69,19 @@ class Limited {
   ///         what the description says, or is missing (see EffortLimiter)
   explicit Limited(const CommandLimits<joint_count>& limits,
                    ControllerType controller = ControllerType(), const R& robot = described<R>())
-      : controller_(std::move(controller)),
-        limits_(limits),
-        limiter_(make_limiter(limits, robot)) {}
+      : controller_(std::move(controller)), limits_(limits), limiter_(make_limiter(limits, robot)) {
+    if constexpr (by_position) {
+      for (int j = 0; j < joint_count; ++j) approach_[index(j)] = PositionApproach(limits, j);
+    }
+  }
 
   /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
   void start(const State& state) noexcept {
     controller_.start(state);
-    started_ = failed_ = false;
+    if constexpr (by_position) {
+      for (PositionApproach& approach : approach_) approach.start();
+    }
+    started_ = failed_ = goes_on_ = false;
   }
 
   /// The controller's command, limited. Before any position is known a position command is NaN, which
@@ -99,11 +106,26 @@ class Limited {
     }
   }
 
-  /// Lets the controller begin with what was given last, if it can. Real-time: yes.
+  /// Lets limits of `effort_rate` go on from what was given last, and the controller begin with it, if
+  /// it can. Real-time: yes.
+  /// @return  what the controller begins with of it, N x 1
   JointVector<joint_count> prime(const State& state, const Reference& reference, double period,
-                                 const JointVector<joint_count>& command) noexcept requires
-      Primable<ControllerType, joint_count> {
-    return controller_.prime(state, reference, period, command);
+                                 const JointVector<joint_count>& command,
+                                 LastCommand is = LastCommand::any) noexcept {
+    go_on_from(command);
+    if constexpr (Primable<ControllerType, joint_count>) {
+      return detail::prime(controller_, state, reference, period, command, is);
+    } else {
+      return Vector::Zero();
+    }
+  }
+
+  /// Hears what was given in the end, or by others since the start: N x 1, see numbers_of. Limits of
+  /// `effort_rate` go on from there. (Drives that measure no effort would have them begin at 0.)
+  /// Real-time: yes.
+  void given(const JointVector<joint_count>& command) noexcept {
+    go_on_from(command);
+    if constexpr (TakesGiven<ControllerType, joint_count>) controller_.given(command);
   }
 
   /// Whether the controller gave no command in the last update, although state and reference were
@@ -125,6 +147,12 @@ class Limited {
   using Vector = JointVector<joint_count>;
   using JointLimiters = std::array<JointLimiter, static_cast<std::size_t>(joint_count)>;
   using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, JointLimiters>;
+  struct NoApproaches {};
+  static constexpr bool by_position = std::same_as<Command, PositionCommand<joint_count>>;
+  using Approaches =
+      std::conditional_t<by_position,
+                         std::array<PositionApproach, static_cast<std::size_t>(joint_count)>,
+                         NoApproaches>;
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
   [[nodiscard]] static constexpr std::size_t index(int j) noexcept {
@@ -151,6 +179,7 @@ class Limited {
     if (usable) period_ = period;
     if constexpr (by_effort) {
       if (begins) limiter_.start(state, period_);
+      if (begins && goes_on_) limiter_.given(last_given_);
       if (changes) limiter_.set_period(period_);
     } else {
       for (int j = 0; j < joint_count; ++j) {
@@ -160,6 +189,14 @@ class Limited {
       }
     }
     started_ = started_ || begins;
+  }
+
+  void go_on_from(const Vector& command) noexcept {
+    if constexpr (by_effort) {
+      goes_on_ = is_finite(command);
+      last_given_ = command;
+      if (started_) limiter_.given(command);
+    }
   }
 
   /// Notes what became of a command, and tells the controller.
@@ -187,12 +224,19 @@ class Limited {
     Vector given;
     for (int j = 0; j < joint_count; ++j) {
       JointLimiter& limiter = limiter_[index(j)];
-      const double now = limiter.motion().position;
-      const double wish = brake ? not_a_number : (asked[j] - now) / period_;
-      const bool granted = limiter.move(wish, report_[index(j)]);
+      PositionApproach& approach = approach_[index(j)];
+      if (brake) approach.start();
+      const CommandMotion now = limiter.motion();
+      const double direct = (asked[j] - now.position) / period_;
+      const double wish =
+          brake ? not_a_number : approach.wish(now, asked[j], period_, report_[index(j)]);
+      const std::optional<StoppingMotion> stop = brake ? std::nullopt : approach.stop();
+      const bool granted =
+          limiter.move(wish, report_[index(j)], stop ? &*stop : nullptr) && wish == direct;
       // Rounding must not lead beyond a limit, nor away from what was granted.
       given[j] = std::clamp(granted ? asked[j] : limiter.motion().position,
-                            std::min(limits_.lower[j], now), std::max(limits_.upper[j], now));
+                            std::min(limits_.lower[j], now.position),
+                            std::max(limits_.upper[j], now.position));
       limiter.measured(given[j]);
     }
     return given;
@@ -245,8 +289,11 @@ class Limited {
   ControllerType controller_;
   CommandLimits<joint_count> limits_;
   Limiter limiter_;
+  [[no_unique_address]] Approaches approach_{};
   LimitReport<joint_count> report_{};
   double period_ = 1e-3;
+  Vector last_given_ = Vector::Zero();  ///< before the first update, if it goes on from there
+  bool goes_on_ = false;
   bool started_ = false;
   bool failed_ = false;
 };

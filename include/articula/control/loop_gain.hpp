@@ -4,8 +4,8 @@
 
 #include "articula/control/joint_plant.hpp"
 #include "articula/control/pid_gains.hpp"
-#include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ class LoopGain {
     validate(plant);
     const auto check = [](std::string_view what, const double& value) {
       if (is_finite(value) && value >= 0) return;
-      detail::refuse_gains("loop gain: ", what, " ", value, " is not a finite number >= 0");
+      detail::refuse({"loop gain: ", what, " ", value, " is not a finite number >= 0"});
     };
     check("proportional", gains.proportional);
     check("integral", gains.integral);
@@ -43,7 +43,7 @@ class LoopGain {
     check("derivative_filter_time", gains.derivative_filter_time);
     check("delay", delay);
     if (gains.proportional == 0 && gains.integral == 0 && gains.derivative == 0) {
-      detail::refuse_gains("loop gain: proportional, integral and derivative are all 0");
+      detail::refuse({"loop gain: proportional, integral and derivative are all 0"});
     }
     // C(s) = (n0 + n1 s + n2 s^2) / (s (1 + T_f s))
     numerator_ = {gains.integral, gains.proportional + gains.integral * filter_time_,

@@ -51,9 +51,9 @@ class OnJoints {
 
   /// Lets the part begin with what was given last on its joints. Real-time: yes.
   JointVector<N> prime(const JointState<N>& state, const JointReference<N>& reference,
-                       double period,
-                       const JointVector<N>& effort) noexcept requires Primable<Law, N> {
-    return chosen(law_.prime(state, reference, period, chosen(effort)));
+                       double period, const JointVector<N>& effort,
+                       LastCommand is = LastCommand::any) noexcept requires Primable<Law, N> {
+    return chosen(detail::prime(law_, state, reference, period, chosen(effort), is));
   }
 
   /// Tells the part what was cut off on its joints. Real-time: yes.

@@ -4,8 +4,8 @@
 
 #include "articula/control/joint_plant.hpp"
 #include "articula/control/pid_gains.hpp"
-#include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -39,26 +39,25 @@ struct ControllerValue {
   validate(plant);
   const auto& [w, margin, delay] = target;
   if (!is_finite(w) || !(w > 0)) {
-    refuse_gains("loop target: crossover ", w, " rad/s is not a finite number > 0");
+    refuse({"loop target: crossover ", w, " rad/s is not a finite number > 0"});
   }
   if (!is_finite(margin) || !(margin > 0 && margin < std::numbers::pi)) {
-    refuse_gains("loop target: phase_margin ", margin, " rad is not within 0 .. pi");
+    refuse({"loop target: phase_margin ", margin, " rad is not within 0 .. pi"});
   }
   if (!is_finite(delay) || delay < 0) {
-    refuse_gains("loop target: delay ", delay, " s is not a finite number >= 0");
+    refuse({"loop target: delay ", delay, " s is not a finite number >= 0"});
   }
   const double alone =  // the phase margin with a proportional gain alone
       std::numbers::pi / 2 - std::atan2(w, plant.decay_rate()) - w * delay;
   const double phase = margin - alone;
   if (!(phase > low && phase < high)) {
-    refuse_gains("loop target: a ", kind, " with its crossover at ", w,
-                 " rad/s has a phase margin between ", alone + low, " and ", alone + high,
-                 " rad here, not ", margin, " rad");
+    refuse({"loop target: a ", kind, " with its crossover at ", w,
+            " rad/s has a phase margin between ", alone + low, " and ", alone + high,
+            " rad here, not ", margin, " rad"});
   }
   const double size = plant.inertia * w * std::hypot(w, plant.decay_rate());
   if (!is_finite(size) || !(size > 0)) {
-    refuse_gains("loop target: at the crossover ", w, " rad/s a gain of ", size,
-                 " would be needed");
+    refuse({"loop target: at the crossover ", w, " rad/s a gain of ", size, " would be needed"});
   }
   return {size * std::cos(phase), size * std::sin(phase)};
 }
@@ -67,7 +66,7 @@ struct ControllerValue {
 [[nodiscard]] inline PidGains designed_gains(double p, double i, double d) {
   const PidGains gains{.proportional = p, .integral = i, .derivative = d};
   if (!is_finite(p) || !is_finite(i) || !is_finite(d)) {
-    refuse_gains("loop target: gains of ", p, ", ", i, " and ", d, " would be needed");
+    refuse({"loop target: gains of ", p, ", ", i, " and ", d, " would be needed"});
   }
   return gains;
 }
@@ -99,7 +98,7 @@ struct ControllerValue {
 [[nodiscard]] inline PidGains design_pid(const JointPlant& plant, const LoopTarget& target,
                                          double time_ratio = 4) {
   if (!is_finite(time_ratio) || time_ratio < 2) {
-    detail::refuse_gains("loop target: time_ratio ", time_ratio, " is not a finite number >= 2");
+    detail::refuse({"loop target: time_ratio ", time_ratio, " is not a finite number >= 2"});
   }
   constexpr double quarter = std::numbers::pi / 2;
   const auto [p, rest] = detail::controller_at_crossover(plant, target, "PID", -quarter, quarter);

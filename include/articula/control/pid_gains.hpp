@@ -4,6 +4,7 @@
 
 #include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <array>
 #include <cstddef>
@@ -76,25 +77,25 @@ template <std::size_t N>
 void validate(const std::array<PidGains, N>& gains, const std::array<std::string_view, N>& names,
               GainSigns signs = GainSigns::not_negative) {
   for (std::size_t i = 0; i < N; ++i) {
-    const auto refuse = [&](const auto&... parts) {
-      detail::refuse_gains("PID gains of joint '", names[i], "': ", parts...);
+    const auto refuse = [&](detail::MessageParts parts) {
+      detail::refuse({"PID gains of joint '", names[i], "': ", detail::message_of(parts)});
     };
     const auto check_finite = [&](std::string_view what, double value) {
-      if (!is_finite(value)) refuse(what, " ", value, " is not finite");
+      if (!is_finite(value)) refuse({what, " ", value, " is not finite"});
     };
     const auto check_not_negative = [&](std::string_view what, double value) {
-      if (!is_finite(value) || value < 0) refuse(what, " ", value, " is not a number >= 0");
+      if (!is_finite(value) || value < 0) refuse({what, " ", value, " is not a number >= 0"});
     };
     const auto check_gain = [&](std::string_view what, double value) {
       check_finite(what, value);
       if (signs == GainSigns::not_negative) check_not_negative(what, value);
     };
     const auto check_weight = [&](std::string_view what, double value) {
-      if (!(value >= 0 && value <= 1)) refuse(what, " ", value, " is not within 0 .. 1");
+      if (!(value >= 0 && value <= 1)) refuse({what, " ", value, " is not within 0 .. 1"});
     };
     const auto check_clamps = [&](std::string_view what, double low, double high) {
       if (!(low <= 0 && high >= 0)) {
-        refuse(what, "_min ", low, " and ", what, "_max ", high, " do not have 0 between them");
+        refuse({what, "_min ", low, " and ", what, "_max ", high, " do not have 0 between them"});
       }
     };
     const PidGains& g = gains[i];
@@ -103,15 +104,17 @@ void validate(const std::array<PidGains, N>& gains, const std::array<std::string
     check_gain("derivative", g.derivative);
     check_clamps("integral_clamp", g.integral_clamp_min, g.integral_clamp_max);
     check_clamps("output_clamp", g.output_clamp_min, g.output_clamp_max);
-    if (g.anti_windup > AntiWindup::conditional_integration) refuse("anti_windup is none of these");
+    if (g.anti_windup > AntiWindup::conditional_integration) {
+      refuse({"anti_windup is none of these"});
+    }
     check_not_negative("tracking_time", g.tracking_time);
     if (g.anti_windup == AntiWindup::back_calculation && g.tracking_time == 0 && g.integral != 0 &&
         g.proportional == 0 && g.derivative == 0) {
-      refuse("back_calculation needs a tracking_time: integral ", g.integral,
-             " is alone, and sqrt(d/i) and p/i are 0");
+      refuse({"back_calculation needs a tracking_time: integral ", g.integral,
+              " is alone, and sqrt(d/i) and p/i are 0"});
     }
     check_not_negative("error_deadband", g.error_deadband);
-    if (g.derivative_of > DerivativeOf::error) refuse("derivative_of is none of these");
+    if (g.derivative_of > DerivativeOf::error) refuse({"derivative_of is none of these"});
     check_not_negative("derivative_filter_time", g.derivative_filter_time);
     check_weight("position_weight", g.position_weight);
     check_weight("velocity_weight", g.velocity_weight);

@@ -86,20 +86,20 @@ class PidLaw {
     return output;
   }
 
-  /// Lets the integrals begin with an effort that another controller gave last: the load that it has
-  /// carried. What p and d ask for comes on top of it. Joints whose integral could not take back soon
-  /// what was no load begin with 0, see JointPid::prime.
+  /// Lets the integrals begin with the effort that was given last: the load that it has carried. What
+  /// p and d ask for comes on top of it. If it may have been a push, joints whose integral could not
+  /// take that back soon begin with 0, see JointPid::prime.
   /// @return  the integral terms and feed-forwards, N x 1
   /// Real-time: yes. O(N).
   JointVector<N> prime(const JointState<N>&, const JointReference<N>& reference, double,
-                       const JointVector<N>& effort) noexcept {
+                       const JointVector<N>& effort, LastCommand is = LastCommand::any) noexcept {
     JointVector<N> share;
     for (int j = 0; j < N; ++j) {
       const auto i = static_cast<std::size_t>(j);
       const PidGains& g = gains_[i];
       const double feedforward = g.velocity_feedforward * reference.velocity[j] +
                                  g.acceleration_feedforward * reference.acceleration[j];
-      pids_[i].prime(g, effort[j] - feedforward);
+      pids_[i].prime(g, effort[j] - feedforward, is);
       share[j] = pids_[i].integral() + feedforward;
     }
     return share;

@@ -2,8 +2,8 @@
 /// @file Polynomials as far as frequency responses need them.
 #pragma once
 
-#include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -49,7 +49,7 @@ struct Polynomial {
 
 /// @throws std::invalid_argument unless x is finite
 inline void require_moderate(const double& x) {
-  if (!is_finite(x)) refuse_gains("the figures of the control loop are too large or too small");
+  if (!is_finite(x)) refuse({"the figures of the control loop are too large or too small"});
 }
 
 /// Where between two points a function has changed its sign, to the last bit.

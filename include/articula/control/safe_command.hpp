@@ -7,6 +7,7 @@
 #include "articula/core/joint_state.hpp"
 #include "articula/dynamics/gravity.hpp"
 
+#include <algorithm>
 #include <concepts>
 
 namespace articula {
@@ -17,7 +18,9 @@ template <Robot R, JointCommand<joint_count<R>> Command>
 [[nodiscard]] Command limited(const R& robot, Command command) noexcept {
   if constexpr (requires { command.effort; }) {
     const JointVector<joint_count<R>> limits = effort_limits(robot);
-    command.effort = command.effort.cwiseMin(limits).cwiseMax(-limits);
+    for (int j = 0; j < joint_count<R>; ++j) {
+      command.effort[j] = std::clamp(command.effort[j], -limits[j], limits[j]);
+    }
   }
   return command;
 }

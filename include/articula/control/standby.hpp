@@ -8,11 +8,10 @@
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <algorithm>
 #include <concepts>
-#include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 namespace articula {
@@ -41,9 +40,7 @@ class Standby {
   explicit Standby(double damping_time, const R& robot = described<R>())
       : robot_(robot), damping_time_(damping_time) {
     if (is_finite(damping_time) && damping_time > 0) return;
-    std::ostringstream message;
-    message << "standby: damping_time " << damping_time << " s is not a number > 0";
-    throw std::invalid_argument(message.str());
+    detail::refuse({"standby: damping_time ", damping_time, " s is not a number > 0"});
   }
 
   /// Takes the position that is to be held. Real-time: yes.

@@ -2,8 +2,8 @@
 /// @file What engineers say of a step response: rise time, overshoot, settling time, what remains.
 #pragma once
 
-#include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,10 +33,10 @@ class StepMetrics {
   StepMetrics(double start, double target, double band = 0.02)
       : start_(start), height_(target - start), band_(band) {
     if (!is_finite(height_)) {
-      detail::refuse_gains("step metrics: from ", start, " to ", target, " is not a finite step");
+      detail::refuse({"step metrics: from ", start, " to ", target, " is not a finite step"});
     }
     if (!(band > 0 && band < 1)) {
-      detail::refuse_gains("step metrics: band ", band, " is not within 0 .. 1");
+      detail::refuse({"step metrics: band ", band, " is not within 0 .. 1"});
     }
   }
 

@@ -6,8 +6,8 @@
 #include "articula/control/joint_plant.hpp"
 #include "articula/control/pid_gains.hpp"
 #include "articula/control/step_metrics.hpp"
-#include "articula/control/valid_gains.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <algorithm>
 #include <array>
@@ -77,15 +77,15 @@ class HeldPlant {
   validate(std::array{gains}, std::array<std::string_view, 1>{"plant"});
   const auto check = [](std::string_view what, const double& value, bool may_be_infinite) {
     if (value > 0 && (is_finite(value) || may_be_infinite)) return;
-    detail::refuse_gains("step response: ", what, " ", value, " is not a number > 0");
+    detail::refuse({"step response: ", what, " ", value, " is not a number > 0"});
   };
   check("duration", options.duration, false);
   check("period", options.period, false);
   check("effort_limit", options.effort_limit, true);
   const double count = std::ceil(options.duration / options.period * (1 - 1e-12));
   if (!(count <= 1e8)) {
-    detail::refuse_gains("step response: duration ", options.duration,
-                         " s is more than 10^8 periods of ", options.period, " s");
+    detail::refuse({"step response: duration ", options.duration,
+                    " s is more than 10^8 periods of ", options.period, " s"});
   }
   StepMetrics metrics(0, options.height, options.band);
   detail::HeldPlant joint(plant, options.period);

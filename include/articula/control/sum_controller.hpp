@@ -88,11 +88,13 @@ class SumController {
   /// @param state      measured joints
   /// @param reference  what they shall do
   /// @param period     time until the next update [s]
-  /// @param command    given last, by another controller, N x 1
+  /// @param command    given last, N x 1
+  /// @param is         what is known of it
   /// @return           what these parts begin with of it, N x 1
   JointVector<joint_count> prime(const JointState<joint_count>& state,
                                  const JointReference<joint_count>& reference, double period,
-                                 const JointVector<joint_count>& command) noexcept
+                                 const JointVector<joint_count>& command,
+                                 LastCommand is = LastCommand::any) noexcept
       requires(Primable<Laws, joint_count> || ...) {
     JointVector<joint_count> rest = command;
     for_each_law([&](auto& law) noexcept {
@@ -104,7 +106,7 @@ class SumController {
     const JointVector<joint_count> left = rest;
     for_each_law([&](auto& law) noexcept {
       if constexpr (Primable<decltype(law), joint_count>) {
-        rest -= law.prime(state, reference, period, rest);
+        rest -= detail::prime(law, state, reference, period, rest, is);
       }
     });
     return left - rest;

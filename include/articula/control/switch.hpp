@@ -97,6 +97,7 @@ class Switch {
 
   /// Begins anew with the controller that is active, or was asked for. Real-time: yes.
   void start(const State& state) noexcept {
+    takes_over_ = active_ != board_.active_at(0);
     set_active(board_.active_at(0));
     visit(active_, [&](auto& controller) noexcept { controller.start(state); });
     transfer_.start();
@@ -110,14 +111,14 @@ class Switch {
   /// @param period     time until the next update [s]
   /// @param command    given last, N x 1; one that is not finite is not gone on from
   /// @return           what is gone on from, N x 1
-  Vector prime(const State& state, const Reference& reference, double period,
-               const Vector& command) noexcept {
+  Vector prime(const State& state, const Reference& reference, double period, const Vector& command,
+               LastCommand is = LastCommand::any) noexcept {
     if (!is_finite(command)) return Vector::Zero();
     transfer_.set_given(command);
     begun_ = true;
     if (active_ == none) start_controller(none, state);
     transfer_.take_over();
-    prime_active(state, reference, period);
+    prime_active(state, reference, period, takes_over_ ? LastCommand::any : is);
     return transfer_.given();
   }
 
@@ -132,7 +133,7 @@ class Switch {
       start_controller(planned, state);
       if (begun_) {
         transfer_.take_over();
-        prime_active(state, reference, period);
+        prime_active(state, reference, period, LastCommand::any);
       }
     }
     Answer answer = ask(active_, state, reference, period);
@@ -200,8 +201,15 @@ class Switch {
   }
 
   /// Hears what was given in the end, which the next switch, or command after a failure, goes on
-  /// from: N x 1, see numbers_of. After `limited`. Real-time: yes.
-  void given(const Vector& command) noexcept { transfer_.set_given(command); }
+  /// from: N x 1, see numbers_of. After `limited`. Before the first update the active controller hears
+  /// it, too. Real-time: yes.
+  void given(const Vector& command) noexcept {
+    transfer_.set_given(command);
+    if (begun_) return;  // what is carried over is not the controller's own
+    visit(active_, [&](auto& controller) noexcept {
+      if constexpr (TakesGiven<decltype(controller), joint_count>) controller.given(command);
+    });
+  }
 
   /// Goes on with other gains of the one controller that takes them. Where several do, whose gains
   /// they are must be said: `member<C>().set_gains(gains)`. Real-time: yes.
@@ -257,10 +265,11 @@ class Switch {
     visit(index, [&](auto& controller) noexcept { controller.start(state); });
   }
 
-  void prime_active(const State& state, const Reference& reference, double period) noexcept {
+  void prime_active(const State& state, const Reference& reference, double period,
+                    LastCommand is) noexcept {
     visit(active_, [&](auto& controller) noexcept {
       if constexpr (Primable<decltype(controller), joint_count>) {
-        controller.prime(state, reference, period, transfer_.given());
+        detail::prime(controller, state, reference, period, transfer_.given(), is);
       }
     });
   }
@@ -323,6 +332,7 @@ class Switch {
   std::array<std::vector<std::size_t>, controller_count> fallbacks_{};
   std::array<ControllerStatus, controller_count> statuses_{};
   std::size_t active_ = none;
+  bool takes_over_ = false;  ///< at the start another controller became active
   bool begun_ = false;  ///< there was a command since the start, which the next one goes on from
   Command last_{};
 };

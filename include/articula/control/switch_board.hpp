@@ -3,12 +3,11 @@
 #pragma once
 
 #include "articula/control/switch_request.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
@@ -36,8 +35,7 @@ class SwitchBoard {
   /// @throws std::invalid_argument if there are not as many, or one is empty or there twice
   void set_names(const std::vector<Name>& names, const std::array<Name, Count>& defaults) {
     if (!names.empty() && names.size() != Count) {
-      throw std::invalid_argument("switch: " + std::to_string(names.size()) + " names for " +
-                                  std::to_string(Count) + " controllers");
+      detail::refuse({"switch: ", names.size(), " names for ", Count, " controllers"});
     }
     for (std::size_t i = 0; i < Count; ++i) {
       Name name = names.empty() ? defaults[i] : names[i];
@@ -53,15 +51,15 @@ class SwitchBoard {
   void validate() const {
     for (std::size_t i = 0; i < Count; ++i) {
       if (entries[i].name.empty()) {
-        throw std::invalid_argument("switch: controller " + std::to_string(i + 1) + " has no name");
+        detail::refuse({"switch: controller ", i + 1, " has no name"});
       }
       if (find(entries[i].name) != i) refuse("two controllers are named ", entries[i].name);
     }
   }
 
   /// @throws std::invalid_argument with this message and the name
-  [[noreturn]] static void refuse(const std::string& what, const Name& name) {
-    throw std::invalid_argument("switch: " + what + "'" + std::string(name.view()) + "'");
+  [[noreturn]] static void refuse(std::string_view what, const Name& name) {
+    detail::refuse({"switch: ", what, "'", name.view(), "'"});
   }
 
   /// The index of a controller.
@@ -142,7 +140,7 @@ class SwitchBoard {
 
  private:
   [[nodiscard]] static Name with_suffix(const Name& name, int number) {
-    return std::string_view(std::string(name.view()) + "_" + std::to_string(number));
+    return detail::message_of({name.view(), "_", number});
   }
 };
 
@@ -175,7 +173,7 @@ template <class C>
   } else if constexpr (requires { typename C::ControllerType; }) {  // of a Limited one
     return own_name<typename C::ControllerType>(place);
   } else {
-    return std::string_view("controller_" + std::to_string(place + 1));
+    return message_of({"controller_", place + 1});
   }
 }
 

@@ -4,8 +4,6 @@
 
 #include <array>
 #include <cstddef>
-#include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 namespace articula {
@@ -13,18 +11,6 @@ namespace articula {
 /// The names of N joints.
 template <int N>
 using JointNames = std::array<std::string_view, static_cast<std::size_t>(N)>;
-
-namespace detail {
-
-/// @throws std::invalid_argument with the parts as its message
-template <class... Parts>
-[[noreturn]] void refuse_gains(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
-}
-
-}  // namespace detail
 
 /// The gains of N joints, checked as a whole. To have one is to have good gains, so that a controller
 /// can take it over in mid-run without a look.

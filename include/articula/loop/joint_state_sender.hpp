@@ -2,6 +2,7 @@
 /// @file Joint states for whoever listens. POSIX; needs nlohmann-json (target articula::recording).
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/loop/record_json.hpp"
 
 #include <arpa/inet.h>
@@ -13,8 +14,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -42,17 +41,14 @@ class JointStateSender {
   explicit JointStateSender(const JointStateSenderOptions& options = {},
                             const R& robot = described<R>())
       : robot_(robot), divisor_(options.divisor) {
-    const auto refuse = [](const auto&... parts) {
-      std::ostringstream message;
-      message << "joint state sender: ";
-      (message << ... << parts);
-      throw std::invalid_argument(message.str());
-    };
-    if (options.divisor < 1) refuse("divisor ", options.divisor, " is not at least 1");
+    if (options.divisor < 1) {
+      detail::refuse({"joint state sender: divisor ", options.divisor, " is not at least 1"});
+    }
     target_.sin_family = AF_INET;
     target_.sin_port = htons(options.port);
     if (inet_pton(AF_INET, options.address.c_str(), &target_.sin_addr) != 1) {
-      refuse("address '", options.address, "' is not an IPv4 address");
+      detail::refuse(
+          {"joint state sender: address '", options.address, "' is not an IPv4 address"});
     }
     JointState<joint_count<R>> longest;
     for (auto* vector : {&longest.position, &longest.velocity, &longest.effort}) {
@@ -60,8 +56,8 @@ class JointStateSender {
     }
     const std::size_t size = joint_state_json(robot, longest.position[0], longest).dump().size();
     if (size > longest_datagram) {
-      refuse("the state of ", joint_count<R>, " joints takes ", size,
-             " bytes, more than the datagram of ", longest_datagram);
+      detail::refuse({"joint state sender: the state of ", joint_count<R>, " joints takes ", size,
+                      " bytes, more than the datagram of ", longest_datagram});
     }
     socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (socket_ < 0) {

@@ -9,6 +9,7 @@
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/loop/controller_check.hpp"
 #include "articula/model/robot.hpp"
 
@@ -16,7 +17,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -38,7 +38,8 @@ namespace articula {
 /// frame costs no integral. After more, or after one in which the hardware could not be read or
 /// written, it starts anew with the first good one, since what it remembers is of a motion that is over.
 /// Where reference or command were to blame and the joints were held meanwhile, it begins with the
-/// command that held them, if it can (see Primable).
+/// command that held them, if it can (see Primable). In any case it hears what was given last, if it
+/// wants to know (TakesGiven).
 /// @tparam HardwareType        satisfies Hardware
 /// @tparam ControllerTemplate  makes a Controller of the hardware's robot
 template <class HardwareType, template <class> class ControllerTemplate>
@@ -161,13 +162,12 @@ class Loop {
                                              std::optional<double> asked) {
     double period = asked.value_or(1e-3);
     if constexpr (requires { hardware.period(); }) period = hardware.period();
-    std::ostringstream message;
     if (!is_finite(period) || period <= 0) {
-      message << "loop: period " << period << " s is not a positive number";
-    } else if (asked && *asked != period) {
-      message << "loop: period " << *asked << " s, but the hardware has " << period << " s";
+      detail::refuse({"loop: period ", period, " s is not a positive number"});
     }
-    if (!message.str().empty()) throw std::invalid_argument(message.str());
+    if (asked && *asked != period) {
+      detail::refuse({"loop: period ", *asked, " s, but the hardware has ", period, " s"});
+    }
     return period;
   }
 
@@ -198,10 +198,13 @@ class Loop {
 
   void restart() noexcept {
     controller_.start(state_);
+    if constexpr (TakesGiven<ControllerType, joint_count>) {
+      controller_.given(numbers_of(command_, state_));
+    }
     if constexpr (Primable<ControllerType, joint_count>) {
       if (joints_lost_) return;
-      static_cast<void>(
-          controller_.prime(state_, reference_, period_, numbers_of(command_, state_)));
+      static_cast<void>(detail::prime(controller_, state_, reference_, period_,
+                                      numbers_of(command_, state_), LastCommand::load));
     }
   }
 

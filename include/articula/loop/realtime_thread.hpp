@@ -2,6 +2,8 @@
 /// @file Makes a thread fit for real time. Linux.
 #pragma once
 
+#include "articula/core/refuse.hpp"
+
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -10,9 +12,8 @@
 #include <cerrno>
 #include <cstddef>
 #include <functional>
-#include <sstream>
-#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -51,29 +52,29 @@ namespace detail {
 /// @throws std::system_error if the system refuses, unless `warn` takes the refusal
 /// Real-time: no (set-up).
 inline void make_realtime(const ThreadOptions& options) {
-  const auto reject = [](const auto&... parts) {
-    std::ostringstream message;
-    message << "real-time thread: ";
-    (message << ... << parts);
-    throw std::invalid_argument(message.str());
-  };
   if (options.priority < 0 || options.priority > 99) {
-    reject("priority ", options.priority, " is not between 0 and 99");
+    detail::refuse({"real-time thread: priority ", options.priority, " is not between 0 and 99"});
   }
   for (const int processor : options.processors) {
     if (processor < 0 || processor >= CPU_SETSIZE) {
-      reject("processor ", processor, " is not between 0 and ", CPU_SETSIZE - 1);
+      detail::refuse(
+          {"real-time thread: processor ", processor, " is not between 0 and ", CPU_SETSIZE - 1});
     }
   }
   rlimit stack{};
   if (getrlimit(RLIMIT_STACK, &stack) == 0 && options.stack_size > stack.rlim_cur / 2) {
-    reject("stack_size ", options.stack_size, " is more than half of the stack, ", stack.rlim_cur);
+    detail::refuse({"real-time thread: stack_size ", options.stack_size,
+                    " is more than half of the stack, ", stack.rlim_cur});
   }
 
-  const auto refused = [&](int error, const std::string& what, const char* remedy) {
-    const std::string message = "real-time thread: " + what;
-    if (!options.warn) throw std::system_error(error, std::generic_category(), message + remedy);
-    options.warn(message + ": " + std::generic_category().message(error) + remedy);
+  const auto refused = [&](int error, std::string_view what, std::string_view remedy) {
+    const std::string message = detail::message_of({"real-time thread: ", what});
+    if (!options.warn) {
+      const std::string text = detail::message_of({message, remedy});
+      throw std::system_error(error, std::generic_category(), text);
+    }
+    const std::string reason = std::generic_category().message(error);
+    options.warn(detail::message_of({message, ": ", reason, remedy}));
   };
   if (options.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
     refused(errno, "memory cannot be locked", " (needs CAP_IPC_LOCK or a higher ulimit -l)");
@@ -93,7 +94,8 @@ inline void make_realtime(const ThreadOptions& options) {
     parameters.sched_priority = options.priority;
     const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
     if (error != 0) {
-      refused(error, "SCHED_FIFO priority " + std::to_string(options.priority) + " is not granted",
+      refused(error,
+              detail::message_of({"SCHED_FIFO priority ", options.priority, " is not granted"}),
               " (needs CAP_SYS_NICE or a higher ulimit -r)");
     }
   }

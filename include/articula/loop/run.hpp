@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/core/status.hpp"
 #include "articula/loop/loop_clock.hpp"
 #include "articula/loop/run_report.hpp"
@@ -14,8 +15,6 @@
 #include <concepts>
 #include <cstdint>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 namespace articula {
 
@@ -66,9 +65,7 @@ run(LoopType& loop, Clock& clock, const RunOptions& options = {}, Each each = {}
   using std::chrono::nanoseconds;
   const double seconds = loop.period();
   if (!is_finite(seconds) || seconds < 1e-9 || seconds > 1000) {
-    std::ostringstream message;
-    message << "run: period " << seconds << " s is not between 1e-9 s and 1000 s";
-    throw std::invalid_argument(message.str());
+    detail::refuse({"run: period ", seconds, " s is not between 1e-9 s and 1000 s"});
   }
   const nanoseconds period(std::llround(seconds * 1e9));
 

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <string_view>
 
 namespace articula {
@@ -41,9 +40,7 @@ struct SupervisionOptions {
 inline void validate(const SupervisionOptions& options, double period) {
   const auto at_least = [](std::string_view name, double value, double limit) {
     if (value >= limit) return;  // false for NaN
-    std::ostringstream message;
-    message << "supervision: " << name << ' ' << value << " is not at least " << limit;
-    throw std::invalid_argument(message.str());
+    detail::refuse({"supervision: ", name, " ", value, " is not at least ", limit});
   };
   at_least("bad_cycles", options.bad_cycles, 0);
   at_least("overruns", options.overruns, 0);
