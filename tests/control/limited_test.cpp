@@ -274,6 +274,63 @@ TEST_CASE("a position that moves is met in its own motion, and followed") {
   check(wave, 5e-3);   // its acceleration is not constant, as is foreseen
 }
 
+TEST_CASE("a moving position may be rounded") {
+  CommandLimits<1> limits;
+  limits.velocity[0] = 1;
+  limits.acceleration[0] = 10;
+  limits.jerk[0] = 100;
+  Positions controller = positions_within(limits);
+  controller.start(at(0));
+  double largest = 0;
+  for (int k = 0; k < 5000; ++k) {
+    const double asked = static_cast<float>(0.3 * (1 - std::cos(2 * k * dt)));
+    const double given = controller.update(at(0), to_position(asked), dt).position[0];
+    largest = std::max(largest, std::abs(given - asked));
+  }
+  CHECK(largest < 2e-4);  // the acceleration begins with a step, of 1.2; braking takes 5e-2
+}
+
+TEST_CASE("what uses nearly all of the limits is followed") {
+  CommandLimits<1> limits;
+  limits.velocity[0] = 1;
+  limits.acceleration[0] = 5;
+  limits.jerk[0] = 50;
+  Positions controller = positions_within(limits);
+  controller.start(at(0));
+  double a = 0, v = 0, q = 0, largest = 0;
+  for (int k = 0; k < 4000; ++k) {  // jerks of 0.1 s each, one way and, 0.4 s later, back
+    const int phase = k / 100 % 8;
+    const double sign = k / 800 % 2 == 0 ? 1 : -1;
+    a += 49.5 * dt * (phase == 0 || phase == 3 ? sign : phase == 1 || phase == 2 ? -sign : 0);
+    v += a * dt;
+    q += v * dt;
+    const double given = controller.update(at(0), to_position(q), dt).position[0];
+    largest = std::max(largest, std::abs(given - q));
+  }
+  CHECK(largest < 1e-4);  // braking takes 5e-2
+}
+
+TEST_CASE("a position far out leads to the limit, and says so") {
+  CommandLimits<1> limits;
+  limits.lower[0] = -1;
+  limits.upper[0] = 1;
+  limits.velocity[0] = 1;
+  limits.acceleration[0] = 10;
+  limits.jerk[0] = 100;
+  for (const double asked : {2.0, 1e15, 1e300, 1e308}) {
+    CAPTURE(asked);
+    Positions controller = positions_within(limits);
+    controller.start(at(0));
+    double given = 0;
+    for (int k = 0; k < 5000; ++k) {
+      given = controller.update(at(0), to_position(asked), dt).position[0];
+    }
+    CHECK(given == Approx(1));
+    CHECK(controller.report()[0].position);
+    CHECK_FALSE(controller.report()[0].non_finite);
+  }
+}
+
 TEST_CASE("the report says which limit it was") {
   CommandLimits<1> limits;
   const auto report_of = [&](double wish) {

@@ -152,12 +152,23 @@ TEST_CASE("a mimic whose limits leave the joint it follows no position is a faul
   CHECK(robot.fault().rule != Rule::none);
 }
 
-TEST_CASE("a fixed joint needs no axis and no limits") {
+TEST_CASE("a fixed joint needs no axis, and must have no limits") {
   Blueprint robot = double_pendulum();
-  robot.joints[1].type = JointType::fixed;
-  robot.joints[1].axis = {0, 0, 0};
-  robot.joints[1].limits = {.lower = 1, .upper = -1, .velocity = -1, .effort = -1};
+  Joint& joint = robot.joints[1];
+  joint.type = JointType::fixed;
+  joint.axis = {0, 0, 0};
+  joint.limits = {};
+  joint.damping = joint.friction = joint.reflected_inertia = 0;
   CHECK(robot.fault().rule == Rule::none);
+  // Whoever forgets the type gets a fixed joint.
+  for (double* number :
+       {&joint.limits.lower, &joint.limits.upper, &joint.limits.velocity, &joint.limits.effort,
+        &joint.damping, &joint.friction, &joint.reflected_inertia}) {
+    const double before = std::exchange(*number, 1);
+    CHECK(robot.fault().rule == Rule::fixed_joint_has_limits_or_damping);
+    CHECK(robot.fault().element == joint.name);
+    *number = before;
+  }
 }
 
 TEST_CASE("a body that cannot exist is told from one that can, in any axes") {

@@ -162,6 +162,24 @@ TEST_CASE("commands beyond a stop end at the stop, without pushing") {
   }
 }
 
+TEST_CASE("a joint without friction rests at its stop while its drive is told to go on") {
+  Arm arm = support::model<support::TiltedQ2d>();
+  for (JointProperties& joint : arm.joints) joint.damping = joint.friction = 0;
+  Simulator<Arm> simulator(arm);
+  const VelocityCommand<2> onwards{{2, 0}};
+  for (int k = 0; k < 3000; ++k) REQUIRE(simulator.write(onwards) == Status::ok);
+  const JointState<2> before = simulator.true_state();
+  REQUIRE(before.position[0] == arm.joints[0].limits.upper);
+  for (int k = 0; k < 1000; ++k) {
+    REQUIRE(simulator.write(onwards) == Status::ok);
+    const JointState<2>& now = simulator.true_state();
+    REQUIRE(std::abs(now.velocity[0]) <= 1e-9);  // what the drives take for standing still
+    REQUIRE(std::abs(now.velocity[1]) <= 1e-9);
+    // What the weight takes, and no more: it would be the drive's limit.
+    REQUIRE((now.effort - before.effort).cwiseAbs().maxCoeff() < 1e-6);
+  }
+}
+
 TEST_CASE("a drive too weak for its friction stays, and one too weak for its load gives way") {
   Model<1> slider = support::slider();
   slider.joints[0].friction = 3;

@@ -71,6 +71,7 @@ inline constexpr articula::RobotDescription pendulum_and_table{
       return "swing";
     case Rule::parent_link_does_not_exist:
     case Rule::child_link_does_not_exist:
+    case Rule::fixed_joint_has_limits_or_damping:
     case Rule::axis_has_length_zero:
     case Rule::lower_limit_is_above_upper_limit:
     case Rule::velocity_limit_is_negative:
@@ -138,6 +139,10 @@ template <articula::Rule rule>
         break;
       case Rule::robot_has_no_moving_joint:
         pivot.type = knee.type = JointType::fixed;
+        break;
+      case Rule::fixed_joint_has_limits_or_damping:
+        knee.type = JointType::fixed;
+        knee.limits.effort = 10;
         break;
       case Rule::axis_has_length_zero:
         knee.axis = {0, 0, 0};

@@ -57,6 +57,14 @@ TEST_CASE("Sines near multiples of a right angle keep their digits") {
     check(std::array{angle, std::nextafter(angle, infinity), std::nextafter(angle, -infinity)});
     check(std::array{angle});
   }
+  // Up to where they go to <cmath>, and beyond.
+  const unsigned seed = 77;
+  CAPTURE(seed);
+  support::Random random(seed);
+  for (int k = 0; k < 100'000; ++k) {
+    const double angle = random.integer(-140'000, 140'000) * (std::numbers::pi / 2);
+    check(std::array{angle, std::nextafter(angle, infinity)});
+  }
 }
 
 TEST_CASE("Sines and cosines of zero are exact, with the sign of zero") {

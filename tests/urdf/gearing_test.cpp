@@ -132,6 +132,9 @@ TEST_CASE("A simulation starts at the initial values of ros2_control") {
   const auto raised = model_of_urdf<1>(silent);
   CHECK(initial_positions(silent, raised)[0] == 0.5);
   CHECK(initial_velocities(silent, raised)[0] == 0);
+  silent.joints[0].damping = -3;  // what is changed after the reading is looked at, too
+  CHECK_THROWS_WITH(model_of_urdf<1>(silent),
+                    Contains("'pivot'") && Contains("damping is negative") && Contains("-3"));
   CHECK_THROWS_WITH(
       described_with("<ros2_control name=\"c\"><joint name=\"pivot\"><state_interface "
                      "name=\"position\"><param name=\"initial_value\">nan</param>"

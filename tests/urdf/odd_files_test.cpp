@@ -262,3 +262,70 @@ TEST_CASE("a mimic that stands in ros2_control alone is reported") {
   CHECK(notices(follower, " mimic=\"false\"", "")[0] ==
         "<ros2_control>: joint 'k' is to mimic nobody" + counts);
 }
+
+TEST_CASE("words that URDF does not know are reported") {
+  using Notices = std::vector<std::string>;
+  const auto notices = [](const std::string& inside, const std::string& attributes = "") {
+    const std::string pivot = "<joint name=\"pivot\" type=\"continuous\"" + attributes +
+                              "><parent link=\"base\"/><child link=\"rod\"/>" + inside + "</joint>";
+    return read_urdf(UrdfSource(support::pendulum(solid("rod"), pivot))).notices;
+  };
+  const auto about = [](const std::string& place, const std::string& word,
+                        const std::string& meant = "") {
+    return place + word + " is not known there and does not count" +
+           (meant.empty() ? "" : "; did you mean " + meant + "?");
+  };
+  const std::string pivot = "joint 'pivot': ";
+
+  SECTION("of joints") {
+    CHECK(notices("<limit uper=\"1.2\" effort=\"1\" velocity=\"1\"/>") ==
+          Notices{about(pivot + "<limit>: ", "the attribute 'uper'", "'upper'")});
+    CHECK(notices("<axes xyz=\"0 0 1\"/>") ==
+          Notices{about(pivot + "<joint>: ", "the element <axes>", "<axis>")});
+    CHECK(notices("<dynamic damping=\"1\"/>") ==
+          Notices{about(pivot + "<joint>: ", "the element <dynamic>", "<dynamics>")});
+    CHECK(notices("<dynamics damping=\"1\" frcitoin=\"1\" fricton=\"1\"/>") ==
+          Notices{about(pivot + "<dynamics>: ", "the attribute 'frcitoin'", "'friction'"),
+                  about(pivot + "<dynamics>: ", "the attribute 'fricton'", "'friction'")});
+    CHECK(notices("<origin XYZ=\"1 0 0\" quat_xyzw=\"0 0 0 1\"/>") ==
+          Notices{about(pivot + "<origin>: ", "the attribute 'XYZ'", "'xyz'"),
+                  about(pivot + "<origin>: ", "the attribute 'quat_xyzw'")});
+    CHECK(notices("<joint_properties damping=\"1\"/><joint_properties/>", " damping=\"1\"") ==
+          Notices{about(pivot + "<joint>: ", "the attribute 'damping'"),
+                  about(pivot + "<joint>: ", "the element <joint_properties>")});
+    CHECK(notices("<axis xyz=\"0 0 1\"><xyz/></axis>") ==
+          Notices{about(pivot + "<axis>: ", "the element <xyz>")});
+  }
+  SECTION("of links, and before those that they explain") {
+    const std::string rod =
+        "<link name=\"a\nrod\"><inertial_ ixx=\"1\"/><visuals/><inertial><mass value=\"2\" "
+        "unit=\"kg\"/><origin xzy=\"1 0 0\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" "
+        "iyz=\"0\" izz=\"1\" iyx=\"0\"/></inertial></link>";
+    const std::string limit = "<limit lower=\"0\" uper=\"1\" effort=\"1\" velocity=\"1\"/>";
+    const std::string link = "link 'a rod': ";
+    CHECK(read_urdf(UrdfSource(support::pendulum(
+                        rod, joint("pivot", "revolute", "base", "a\nrod", limit))))
+              .notices == Notices{about(link + "<link>: ", "the element <inertial_>", "<inertial>"),
+                                  about(link + "<link>: ", "the element <visuals>", "<visual>"),
+                                  about(link + "<mass>: ", "the attribute 'unit'"),
+                                  about(link + "<origin>: ", "the attribute 'xzy'", "'xyz'"),
+                                  // ixx, iyy and iyz are as close.
+                                  about(link + "<inertia>: ", "the attribute 'iyx'"),
+                                  about(pivot + "<limit>: ", "the attribute 'uper'", "'upper'"),
+                                  pivot + "it has no room to move, lower and upper limit are 0"});
+  }
+  SECTION("not what others read") {
+    CHECK(notices("<safety_controller k_velocity=\"1\" k=\"1\"/><calibration rising=\"1\"/>"
+                  "<gazebo><limits/></gazebo><drake:spring k=\"1\"/>"
+                  "<limit lower=\"0\" upper=\"0\" effort=\"1\" velocity=\"1\" acceleration=\"1\" "
+                  "drake:jerk=\"1\"/>",
+                  " xmlns=\"http://www.ros.org\"")
+              .empty());
+    CHECK(read_urdf(UrdfSource(support::pendulum(
+                        "<link name=\"rod\" type=\"laser\"><visual><orign/></visual><collision "
+                        "nam=\"c\"><geometri/></collision><sensor/>" +
+                        solid("rod").substr(solid("rod").find("<inertial>")) +
+                        "<jont><limt/></jont><joints/>")))
+              .notices.empty());
+  }
+}

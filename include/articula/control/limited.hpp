@@ -227,16 +227,19 @@ class Limited {
       PositionApproach& approach = approach_[index(j)];
       if (brake) approach.start();
       const CommandMotion now = limiter.motion();
-      const double direct = (asked[j] - now.position) / period_;
+      // What lies far out would leave no digits for the way to the limit.
+      const double lowest = std::min(limits_.lower[j], now.position);
+      const double highest = std::max(limits_.upper[j], now.position);
+      const double wanted = std::clamp(asked[j], lowest, highest);
+      if (asked[j] < lowest || asked[j] > highest) report_[index(j)].position = true;
+      const double direct = (wanted - now.position) / period_;
       const double wish =
-          brake ? not_a_number : approach.wish(now, asked[j], period_, report_[index(j)]);
+          brake ? not_a_number : approach.wish(now, wanted, period_, report_[index(j)]);
       const std::optional<StoppingMotion> stop = brake ? std::nullopt : approach.stop();
       const bool granted =
           limiter.move(wish, report_[index(j)], stop ? &*stop : nullptr) && wish == direct;
       // Rounding must not lead beyond a limit, nor away from what was granted.
-      given[j] = std::clamp(granted ? asked[j] : limiter.motion().position,
-                            std::min(limits_.lower[j], now.position),
-                            std::max(limits_.upper[j], now.position));
+      given[j] = std::clamp(granted ? wanted : limiter.motion().position, lowest, highest);
       limiter.measured(given[j]);
     }
     return given;

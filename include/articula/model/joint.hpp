@@ -25,6 +25,8 @@ struct JointLimits {
   double upper = infinity;     ///< highest position [rad or m]
   double velocity = infinity;  ///< highest speed in either direction [rad/s or m/s]
   double effort = infinity;    ///< highest effort in either direction [N m or N]
+
+  friend bool operator==(const JointLimits&, const JointLimits&) = default;
 };
 
 /// A joint that follows another one: q = multiplier q_of_the_other + offset.

@@ -48,8 +48,13 @@ constexpr JointLimits own_limits(const Joint& joint) {
     const double size = multiplier < 0 ? -multiplier : multiplier;
     damping += size * size * other.damping;
     friction += size * other.friction;
-    if (size == 0) continue;
     const JointLimits own = detail::own_limits(other);
+    if (size == 0) {  // it stands at its offset
+      if (offset >= own.lower && offset <= own.upper) continue;
+      limits.lower = JointLimits::infinity;
+      limits.upper = -JointLimits::infinity;
+      continue;
+    }
     const double a = (own.lower - offset) / multiplier, b = (own.upper - offset) / multiplier;
     limits.lower = std::max(limits.lower, std::min(a, b));
     limits.upper = std::min(limits.upper, std::max(a, b));

@@ -23,6 +23,7 @@ enum class Rule {
   links_have_more_than_one_root,
   links_form_a_loop,
   robot_has_no_moving_joint,
+  fixed_joint_has_limits_or_damping,
   axis_has_length_zero,
   lower_limit_is_above_upper_limit,
   velocity_limit_is_negative,
@@ -78,6 +79,9 @@ enum class Rule {
       return "the link is part of a loop";
     case Rule::robot_has_no_moving_joint:
       return "no joint moves";
+    case Rule::fixed_joint_has_limits_or_damping:
+      return "the joint is fixed, and has limits, damping, friction or a drive; its type may be "
+             "missing";
     case Rule::axis_has_length_zero:
       return "the axis has length 0";
     case Rule::lower_limit_is_above_upper_limit:

@@ -36,13 +36,21 @@ namespace detail {
 /// The model of a description read from URDF.
 /// @tparam N       number of joints that can be commanded
 /// @tparam Bodies  number of moving bodies: N and one for each mimic joint
-/// @throws UrdfError if the robot is of another size (it says which)
+/// @throws UrdfError if the robot is of another size (it says which), or if the description was
+///         changed so that it breaks a Rule
 /// Real-time: no (allocates, throws).
 template <int N, int Bodies = N>
 [[nodiscard]] Model<N, Bodies> model_of_urdf(const UrdfDescription& description) {
   const ModelSize size = model_size(description.joints);
   if (size.joints != N || size.bodies != Bodies) {
     throw UrdfError(description.file, detail::size_text(description, N, Bodies));
+  }
+  const DescriptionFault fault =
+      find_fault(description.name, description.gravity, description.links, description.joints,
+                 description.allow_unphysical);  // what was changed since it was read is not known
+  if (fault.rule != Rule::none) {
+    throw UrdfError(description.file,
+                    detail::fault_text(fault, description.links, description.joints));
   }
   return build_model<N, Bodies>(
       description.name, description.gravity, description.links, description.joints,

@@ -81,7 +81,11 @@ constexpr Rule broken_rule(const Joint& joint) {
                   joint.mimic.offset, joint.shared_rotors.inertia)) {
     return Rule::number_is_not_finite;
   }
-  if (joint.type == JointType::fixed) return Rule::none;
+  if (joint.type == JointType::fixed) {
+    const bool is_bare = limits == JointLimits{} && joint.damping == 0 && joint.friction == 0 &&
+                         joint.reflected_inertia == 0;
+    return is_bare ? Rule::none : Rule::fixed_joint_has_limits_or_damping;
+  }
   if (joint.axis == Vector3<double>{}) return Rule::axis_has_length_zero;
   if (!(limits.lower <= limits.upper)) return Rule::lower_limit_is_above_upper_limit;
   if (limits.lower == JointLimits::infinity || limits.upper == -JointLimits::infinity) {

@@ -88,8 +88,11 @@ class ServoDrives {
   [[nodiscard]] Vector effort_for(Vector a, const Vector& q, const Vector& v) const noexcept {
     Vector resistance;
     for (int j = 0; j < joint_count; ++j) {
-      const bool at_stop = (q[j] <= lower_[j] && a[j] < 0) || (q[j] >= upper_[j] && a[j] > 0);
-      if (at_stop && v[j] == 0) a[j] = 0;
+      // Rounding may have a joint that rests at its stop leave it a little.
+      constexpr double close = 1e-9;  // [rad or m, and per second]
+      const bool pushes_on =
+          (q[j] <= lower_[j] + close && a[j] < 0) || (q[j] >= upper_[j] - close && a[j] > 0);
+      if (pushes_on && std::abs(v[j]) <= close) a[j] = 0;
       const double direction = v[j] != 0 ? v[j] : a[j];
       const double sign = direction > 0 ? 1 : direction < 0 ? -1 : 0;
       resistance[j] = damping_[j] * v[j] + friction_[j] * sign;

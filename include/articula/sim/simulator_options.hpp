@@ -97,6 +97,11 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
       }
     };
     check_not_negative("encoder_resolution", options.encoder_resolution[j]);
+    constexpr double smallest_step = 1e-100;  // positions must be few enough steps for a number
+    if (options.encoder_resolution[j] != 0 && options.encoder_resolution[j] < smallest_step) {
+      refuse({"encoder_resolution ", options.encoder_resolution[j], " of joint '", name,
+              "' is neither 0 nor at least ", smallest_step});
+    }
     check_not_negative("position_noise", options.position_noise[j]);
     check_not_negative("velocity_noise", options.velocity_noise[j]);
     check_not_negative("effort_noise", options.effort_noise[j]);

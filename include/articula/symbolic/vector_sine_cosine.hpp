@@ -57,7 +57,7 @@ template <int Lanes>
 }
 
 /// The largest angle that is reduced right [rad].
-inline constexpr double largest_reduced_angle = 1e6;
+inline constexpr double largest_reduced_angle = 2e5;
 /// Its square, with which a sum of squares is compared: that asks once whether all angles of many are
 /// small, finite numbers.
 inline constexpr double largest_reduced_square = largest_reduced_angle * largest_reduced_angle;

@@ -31,6 +31,7 @@ struct UrdfDescription {
   std::vector<UrdfTransmission> transmissions{};              ///< all of the file
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint, from <ros2_control>
   std::vector<std::string> notices{};  ///< what the user should know, a line each:
+                                       ///< words in links and joints that URDF does not know,
                                        ///< inertias that no real body has, limits of 0 and
                                        ///< those of continuous joints, places beyond limits,
                                        ///< links that move without <inertial>, names that lead

@@ -5,6 +5,7 @@
 #include "articula/model/urdf/control.hpp"
 #include "articula/model/urdf/messages.hpp"
 #include "articula/model/urdf/source.hpp"
+#include "articula/model/urdf/unknown_words.hpp"
 #include "articula/model/urdf/xml.hpp"
 
 #include <urdf_parser/urdf_parser.h>
@@ -33,6 +34,7 @@ struct UrdfDocument {
   std::map<std::string, std::string>
       command_mimics{};  ///< likewise, whom a joint is to mimic; empty: nobody
   std::vector<UrdfTransmission> transmissions{};
+  std::vector<std::string> unknown_words{};  ///< of links and joints, a line each, see notices
 };
 
 namespace detail {
@@ -127,6 +129,8 @@ inline void blank_white_space(std::string& text) {
   result.initial_values = std::move(control.initial_values);
   result.command_mimics = std::move(control.mimics);
   result.transmissions = std::move(control.transmissions);
+
+  result.unknown_words = detail::UnknownWords(robot).take();  // some are removed next
 
   // TinyXML may read odd characters otherwise than it has written them, so from here on everybody
   // reads what it writes.

@@ -17,7 +17,9 @@ namespace articula::detail {
 /// Collects what the user of a URDF should know, a line each.
 class UrdfNotices {
  public:
-  explicit UrdfNotices(const UrdfDocument& document) : document_(document) {}
+  /// Begins with words that are not known: they may be why there are others.
+  explicit UrdfNotices(const UrdfDocument& document)
+      : document_(document), notices_(document.unknown_words) {}
 
   [[nodiscard]] std::vector<std::string> take() { return std::move(notices_); }
 
@@ -140,7 +142,7 @@ class UrdfNotices {
   }
 
   const UrdfDocument& document_;
-  std::vector<std::string> notices_{};
+  std::vector<std::string> notices_;
 };
 
 }  // namespace articula::detail
