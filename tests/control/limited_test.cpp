@@ -283,7 +283,8 @@ TEST_CASE("a moving position may be rounded") {
   controller.start(at(0));
   double largest = 0;
   for (int k = 0; k < 5000; ++k) {
-    const double asked = static_cast<float>(0.3 * (1 - std::cos(2 * k * dt)));
+    const auto rounded = static_cast<float>(0.3 * (1 - std::cos(2 * k * dt)));
+    const auto asked = static_cast<double>(rounded);
     const double given = controller.update(at(0), to_position(asked), dt).position[0];
     largest = std::max(largest, std::abs(given - asked));
   }
