@@ -109,11 +109,10 @@ TEST_CASE("articulated bodies are not tried where joints are tied otherwise than
   support::Random random(3);
   support::Blueprint robot = support::random_robot(random, 12, support::Shape::chain, 0);
   CHECK(ArticulatedBodies::may_pay(robot.model<12>().canonical));
-  robot.joints.back().reflected_inertia = robot.joints.front().reflected_inertia = 1;
-  for (Joint& each : robot.joints) each.reflected_inertia = 1;
   Joint *first = nullptr, *last = nullptr;
   for (Joint& each : robot.joints) {
     if (each.type == JointType::fixed) continue;
+    each.reflected_inertia = 1;
     (first ? last : first) = &each;
   }
   first->shared_rotors = {last->name, 0.5};
