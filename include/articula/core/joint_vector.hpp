@@ -26,7 +26,7 @@ template <int N, int K>
 using JointVectors = Eigen::Matrix<double, N, K, Eigen::RowMajor>;
 
 /// The vector with the number f(j) for each joint j. It does what Eigen's expressions do, for which
-/// compilers need ten times as long, because each is a type of its own.
+/// compilers need longer, because each is a type of its own.
 /// @tparam N  number of joints
 /// @param f   callable with an int -> double
 /// Real-time: yes if f is. O(N).

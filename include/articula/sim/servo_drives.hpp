@@ -24,9 +24,9 @@ namespace articula {
 /// with a perfect feed-forward, [Siciliano et al. 2009, section 8.5.2].
 ///
 /// A drive gives no more than its effort limit. While one is at its limit, its joint lags behind, or
-/// overshoots where it cannot brake as hard as it should, and the others still follow. Positions are asked for within the joint's limits only, and a drive does
-/// not push on where its joint rests at a stop. Where a joint has no velocity limit, V is 1e6 rad/s or
-/// m/s, so that a wish of any size to one drive leaves the others theirs.
+/// overshoots where it cannot brake as hard as it should, and the others still follow. Positions are
+/// asked for within the joint's limits only, and a drive does not push on where its joint rests at a
+/// stop. Where a joint has no velocity limit, V is 1e6 rad/s or m/s, so that a wish of any size to one drive leaves the others theirs.
 /// @tparam R  the robot
 template <Robot R>
 class ServoDrives {
