@@ -86,10 +86,21 @@ template <int Lanes>
   return {near - count * tail, reinterpret_cast<Integers<Lanes>>(shifted)};
 }
 
-// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 - z/2 + z^2 q(z). The polynomials go
-// through the true values at Chebyshev's nodes, which keeps p z and q z^2 within 2e-17 in between. They
-// are summed in pairs, so that little waits for anything. Signs by the number of right angles are
-// + + - - for the sine, + - - + for the cosine; an odd number has them change places.
+// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 - z/2 + z^2 q(z). The polynomials
+// go through the true values at Chebyshev's nodes, which keeps p z and q z^2 within 2e-17 in between.
+// Signs by the number of right angles are + + - - for the sine, + - - + for the cosine; an odd number
+// has them change places.
+
+/// The first coefficient + z (the second + z (the third + ...)) [Horner].
+template <class Vector, class... Doubles>
+[[gnu::always_inline]] inline Vector polynomial(const Vector& z, double first,
+                                                Doubles... others) noexcept {
+  if constexpr (sizeof...(others) == 0) {
+    return first - Vector{};
+  } else {
+    return first + z * polynomial(z, others...);
+  }
+}
 
 /// Stage by stage for several vectors: processors look ahead not much farther than one of them goes, and
 /// what they find to do beside it is the next one's part in the same stage.
@@ -109,26 +120,25 @@ template <int Lanes, std::size_t Count>
   each([&](std::size_t i)
            __attribute__((always_inline)) { z[i] = reduced[i].rest * reduced[i].rest; });
   each([&](std::size_t i) __attribute__((always_inline)) {
-    const Vector z2 = z[i] * z[i], z4 = z2 * z2;
-    p[i] = (-0x1.5555555555555p-3 + z[i] * 0x1.1111111110bb2p-7) +
-           z2 * (-0x1.a01a019e83816p-13 + z[i] * 0x1.71de379654304p-19) +
-           z4 * (-0x1.ae600aca92c64p-26 + z[i] * 0x1.5e0b05bff20f2p-33);
-    q[i] = (0x1.5555555555555p-5 + z[i] * -0x1.6c16c16c16967p-10) +
-           z2 * (0x1.a01a019f4e9b4p-16 + z[i] * -0x1.27e4fa17bf139p-22) +
-           z4 * (0x1.1eeb68cd22f56p-29 + z[i] * -0x1.907d8f29fe831p-37);
+    p[i] = polynomial(z[i], -0x1.5555555555555p-3, 0x1.1111111110bb2p-7, -0x1.a01a019e83816p-13,
+                      0x1.71de379654304p-19, -0x1.ae600aca92c64p-26, 0x1.5e0b05bff20f2p-33);
+    q[i] = polynomial(z[i], 0x1.5555555555555p-5, -0x1.6c16c16c16967p-10, 0x1.a01a019f4e9b4p-16,
+                      -0x1.27e4fa17bf139p-22, 0x1.1eeb68cd22f56p-29, -0x1.907d8f29fe831p-37);
   });
   each([&](std::size_t i) __attribute__((always_inline)) {
     const auto& [x, right_angles] = reduced[i];
     const auto s = reinterpret_cast<Integers<Lanes>>(x + (x * z[i]) * p[i]);
     const auto c = reinterpret_cast<Integers<Lanes>>((1.0 - 0.5 * z[i]) + (z[i] * z[i]) * q[i]);
-    const Integers<Lanes> swap = (s ^ c) & -(right_angles & 1);
+    const Integers<Lanes> odd = right_angles << 63;
+    const Integers<Lanes> swap = (s ^ c) & (odd < 0);
     const Integers<Lanes> sign = (right_angles & 2) << 62;
     sine[i] = reinterpret_cast<Vector>(s ^ swap ^ sign);
-    cosine[i] = reinterpret_cast<Vector>(c ^ swap ^ sign ^ (right_angles << 63));
+    cosine[i] = reinterpret_cast<Vector>(c ^ swap ^ sign ^ odd);
   });
 }
 
-/// The same for few angles, with half the work: the sine in one lane, the cosine in the next.
+/// The same for few angles, with half the work: the sine in one lane, the cosine in the next. The
+/// polynomials are summed in pairs: there is nothing else to do while one step waits for the other.
 /// @param angle  each in two lanes
 /// @return       sines in even lanes, cosines in odd ones
 /// @pre the angles are no larger than largest_reduced_angle
