@@ -36,7 +36,7 @@ struct ForwardDynamics {
 /// @return        joint accelerations [rad/s^2 or m/s^2], N x 1
 /// Real-time: yes. O(N d^2) with d the depth of the tree.
 template <Robot R>
-[[nodiscard]] JointVector<joint_count<R>> forward_dynamics(
+[[nodiscard]] inline JointVector<joint_count<R>> forward_dynamics(
     const R& robot, const JointVector<joint_count<R>>& q, const JointVector<joint_count<R>>& v,
     const JointVector<joint_count<R>>& effort) noexcept {
   return detail::to_vector(detail::evaluate<ForwardDynamics>(robot, q, v, effort));

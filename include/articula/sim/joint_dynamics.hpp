@@ -191,18 +191,19 @@ class JointDynamics {
         [&](int j) noexcept { return drives[j] + phase.sliding[j] - damping_[j] * v[j]; });
   }
 
-  /// The accelerations where friction and stops hold joints still as far as they can.
+  /// The accelerations where friction and stops hold joints still as far as they can. What pulls on the
+  /// joints is M times the acceleration that they would have without: another program, of the nonlinear
+  /// effects, would be less to compute, but more to compile for every simulator.
   template <class Drives>
   [[nodiscard]] BoundedEffort<joint_count> held_within(const EffortBounds<joint_count>& bounds,
                                                        const Phase& phase,
                                                        const JointVector<joint_count>& q,
                                                        const JointVector<joint_count>& v,
                                                        const Drives& effort) const noexcept {
-    const JointVector<joint_count> effects = nonlinear_effects(robot_, q, v);
-    const JointVector<joint_count> given = applied(phase, v, effort(q, v));
-    const auto load =
-        for_each_joint<joint_count>([&](int j) noexcept { return given[j] - effects[j]; });
-    return hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), load, bounds);
+    const JointVector<joint_count> free =
+        forward_dynamics(robot_, q, v, applied(phase, v, effort(q, v)));
+    const JointMatrix<joint_count> m = mass_matrix(robot_, q);
+    return hold_within_bounds<joint_count>(parents_, m, product<joint_count>(m, free), bounds);
   }
 
   /// How far a joint has passed its stop, or one that slid against friction has turned back, at most;
