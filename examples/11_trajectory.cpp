@@ -37,8 +37,7 @@ int main() {
   const Trajectory<Q2d> back({{.time_from_start = 2, .position = {0, 0}, .velocity = still}});
 
   // Stops keep these limits, and the way into a trajectory that replaces another one does.
-  const MotionLimits<2> limits{
-      .velocity = {2, 10}, .acceleration = {10, 30}, .jerk = {200, 600}};  // rad/s, ...
+  const MotionLimits<2> limits = motion_limits(Q2d(), {10, 30}, {200, 600});  // rad/s^2, rad/s^3
   const TrajectoryTolerances<2> wide{
       .path_position = {0.1, 0.1}, .goal_position = {0.01, 0.01}, .goal_time = 0.5};
   const TrajectoryTolerances<2> tight{.path_position = {0.002, 0.002}};  // the PID is not that good

@@ -255,7 +255,7 @@ TEST_CASE("hostile values in every waveform") {
                  {"1.5"}});
   }
   check_field(load_waves, {before, "joint", sine});
-  check_field(load_waves, {"", "waveforms", "\n", {"[]", "{}"}});
+  check_field(load_waves, {"", "waveforms", "\n"});
   const std::string waves = "waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1}}\n";
   for (const std::string key : {"joint", "joint_name", "joints", "target"}) {
     check_field(load_waves, {waves, key, "\n"});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <articula/config/load_controller.hpp>
 #include <articula/config/load_controller_manager.hpp>
 #include <articula/config/load_pid_gains.hpp>
 #include <articula/config/load_signals.hpp>
@@ -8,6 +9,8 @@
 #include <array>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "catch.hpp"
 #include "config_support.hpp"
@@ -207,7 +210,7 @@ TEST_CASE("sections that are not used are noted where none was asked for by name
 
   const auto waves = load_signals(
       Q2d(), yaml("a: {waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1}}}\n"
-                  "b: {waveform: {shoulder_active_joint: {amplitude: 1, frequency: 1}}, x: 1}\n"));
+                  "b: {signals: {shoulder_active_joint: {amplitude: 1, frequency: 1}}, x: 1}\n"));
   CHECK(waves.signals.size() == 1);
   REQUIRE(waves.notes.size() == 1);
   CHECK(waves.notes[0] == "test:2: b: not used, it is no section of waveforms");
@@ -256,6 +259,153 @@ TEST_CASE("a decimal comma is told") {
              Contains("expected a whole number from 1 to 1000000 with a decimal point, 1.5"));
 }
 
+TEST_CASE("marks between thousands are told, and what may be either") {
+  const auto alone = [](const std::string& number) {
+    return of_gains(joints + "shoulder_active_joint:\n  p: " + number + "\n");
+  };
+  const auto braces = [](const std::string& number) {
+    return of_gains(shoulder + "elbow_active_joint: {p: " + number + ", d: 1}\n");
+  };
+  const std::string either =
+      "1000 if the comma stands between thousands, 1.000 if it is a decimal comma";
+  CHECK(alone("1,000") ==
+        "test:3:6: shoulder_active_joint.p: the word '1,000', expected a number: " + either);
+  CHECK(
+      braces("1,000") ==
+      "test:3:25: elbow_active_joint.p: the number 1 and behind a comma the key '000', expected " +
+          either);
+  CHECK_THAT(alone("12,500"), Contains("12500 if the comma stands between thousands, 12.500 if"));
+  CHECK_THAT(alone("0,125"), Contains("expected a number with a decimal point, 0.125"));
+  CHECK_THAT(alone("1,0000"), Contains("expected a number with a decimal point, 1.0000"));
+  CHECK_THAT(of_manager("controller_manager:\n  update_rate: 1,000\n"), Contains(either));
+  for (const auto& [number, meant] : {std::pair{"1,234,567", "1234567"},
+                                      {"1,234.5", "1234.5"},
+                                      {"1.000,5", "1000.5"},
+                                      {"1.234.567", "1234567"},
+                                      {"1'000", "1000"},
+                                      {"1_000", "1000"},
+                                      {"1 000", "1000"}}) {
+    INFO(number);
+    CHECK_THAT(alone(number), Contains(std::string("with no marks between thousands, ") + meant));
+    CHECK_THAT(braces(number), Contains(std::string("no marks between thousands, ") + meant));
+  }
+  CHECK_THAT(of_waves("waveforms: {elbow_active_joint: {amplitude: 1,000, frequency: 1}}"),
+             Contains(either));
+  CHECK_THAT(
+      of_gains(shoulder + "elbow_active_joint: {p: 1}\npriority: 100\n"),
+      Contains("the number 100, expected a whole number from 0 to 99") && !Contains("to 99 "));
+}
+
+TEST_CASE("what stands behind a number, or around it, is told") {
+  const auto p = [](const std::string& value) {
+    return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
+  };
+  for (const std::string value : {"5 Nm", "5N", "5;", "5,", "5%"}) {
+    CHECK_THAT(p(value), Contains("'" + value + "', expected a number and nothing behind it, 5"));
+  }
+  CHECK_THAT(p("\"5\""), Contains("the quoted text '5', expected a number without quotes"));
+  for (const std::string value : {"1/2", "2*3", "pi"}) {
+    CHECK_THAT(p(value), Contains("expected a number; nothing is computed in YAML"));
+  }
+  CHECK_THAT(p("N/A"), Contains("the word 'N/A', expected a number") && !Contains("computed"));
+  CHECK_THAT(p("\xEF\xBC\x91"), Contains("of the digits 0 to 9, where there is U+FF11"));
+  CHECK_THAT(p("\xE2\x80\x9C"
+               "5"),
+             Contains("where there is U+201C"));
+  CHECK_THAT(p("5\xE9"), Contains("a byte that is no UTF-8"));
+  CHECK_THAT(of_gains("joints: shoulder_active_joint, elbow_active_joint\n"),
+             Contains("expected a list in brackets, [shoulder_active_joint, elbow_active_joint]"));
+  CHECK_THAT(of_gains("joints:\n  - shoulder_active_joint\n  -elbow_active_joint\n"),
+             Contains("test:3:3: it is not YAML") && Contains("expected a blank behind the dash"));
+  CHECK_THAT(of_manager("controller_manager: {update_rate: 1, arm: a/B}\n"),
+             Contains("controller_manager.arm: the word 'a/B', expected a map with the type in it, "
+                      "{type: a/B}"));
+  CHECK(of_manager("controllermanager:\n  ros__parameters: {update_rate: 1}\n") ==
+        "test: there is no controller_manager in it, expected one, in place of "
+        "'controllermanager'");
+}
+
+TEST_CASE("decimal commas in the matrices of computed torque are told") {
+  const auto kp = [](const std::string& list) {
+    return of_gains(joints + "Kp: " + list + "\nKd: [1, 1]\n");
+  };
+  CHECK(
+      kp("[1,5, 2,5]") ==
+      "test:2:5: Kp: a list of 4, expected a number for each of 2 joints, [1.5, 2.5] if there are "
+      "decimal commas");
+  CHECK_THAT(kp("[1,5,2,5]"), Contains("[1.5, 2.5] if there are decimal commas"));
+  CHECK_THAT(kp("[1,5, 2]"), Contains("a list of 3") && Contains("with decimal points"));
+  CHECK_THAT(kp("[1.5, 2, 3]"), Contains("a list of 3") && !Contains("decimal points"));
+  CHECK_THAT(of_gains(joints + "Kp: [1, 1]\nKd: [0,5, 0,5]\n"),
+             Contains("test:3:5: Kd: a list of 4") && Contains("[0.5, 0.5]"));
+  // This may be both: 1.0 and 0.5, or a matrix with 1 and 5 on its diagonal.
+  CHECK_THAT(kp("[1,0, 0,5]"),
+             Contains("[1.0, 0.5] if there are decimal commas, or a blank behind every comma of a "
+                      "matrix by rows"));
+  for (const std::string matrix : {"[1, 0, 0, 5]", "[1,0,0,5]", "[1.0,0.0, 0.0,5.0]"}) {
+    CHECK(kp(matrix) == "none");
+  }
+  CHECK_THAT(kp("[1, 0,\n     0, 5]"), Contains("none"));
+  const std::string one = "joints: [pivot]\n";
+  const auto spinner = [&](const std::string& list) {
+    return complaint_of([&] {
+      static_cast<void>(load_pid_gains(Spinner(), yaml(one + "Kp: " + list + "\nKd: [1]\n")));
+    });
+  };
+  CHECK(spinner("[15]") == "none");
+  CHECK_THAT(spinner("[1,5]"), Contains("a number for each of 1 joint, [1.5] if there are"));
+}
+
+TEST_CASE("placeholders that were not filled in are told") {
+  const auto p = [](const std::string& value) {
+    return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
+  };
+  const auto in_braces = [](const std::string& value) {
+    return of_gains(shoulder + "elbow_active_joint: {p: " + value + "}\n");
+  };
+  const std::string unfilled = "', which a template tool was to fill in, expected ";
+  for (const std::string value : {"${kp}", "$(find pkg)", "$kp", "$(arg a) 1", "<kp>", "<%= kp %>",
+                                  "\"{{ kp }}\"", "'@kp@'"}) {
+    INFO(value);
+    CHECK_THAT(p(value), Contains("test:3:6: shoulder_active_joint.p: the placeholder '") &&
+                             Contains(unfilled + "a number"));
+  }
+  for (const std::string value : {"{{ kp }}", "{{kp}}"}) {
+    CHECK(p(value) ==
+          "test:3:7: shoulder_active_joint.p: the placeholder '" + value + unfilled + "its value");
+    CHECK(in_braces(value) ==
+          "test:3:26: elbow_active_joint.p: the placeholder '" + value + unfilled + "its value");
+  }
+  for (const std::string value : {"@kp@", "%kp%"}) {
+    const std::string expected = "expected the placeholder '" + value +
+                                 "' in line 3 to be filled in by a template tool before";
+    CHECK_THAT(p(value), Contains("test:3:6: it is not YAML") && Contains(expected));
+    CHECK_THAT(in_braces(value), Contains("test:3:25: it is not YAML") && Contains(expected));
+  }
+  CHECK_THAT(of_gains("gains: {\n  a: {p: ${p}},\n  b: {p: 1}}\n"),
+             Contains("it is not YAML") && Contains("the placeholder '${p}' in line 2"));
+  CHECK_THAT(of_gains("{% for j in joints %}\n{{ j }}: {p: 1}\n{% endfor %}\n"),
+             Contains("test:1:2: it is not YAML") && Contains("'{% for j in joints %}' in line 1"));
+  // YAML passes over lines that begin with % and hold no %YAML.
+  CHECK(of_gains(joints + "%gains%\n") ==
+        "test:2:1: the placeholder '%gains%" + unfilled + "its value");
+  CHECK_THAT(of_gains("% gains of the arm\n" + shoulder),
+             Contains("test:1:1: a % at the beginning of the line"));
+  CHECK(of_gains("%YAML 1.2\n---\n" + shoulder + "elbow_active_joint: {p: 1}\n") == "none");
+  for (const std::string name :
+       {"\"{{ joint }}\"", "<joint>", "$(var prefix)elbow", "\"${a}elbow\""}) {
+    INFO(name);
+    CHECK_THAT(
+        of_gains("joints: [shoulder_active_joint, " + name + "]\n"),
+        Contains("test:1:33: joints[1]: the placeholder '") && Contains(unfilled + "a name"));
+    CHECK_THAT(complaint_of([&] { static_cast<void>(load_controller(yaml("joint: " + name))); }),
+               Contains("test:1:8: joint: the placeholder '"));
+  }
+  // What is not used may have them, and comments.
+  CHECK(of_gains(shoulder + "elbow_active_joint: {p: 1}  # <kp> @kp@\n" +
+                 "robot_description: $(find arm)/arm.urdf\n") == "none");
+}
+
 TEST_CASE("characters that look like others are told") {
   const auto p = [](const std::string& value) {
     return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
@@ -263,13 +413,10 @@ TEST_CASE("characters that look like others are told") {
   CHECK_THAT(p("\xE2\x88\x92"
                "1"),
              Contains("expected a number with an ordinary minus sign, -"));
-  CHECK_THAT(p("1\xC2\xA0"), Contains("expected a number without no-break spaces"));
-  CHECK_THAT(p("$(arg p)"), Contains("expected a number; a placeholder is to be filled in before"));
   CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p: 1, u_clamp_max: inf}"),
              Contains("u_clamp_max: the word 'inf', expected a number; infinity is .inf"));
-  CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p:\xC2\xA0"
-                                 "1}"),
-             Contains("expected no no-break spaces"));
+  CHECK_THAT(of_gains(joints + "shoulder_active_joint:\n  p\xEF\xBC\x9A 1\n"),
+             Contains("expected a map, and an ordinary colon and a blank"));
   CHECK_THAT(of_gains(joints + "shoulder_active_joint: {p:1, d:2}\n"),
              Contains("test:2:25: shoulder_active_joint.p:1: unknown key 'p:1', expected a blank "
                       "behind the colon"));
@@ -277,18 +424,57 @@ TEST_CASE("characters that look like others are told") {
              Contains("the word 'p:1', expected a map, and a blank behind the colon"));
   CHECK_THAT(of_gains(joints + "shoulder_active_joint: {p=1}\n"),
              Contains("unknown key 'p=1', expected a colon and a blank in place of '='"));
-  CHECK_THAT(of_gains(joints + "shoulder_active_joint: {p: ${p}}\n"),
-             Contains("test:2:") && Contains("it is not YAML") &&
-                 Contains("expected placeholders such as ${...}"));
-  CHECK_THAT(of_gains("joints: [$(var prefix)elbow]\n"),
-             Contains("robot 'q2d' has no joint '$(var prefix)elbow', a placeholder, expected"));
   CHECK(of_gains(std::string("\xFF\xFE"
                              "j\0",
                              4)) == "test:1:1: it is UTF-16, expected UTF-8");
+  std::string wide, wider;
+  for (const char c : shoulder) {
+    wide += {c, '\0'};
+    wider += {'\0', c};
+  }
+  for (const std::string& text : {wide, wider}) {
+    CHECK(of_gains(text) == "test:1:1: it is UTF-16 without a byte order mark, expected UTF-8");
+  }
   // Carriage returns alone end lines as well.
   CHECK_THAT(of_gains("joints: [shoulder_active_joint, elbow_active_joint]\r"
                       "shoulder_active_joint: {p: 1}\relbow_active_joint: {p: many}\r"),
              Contains("test:3:25: elbow_active_joint.p: the word 'many'"));
+}
+
+TEST_CASE("blanks that are none to YAML are told") {
+  for (const auto& [odd, name] : {std::pair<std::string, std::string>{"\xC2\xA0",
+                                                                      "a no-break space "
+                                                                      "(U+00A0)"},
+                                  {"\xE2\x80\x8B", "a zero-width space (U+200B)"},
+                                  {"\xEF\xBB\xBF", "a byte order mark (U+FEFF)"},
+                                  {"\xE2\x80\xAF", "a narrow no-break space (U+202F)"},
+                                  {"\xE3\x80\x80", "an ideographic space (U+3000)"}}) {
+    INFO(name);
+    const std::string code = "<" + name.substr(name.find('(') + 1, 6) + ">";
+    const std::string expected = ", in which there is " + name + ", expected ";
+    for (const std::string& value : {odd + "1", "1" + odd}) {
+      CHECK_THAT(of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n"),
+                 Contains("test:3:6: shoulder_active_joint.p: the word '") && Contains(code) &&
+                     Contains(expected + "a number"));
+    }
+    CHECK_THAT(of_gains("joints: [shoulder_active_joint, elbow_active_joint" + odd + "]\n"),
+               Contains("test:1:33: joints[1]: the word 'elbow_active_joint" + code + "'" +
+                        expected + "a name"));
+    // As indentation, before and behind a key, instead of the blank behind a colon.
+    CHECK_THAT(of_gains(joints + "shoulder_active_joint:\n" + odd + "p: 1\n"),
+               Contains("test:3:1: the key '" + code + "p'" + expected + "an ordinary blank"));
+    CHECK_THAT(of_gains(shoulder + "elbow_active_joint" + odd + ": {p: 1}\n"),
+               Contains("test:3:1: the key 'elbow_active_joint" + code + "'" + expected));
+    CHECK_THAT(of_gains(shoulder + "elbow_active_joint: {p:" + odd + "1}\n"),
+               Contains("test:3:22: elbow_active_joint: the key 'p:" + code + "1'" + expected));
+    CHECK_THAT(
+        of_gains(shoulder + "elbow_active_joint: {p: 1} " + odd + "\n"),
+        Contains("test:3:") && Contains("it is not YAML") && Contains("in place of " + name));
+    // In a comment they do no harm.
+    CHECK(of_gains(shoulder + "elbow_active_joint: {p: 1}  #" + odd + "\n") == "none");
+  }
+  CHECK(of_gains(joints + "shoulder_active_joint:\n  \tp: 1\n") ==
+        "test:3:3: a tab in the indentation, expected spaces");
 }
 
 TEST_CASE("waveforms below a joint of a controller are told where they belong") {
@@ -332,6 +518,31 @@ TEST_CASE("a waveform with another one's keys is told its own") {
       Contains("unknown key 'omega', expected the keys of a sine: amplitude, frequency [Hz]"));
   CHECK_THAT(wave("type: ramp, heigth: 1, duration: 2"),
              Contains("unknown key 'heigth', expected 'height'? the keys of a ramp"));
+}
+
+TEST_CASE("a file without any waveform is refused, one with some may have empty places") {
+  const std::string such =
+      ", expected waveforms, such as <joint>: {amplitude: ..., frequency: ...}";
+  CHECK(of_waves("waveforms: []") == "test:1:12: waveforms: an empty list" + such);
+  CHECK(of_waves("c:\n  waveforms: {}\n") == "test:2:14: c.waveforms: an empty map" + such);
+  CHECK(of_waves("waveforms: {elbow_active_joint: []}") ==
+        "test:1:33: waveforms.elbow_active_joint: an empty list" + such);
+  const auto some = load_signals(
+      Q2d(), yaml("c: {waveforms: []}\n"
+                  "d: {waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1}}}\n"));
+  CHECK(some.signals.size() == 1);
+  CHECK(some.notes == std::vector<std::string>{"test:1: c.waveforms: there is no waveform in it"});
+
+  const std::string wave = ": {elbow_active_joint: {amplitude: 1, frequency: 1}}\n";
+  for (const std::string key : {"waveform", "Waveform", "wave_forms", "WAVEFORMS", "wavefroms"}) {
+    CHECK(of_waves("c:\n  ros__parameters:\n    " + key + wave) ==
+          "test:3:5: c.ros__parameters." + key + ": unknown key '" + key +
+              "', expected 'waveforms'");
+    CHECK_THAT(of_waves(key + ": []\n"), Contains("unknown key '" + key + "'"));
+  }
+  // As the name of a section it is as good as any.
+  CHECK(of_waves("waveform" + wave) == "none");
+  CHECK_THAT(of_waves("amplitude: 1\nfrequency: 1\n"), Contains("the key 'joint' is missing"));
 }
 
 TEST_CASE("what is there is named where something is missing") {

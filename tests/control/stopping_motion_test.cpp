@@ -32,7 +32,6 @@ Case random_case(support::Random& random) {
 
 TEST_CASE("at rest nothing happens") {
   StoppingMotion stop({3, 0, 0}, 1, 10, 1e-3);
-  CHECK(stop.feasible());
   stop.advance();
   CHECK(stop.motion().position == 3);
   CHECK(stop.motion().velocity == 0);
@@ -41,13 +40,13 @@ TEST_CASE("at rest nothing happens") {
 }
 
 TEST_CASE("without a limit of jerk the deceleration is constant, over whole cycles") {
-  StoppingMotion stop({0, 1, 0}, 1, 1e30, 0.3);  // 3.3 cycles, so four with less
-  const double expected[] = {0.75, 0.5, 0.25, 0};
+  StoppingMotion stop({0, 1, 0}, 1, 1e30, 0.3);  // 3.3 cycles, so three and one with less
+  const double expected[] = {0.7, 0.4, 0.1, 0};
   for (const double velocity : expected) {
     stop.advance();
     CHECK(stop.motion().velocity == Approx(velocity).margin(1e-15));
   }
-  CHECK(stop.motion().position == Approx(0.3 * 1.5).epsilon(1e-15));
+  CHECK(stop.motion().position == Approx(0.3 * 1.2).epsilon(1e-15));
 }
 
 TEST_CASE(
@@ -55,13 +54,11 @@ TEST_CASE(
   constexpr unsigned seed = 7;
   CAPTURE(seed);
   support::Random random(seed);
-  int infeasible = 0;
   for (int k = 0; k < 20000; ++k) {
     CAPTURE(k);
     const Case c = random_case(random);
     StoppingMotion stop(c.from, c.deceleration, c.jerk, c.period);
     const ValueRange q = stop.positions(), v = stop.velocities();
-    if (!stop.feasible()) ++infeasible;
     CommandMotion last = c.from;
     ValueRange seen_q{last.position, last.position}, seen_v{last.velocity, last.velocity};
     int cycles = 0;
@@ -71,14 +68,17 @@ TEST_CASE(
       const CommandMotion& m = stop.motion();
       seen_q = {std::min(seen_q.lowest, m.position), std::max(seen_q.highest, m.position)};
       seen_v = {std::min(seen_v.lowest, m.velocity), std::max(seen_v.highest, m.velocity)};
+      // Up to rounding: of sums of thousands of cycles, and what is not worth a cycle (1e-9 of a step).
       const double a = c.deceleration;
       kept =
           kept && std::abs(m.acceleration) <= a * (1 + 1e-6) &&
-          std::abs(m.acceleration - last.acceleration) <= c.jerk * c.period * (1 + 1e-6) + 1e-9 * a;
+          std::abs(m.acceleration - last.acceleration) <=
+              c.jerk * c.period * (1 + 1e-6) + 1e-9 * a &&
+          std::abs(m.velocity - last.velocity - m.acceleration * c.period) <= 1e-7 * a * c.period;
       last = m;
     } while ((last.velocity != 0 || last.acceleration != 0) && ++cycles < 100000);
     CHECK(cycles < 100000);
-    CHECK((kept || !StoppingMotion(c.from, c.deceleration, c.jerk, c.period).feasible()));
+    CHECK(kept);
     // Sums of thousands of cycles against closed forms.
     const double way = 1 + q.highest - q.lowest, speed = 1e-3 + v.highest - v.lowest;
     CHECK(seen_q.lowest == Approx(q.lowest).margin(1e-9 * way));
@@ -86,7 +86,6 @@ TEST_CASE(
     CHECK(seen_v.lowest == Approx(v.lowest).margin(1e-9 * speed));
     CHECK(seen_v.highest == Approx(v.highest).margin(1e-9 * speed));
   }
-  CHECK(infeasible < 20);  // of 20000
 }
 
 TEST_CASE("a stop is about as fast as in continuous time") {
@@ -108,5 +107,30 @@ TEST_CASE("a stop is about as fast as in continuous time") {
     }
     CHECK(cycles * dt <= time + 5 * dt);  // three roundings up, and the cycle that ends at rest
     CHECK(stop.motion().position <= v * time / 2 + 5 * dt * v);
+  }
+}
+
+TEST_CASE("what is on any way to rest has a stop, whose highest velocity is no higher") {
+  constexpr unsigned seed = 9;
+  CAPTURE(seed);
+  support::Random random(seed);
+  constexpr double dt = 1e-3;
+  for (int k = 0; k < 300; ++k) {
+    const double most = random.number(1, 50), jerk = most * std::pow(10, random.number(0, 3));
+    const double step = jerk * dt;
+    CAPTURE(k, most, jerk);
+    // Backwards from rest: the acceleration wanders, in steps that often are as large as they may be.
+    CommandMotion m;
+    double highest = 0;  // speed on the rest of the way
+    for (int cycle = 0; cycle < 300; ++cycle) {
+      const double change = random.one_in(2) ? step : step * random.number(-1, 1);
+      const double before = std::clamp(m.acceleration - change, -most, most);
+      m = {0, m.velocity - m.acceleration * dt, before};
+      highest = std::max(highest, std::abs(m.velocity));
+      const StoppingMotion stop(m, most, jerk, dt);
+      const ValueRange v = stop.velocities();
+      CAPTURE(cycle, m.velocity, m.acceleration);
+      REQUIRE(std::max(v.highest, -v.lowest) <= highest * (1 + 1e-12) + 1e-12);  // rounding
+    }
   }
 }

@@ -12,6 +12,7 @@
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
+#include "test_robots.hpp"
 
 using namespace articula;
 using Catch::Matchers::Contains;
@@ -474,4 +475,17 @@ TEST_CASE("limits and positions that make no profile are refused by name") {
                     Contains("'shoulder_active_joint'"));
   CHECK_THROWS_WITH(Profile({0, infinity}, {0, 0}, limits), Contains("never arrives"));
   CHECK_NOTHROW(Profile({0, 1.7}, {0, 1}, limits));  // back from beyond a limit
+}
+
+TEST_CASE("a motion may be as fast as the description allows") {
+  const MotionLimits<2> described = motion_limits(Q2d(), {20, 50}, {400, 1000});
+  CHECK(described.velocity == JointVector<2>(2.27, 23.08));
+  CHECK(described.acceleration == JointVector<2>(20, 50));
+  CHECK(described.jerk == JointVector<2>(400, 1000));
+  CHECK_NOTHROW(JerkLimitedProfile<Q2d>({0, 0}, {1, -1}, described));
+
+  const Model<1> slider = support::slider();  // whose description limits no velocity
+  const JointVector<1> one(1.0);
+  CHECK_THROWS_WITH(validate(motion_limits(slider, one, one), slider),
+                    Contains("velocity inf of joint 'joint'"));
 }

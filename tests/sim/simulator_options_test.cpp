@@ -56,6 +56,7 @@ TEST_CASE("bad options are refused, naming option, joint, value and limit") {
       {[](Options& o) { o.period = infinity; }, {"period", "inf"}},
       {[](Options& o) { o.substeps = 0; }, {"substeps", "0", "1"}},
       {[](Options& o) { o.substeps = -7; }, {"substeps", "-7", "1"}},
+      {[](Options& o) { o.drives = DriveModel(7); }, {"drives", "7", "servo", "ideal"}},
       {[](Options& o) {
          o.initial_position = {0, 1.6};
        },

@@ -95,7 +95,9 @@ TEST_CASE("Text that is not XML") {
   for (const auto& [text, fault] :
        {std::pair<std::string, std::string>{" \n", "it is no XML: it has no tag"},
         {"version 1", "it is no XML: it has no tag"},
-        {std::string("\xFF\xFE<\0r\0", 6), "it is UTF-16: save it as UTF-8"}}) {
+        {std::string("\xFF\xFE<\0r\0", 6), "it is UTF-16: save it as UTF-8"},
+        {std::string("<\0r\0", 4), "it is UTF-16: save it as UTF-8"},
+        {std::string("\0<\0r", 4), "it is UTF-16: save it as UTF-8"}}) {
     std::ofstream(file, std::ios::binary) << text;
     CHECK(refusal(file.string()) == file.string() + ": " + fault);
   }
@@ -124,6 +126,8 @@ TEST_CASE("What a document type declares cannot be honoured, and is refused wher
   CHECK(refusal("<!DOCTYPE robot [<!--\n]>") == "URDF: line 1: a comment is not closed");
   CHECK(refusal("<robot name='r'><!DOCTYPE robot></robot>") ==
         "URDF: line 1: a document type stands behind the beginning of the robot");
+  CHECK(refusal("<!DOCTYPE robot>\n<!DOCTYPE robot>\n" + pendulum()) ==
+        "URDF: line 2: a second document type; XML has one");
   CHECK(refusal("<?x a=\"?>\"?>\n" + pendulum()) ==  // ends at the first ?>
         "URDF: line 1: there is text outside of the robot");
 }
@@ -199,9 +203,76 @@ TEST_CASE("Numbers that are none") {
   CHECK(refusal(with_joint("<axis xyz=\"1e200 0 0\"/>")).empty());  // a direction like any other
 }
 
+TEST_CASE("What is no number is named with its element, and never taken for a format of printf") {
+  const std::string none = "' is not a finite number";
+  for (const std::string text :
+       {"%s%s%s%s%s%s%s%s%n%n", "A%dB", "%kp%", "@kp@", "1_000", "pi/2", "inf", "1\xC2\xA0",
+        "\xE2\x88\x92"
+        "1"}) {
+    CAPTURE(text);
+    CHECK(refusal(inertial(text)) == "URDF: link 'rod': <mass>: value: '" + text + none);
+    CHECK(refusal(inertial("1", text)) == "URDF: link 'rod': <inertia>: ixx: '" + text + none);
+    CHECK(refusal(with_inertial("<origin rpy=\"0 " + text + " 0\"/><mass value=\"1\"/>")) ==
+          "URDF: link 'rod': <origin>: rpy: '" + text + none);
+    for (const auto& [name, attribute] : {std::pair<std::string, std::string>{"origin", "xyz"},
+                                          {"axis", "xyz"},
+                                          {"limit", "lower"},
+                                          {"dynamics", "friction"},
+                                          {"mimic", "multiplier"}}) {
+      CHECK(refusal(with_joint("<" + name + " " + attribute + "=\"" + text + "\"/>")) ==
+            "URDF: joint 'pivot': <" + name + ">: " + attribute + ": '" + text + none);
+    }
+  }
+  const std::string axis = "URDF: joint 'pivot': <axis>: xyz: '";
+  CHECK(refusal(with_joint("<axis xyz=\"0 0 1,5\"/>")) ==
+        axis + "1,5" + none + "; if the comma is a decimal one, write 1.5");
+  for (const std::string text : {"0,", "0,0,1"}) {
+    CHECK(refusal(with_joint("<axis xyz=\"" + text + " 0 1\"/>")) ==
+          axis + text + none + "; numbers have blanks between them, and no commas");
+  }
+  for (const std::string text : {"{{ m }}", "{% m %}", "<%= m %>"}) {
+    CHECK(refusal(inertial(text)) ==
+          "URDF: link 'rod': '" + text + "' is a placeholder that a template tool was to fill in");
+  }
+}
+
 TEST_CASE("An inertia that urdfdom cannot read is not left out") {
   CHECK(refusal(with_inertial("<mass value=\"1\"/>")).find("[rod]") != std::string::npos);
   CHECK(refusal(with_inertial("<mass/>")).find("[rod]") != std::string::npos);
+}
+
+TEST_CASE("Elements given twice that say different things") {
+  const std::string limit = "<limit effort=\"1\" velocity=\"1\"/>", other =
+                                                                        ", which says something "
+                                                                        "else than the first";
+  for (const auto& [name, inside] :
+       {std::pair<std::string, std::string>{"limit",
+                                            limit + "<limit effort=\"2\" velocity=\"1\"/>"},
+        {"limit", limit + "<limit effort=\"1\" velocity=\"1\" lower=\"0\"/>"},
+        {"mimic", "<mimic joint=\"a\"/><mimic joint=\"b\"/>"},
+        {"axis", "<axis xyz=\"0 0 1\"/><axis xyz=\"0 1 0\"/>"},
+        {"axis", "<axis xyz=\"0 0 1\"/><axis/>"},
+        {"origin", "<origin xyz=\"1 0 0\"/><origin xyz=\"1 0 0\" rpy=\"0 0 1\"/>"},
+        {"dynamics", "<dynamics damping=\"1\"/><dynamics friction=\"1\"/>"},
+        {"parent", "<parent link=\"other\"/>"},
+        {"child", "<child link=\"other\"/>"}}) {
+    INFO(inside);
+    CHECK(refusal(with_joint(inside)) == "URDF: joint 'pivot': a second <" + name + ">" + other);
+  }
+  const std::string mass = "<mass value=\"2\"/>",
+                    inertia =
+                        "<inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" "
+                        "izz=\"1\"/>";
+  const std::string twice = "</inertial><inertial>";
+  for (const auto& [name, inside] :
+       {std::pair<std::string, std::string>{"mass", mass + "<mass value=\"3\"/>" + inertia},
+        {"inertia", mass + inertia + "<inertia ixx=\"2\"/>"},
+        {"origin", "<origin/><origin xyz=\"0 0 1\"/>" + mass + inertia},
+        {"inertial", mass + inertia + twice + "<mass value=\"3\"/>" + inertia},
+        {"inertial", mass + inertia + twice + mass + inertia + "<origin xyz=\"0 0 1\"/>"}}) {
+    INFO(inside);
+    CHECK(refusal(with_inertial(inside)) == "URDF: link 'rod': a second <" + name + ">" + other);
+  }
 }
 
 TEST_CASE("Joints that cannot be") {

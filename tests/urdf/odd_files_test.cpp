@@ -263,6 +263,56 @@ TEST_CASE("a mimic that stands in ros2_control alone is reported") {
         "<ros2_control>: joint 'k' is to mimic nobody" + counts);
 }
 
+TEST_CASE("elements given twice that say the same, or do not count, are reported") {
+  using Notices = std::vector<std::string>;
+  const auto notices = [](const std::string& inside, const std::string& type = "continuous") {
+    const std::string file = robot("<link name=\"base\"/>" + solid("rod") + solid("tip") +
+                                   joint("pivot", "continuous", "base", "rod") +
+                                   joint("end", type, "rod", "tip", inside));
+    return read_urdf(UrdfSource(file)).notices;
+  };
+  const std::string second = "joint 'end': a second <";
+  CHECK(notices("<axis xyz=\"0 0 1\"/><axis xyz=\" 0 0.0\t1e0\"/><axis xyz=\"0 0 1\"/>") ==
+        Notices{second + "axis>, which says the same as the first"});
+  CHECK(notices("<parent link=\"rod\"/><limit effort=\"1\" velocity=\"1\"/>"
+                "<limit velocity=\"1\" effort=\"1\"/>") ==
+        Notices{second + "parent>, which says the same as the first",
+                second + "limit>, which says the same as the first"});
+  CHECK(notices("<safety_controller k_velocity=\"1\"/><safety_controller k_velocity=\"2\"/>") ==
+        Notices{second + "safety_controller>, which does not count"});
+  CHECK(notices("<dynamics damping=\"1\"/><dynamics damping=\"2\"/><gazebo/><gazebo/>", "fixed") ==
+        Notices{second + "dynamics>, which does not count"});
+  CHECK_THROWS_WITH(notices("<origin xyz=\"1 0 0\"/><origin/>", "fixed"),
+                    Contains("joint 'end': a second <origin>, which says something else"));
+  std::string twice = solid("rod");
+  const std::size_t begin = twice.find("<inertial>");
+  const std::string inertial = twice.substr(begin, twice.find("</link>") - begin);
+  twice.insert(begin, inertial + "<visual/><visual/><collision/><collision/>");
+  CHECK(read_urdf(UrdfSource(support::pendulum(twice))).notices ==
+        Notices{"link 'rod': a second <inertial>, which says the same as the first"});
+}
+
+TEST_CASE("a word that many links or joints have is reported once") {
+  std::string inside = "<link name=\"l0\"/>";
+  for (int i = 1; i <= 28; ++i) {
+    const std::string name = "l" + std::to_string(i), before = "l" + std::to_string(i - 1);
+    inside += solid(name) + joint("j" + std::to_string(i), "continuous", before, name,
+                                  "<dynamics damping=\"1\" D=\"1\"/><self_collision_checking/>"
+                                  "<self_collision_checking/>" +
+                                      std::string(i % 14 == 3 ? "<axes/>" : "") +
+                                      std::string(i == 5 ? "<axsi/>" : ""));
+  }
+  const std::string tail = " is not known there and does not count";
+  CHECK(read_urdf(UrdfSource(robot(inside))).notices ==
+        std::vector<std::string>{
+            "joint 'j1': <dynamics>: the attribute 'D'" + tail + "; 27 others have it, too",
+            "joint 'j1': <joint>: the element <self_collision_checking>" + tail +
+                "; 27 others have it, too",
+            "joint 'j3': <joint>: the element <axes>" + tail +
+                "; did you mean <axis>? 1 other has it, too",
+            "joint 'j5': <joint>: the element <axsi>" + tail + "; did you mean <axis>?"});
+}
+
 TEST_CASE("words that URDF does not know are reported") {
   using Notices = std::vector<std::string>;
   const auto notices = [](const std::string& inside, const std::string& attributes = "") {

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "articula/config/error.hpp"
+#include "articula/config/placeholder.hpp"
+#include "articula/config/scalar.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -19,13 +22,24 @@ namespace articula::detail {
   return text;
 }
 
-/// A line of a text, from 1.
-[[nodiscard]] inline std::string_view line_of(std::string_view text, int line) {
-  for (; line > 1 && !text.empty(); --line) {
-    const std::size_t end = text.find('\n');
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+/// True if a text is ASCII in UTF-16, of which every other byte is 0.
+[[nodiscard]] inline bool is_bare_utf16(std::string_view text) {
+  if (text.size() < 2) return false;
+  const std::size_t zero = text[0] == '\0' ? 0 : 1;
+  for (std::size_t k = 0; k < std::min<std::size_t>(text.size(), 16); ++k) {
+    if ((text[k] == '\0') != (k % 2 == zero)) return false;
   }
-  return text.substr(0, text.find('\n'));
+  return true;
+}
+
+/// A line that begins with % is an instruction to YAML, which passes over those that it does not know.
+inline void check_directive(const std::string& file, int line, std::string_view text) {
+  if (text.starts_with("%YAML ") || text.starts_with("%TAG ")) return;
+  const std::string_view here = text.substr(0, text.find_first_of("\r\n"));
+  throw ConfigError({file, line, 1, ""},
+                    has_placeholder(here) ? unfilled_text(placeholder_in(here))
+                                          : "a % at the beginning of the line",
+                    has_placeholder(here) ? "its value" : "a key");
 }
 
 /// What YAML parsers disagree on: NUL, and tabs as indentation; and UTF-16.
@@ -33,10 +47,14 @@ inline void check_characters(const std::string& file, std::string_view text) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     throw ConfigError({file, 1, 1, ""}, "it is UTF-16", "UTF-8");
   }
+  if (is_bare_utf16(text)) {
+    throw ConfigError({file, 1, 1, ""}, "it is UTF-16 without a byte order mark", "UTF-8");
+  }
   int line = 1, column = 1;
   bool indentation = true;
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
+    if (c == '%' && column == 1) check_directive(file, line, text.substr(k));
     if (c == '\0') throw ConfigError({file, line, column, ""}, "a NUL character", "text");
     if (c == '\t' && indentation) {
       const std::size_t next = text.find_first_not_of(" \t\r", k);

@@ -4,6 +4,9 @@
 
 #include "articula/config/error.hpp"
 #include "articula/config/node.hpp"
+#include "articula/config/number_hint.hpp"
+#include "articula/config/odd_character.hpp"
+#include "articula/config/placeholder.hpp"
 #include "articula/config/scalar.hpp"
 #include "articula/core/finite.hpp"
 
@@ -75,9 +78,16 @@ class ConfigValue {
   [[nodiscard]] std::string word() const {
     const bool good =
         node_->kind == ConfigNode::Kind::scalar && !node_->text.empty() &&
-        (node_->quoted || (!parse_number(node_->text).is_number && !as_truth(node_->text)));
+        (node_->quoted || (!parse_number(node_->text).is_number && !as_truth(node_->text) &&
+                           odd_character_in(node_->text).empty()));
     if (!good) refuse("a name");
     return node_->text;
+  }
+  /// The name of a link or joint: a word in whose place nothing else was to be put.
+  [[nodiscard]] std::string name() const {
+    const std::string name = word();
+    if (has_placeholder(name)) refuse("a name");
+    return name;
   }
   /// One of some words; the index of it.
   [[nodiscard]] std::size_t one_of(const std::vector<std::string>& words) const {
@@ -87,7 +97,10 @@ class ConfigValue {
     refuse(what_is(*node_), choice_text(words, node_->text));
   }
   [[nodiscard]] std::vector<ConfigValue> list() const {
-    if (!node_->is_list()) refuse("a list");
+    if (!node_->is_list()) {
+      const bool is_bare = plain() && node_->text.find(',') != std::string::npos;
+      refuse(is_bare ? "a list in brackets, [" + shown(node_->text) + "]" : "a list");
+    }
     std::vector<ConfigValue> values;
     for (std::size_t k = 0; k < node_->items.size(); ++k) {
       values.emplace_back(file_, node_->items[k], path_ + "[" + std::to_string(k) + "]");
@@ -101,7 +114,10 @@ class ConfigValue {
   }
 
  private:
-  [[nodiscard]] std::string hint() const { return plain() ? number_hint(node_->text) : ""; }
+  [[nodiscard]] std::string hint() const {
+    if (node_->quoted && parse_number(node_->text).is_number) return " without quotes";
+    return plain() ? number_hint(node_->text) : "";
+  }
   [[nodiscard]] bool plain() const noexcept {
     return node_->kind == ConfigNode::Kind::scalar && !node_->quoted;
   }

@@ -5,6 +5,9 @@
 #include "articula/config/characters.hpp"
 #include "articula/config/error.hpp"
 #include "articula/config/node.hpp"
+#include "articula/config/odd_character.hpp"
+#include "articula/config/parse_hint.hpp"
+#include "articula/config/placeholder.hpp"
 #include "articula/config/scalar.hpp"
 #include "articula/config/source.hpp"
 
@@ -32,7 +35,8 @@ class ConfigBuilder final : public YAML::EventHandler {
   static constexpr std::size_t deepest = 32;        ///< levels of lists and maps
   static constexpr std::size_t most_nodes = 20000;  ///< with those that aliases repeat
 
-  explicit ConfigBuilder(std::string file) : file_(std::move(file)) {}
+  /// @param text  what is parsed; it must live on
+  ConfigBuilder(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
 
   /// The root of the document.
   [[nodiscard]] ConfigNode take() { return std::move(root_); }
@@ -147,7 +151,11 @@ class ConfigBuilder final : public YAML::EventHandler {
     }
   }
   void open(ConfigNode node, YAML::anchor_t anchor) {
-    if (awaits_key()) refuse(node.mark, what_is(node) + " as a key", "a word");
+    if (awaits_key()) {
+      const std::string_view unfilled = placeholder_in(line_of(text_, node.mark.line));
+      if (unfilled.starts_with('{')) refuse(node.mark, unfilled_text(unfilled), "its value");
+      refuse(node.mark, what_is(node) + " as a key", "a word");
+    }
     check_depth(stack_.size() + 1, node.mark);
     stack_.push_back({.node = std::move(node), .anchor = anchor});
   }
@@ -178,6 +186,10 @@ class ConfigBuilder final : public YAML::EventHandler {
       if (node.text == "<<" && !node.quoted) {
         refuse(node.mark, "the merge key <<", "the values themselves");
       }
+      if (const std::string odd = odd_character_in(node.text); !odd.empty() && !node.quoted) {
+        refuse(node.mark, "the key '" + shown(node.text) + "', in which there is " + odd,
+               "an ordinary blank, or none");
+      }
       parent.has_key = true;
       parent.key = std::move(node.text);
       parent.key_mark = node.mark;
@@ -194,6 +206,7 @@ class ConfigBuilder final : public YAML::EventHandler {
   }
 
   std::string file_;
+  std::string_view text_;
   bool started_ = false;
   std::size_t nodes_ = 0;
   std::vector<Open> stack_{};
@@ -209,15 +222,14 @@ class ConfigBuilder final : public YAML::EventHandler {
   const std::string text = with_line_feeds(source.contents());
   check_characters(source.name(), text);
   std::istringstream stream(text);
-  ConfigBuilder builder(source.name());
+  ConfigBuilder builder(source.name(), text);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) continue;
   } catch (const YAML::Exception& error) {
     const int line = std::max(error.mark.line, 0) + 1, column = std::max(error.mark.column, 0) + 1;
-    const bool is_template = has_placeholder(line_of(text, line));
     throw ConfigError({source.name(), line, column, ""}, "it is not YAML: " + shown(error.msg),
-                      is_template ? "placeholders such as ${...} to be filled in before" : "");
+                      parse_hint(text, line));
   }
   ConfigNode root = builder.take();
   if (root.kind == ConfigNode::Kind::nothing) {

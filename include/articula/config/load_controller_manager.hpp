@@ -93,7 +93,13 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
     section = &each;
   }
   if (section == nullptr) {
-    throw ConfigError({.file = all.file}, "there is no controller_manager in it", "one");
+    const auto slip = std::find_if(all.sections.begin(), all.sections.end(), [](const auto& each) {
+      return detail::distance_of("controller_manager", each.name).value_or(3) <= 2;
+    });
+    throw ConfigError({.file = all.file}, "there is no controller_manager in it",
+                      slip == all.sections.end()
+                          ? "one"
+                          : "one, in place of '" + detail::shown(slip->name) + "'");
   }
 
   ControllerManagerConfig config;
@@ -120,6 +126,10 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
     // What is neither a parameter nor almost one is a controller, which has a type.
     const bool other = map.knows(item.key) || map.nearly_knows(item.key) || item.inherited;
     const bool value = !item.is_map() && item.kind != detail::ConfigNode::Kind::nothing;
+    if (!other && value && item.text.find('/') != std::string::npos) {
+      map.value().at(item).refuse("a map with the type in it, {type: " + detail::shown(item.text) +
+                                  "}");
+    }
     if (item.find("type") == nullptr && (other || value)) continue;
     ConfigMap controller = *map.find_map(item.key);
     const auto type = controller.expect("type");

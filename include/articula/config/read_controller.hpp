@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/config/controller_config.hpp"
+#include "articula/config/decimal_commas.hpp"
 #include "articula/config/read_gains.hpp"
 #include "articula/config/read_lists.hpp"
 #include "articula/config/reader.hpp"
@@ -63,7 +64,7 @@ class ControllerReader {
       if (!value) continue;
       if (given) value->refuse("joints a second time", "'joints' or 'joint'");
       given = value;
-      config_.joints = {{.name = value->word(), .place = value->place()}};
+      config_.joints = {{.name = value->name(), .place = value->place()}};
     }
     if (given) return;
     const ConfigNode& node = map_.value().node();
@@ -170,9 +171,7 @@ class ControllerReader {
     const std::size_t n = config_.joints.size();
     const auto diagonal = [&](const ConfigValue& value) {
       const auto items = value.list();
-      if (items.size() != n && items.size() != n * n) {
-        value.refuse("a number for each of " + std::to_string(n) + " joints, or a matrix by rows");
-      }
+      refuse_length(value, n);
       const std::size_t step = items.size() == n ? 1 : n + 1;
       std::vector<double> numbers;
       for (std::size_t k = 0; k < items.size(); ++k) {
@@ -199,7 +198,7 @@ class ControllerReader {
     if (auto chain = map_.find_map("chain")) {
       const auto read = [&](std::string_view key, std::string& to, ConfigPlace& place) {
         const auto value = chain->find(key);
-        if (value) to = value->word(), place = value->place();
+        if (value) to = value->name(), place = value->place();
       };
       read("root", config_.chain_root, config_.chain_root_place);
       read("tip", config_.chain_tip, config_.chain_tip_place);

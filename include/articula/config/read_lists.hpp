@@ -19,7 +19,7 @@ namespace articula::detail {
   std::vector<ConfiguredJoint> joints;
   if (value.list().size() > most) value.refuse("at most 1000 names");
   for (const ConfigValue& item : value.list()) {
-    const std::string name = item.word();
+    const std::string name = item.name();
     for (const ConfiguredJoint& joint : joints) {
       if (joint.name == name)
         item.refuse("'" + shown(name) + "' a second time", "every joint once");

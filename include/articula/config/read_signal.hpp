@@ -6,6 +6,7 @@
 #include "articula/config/robot_joints.hpp"
 #include "articula/reference/signal.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -27,6 +28,17 @@ namespace articula::detail {
     if (is_wave && robot.has(item.key)) return &item;
   }
   return nullptr;
+}
+
+/// A key of a section that was to be `waveforms`; nullptr if there is none.
+[[nodiscard]] inline const ConfigNode* misspelt_waveforms(const ConfigNode& section) {
+  constexpr std::size_t farthest = 2;
+  if (section.find("waveforms") != nullptr) return nullptr;
+  const auto found =
+      std::find_if(section.items.begin(), section.items.end(), [](const ConfigNode& item) {
+        return distance_of("waveforms", item.key).value_or(farthest + 1) <= farthest;
+      });
+  return found == section.items.end() ? nullptr : &*found;
 }
 
 [[nodiscard]] inline std::string at_most(double limit) {

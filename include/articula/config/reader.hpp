@@ -5,6 +5,7 @@
 #include "articula/config/config_value.hpp"
 #include "articula/config/error.hpp"
 #include "articula/config/node.hpp"
+#include "articula/config/number_hint.hpp"
 #include "articula/config/scalar.hpp"
 
 #include <algorithm>
@@ -126,20 +127,35 @@ class ConfigMap {
     for (const ConfigNode* item : others) {
       const std::string hint = key_hint(item->key);
       if (!hint.empty()) refuse_key(*item, hint);
-      // {p: 1,5} is p: 1 and 5: nothing.
-      const auto& items = value_.node().items;
-      const auto place = static_cast<std::size_t>(item - items.data());
-      if (place == 0 || item->kind != ConfigNode::Kind::nothing ||
-          item->key.find_first_not_of("0123456789eE+-") != std::string::npos) {
-        continue;
-      }
-      const ConfigNode& before = items[place - 1];
-      const std::string number = before.text + "." + item->key;
-      if (before.key_mark.line != item->key_mark.line || !parse_number(number).is_number) continue;
-      value_.at(before).refuse("the number " + shown(before.text) +
-                                   " and behind a comma the key '" + shown(item->key) + "'",
-                               "a decimal point, " + shown(number));
+      refuse_comma(*item);
     }
+  }
+  /// {p: 1,5} is p: 1 and 5: nothing. {p: 1,234.5} is p: 1 and 234: {5: nothing}.
+  void refuse_comma(const ConfigNode& first) const {
+    const auto& items = value_.node().items;
+    auto place = static_cast<std::size_t>(&first - items.data());
+    if (place == 0) return;
+    const ConfigNode& before = items[place - 1];
+    std::string number = before.text;
+    for (; place < items.size() && items[place].key_mark.line == before.key_mark.line; ++place) {
+      const std::string key = bare_number(items[place]);
+      if (key.empty()) break;
+      number += "," + key;
+    }
+    const std::string advice = readings_of(number).advice();
+    if (advice.empty() || number == before.text) return;
+    value_.at(before).refuse("the number " + shown(before.text) + " and behind a comma the key '" +
+                                 shown(first.key) + "'",
+                             advice);
+  }
+  /// A key without a value that looks like a number; empty if it does not.
+  [[nodiscard]] static std::string bare_number(const ConfigNode& item) {
+    const bool has_part = item.is_map() && item.items.size() == 1;
+    const ConfigNode& last = has_part ? item.items[0] : item;
+    const std::string text = item.key + (has_part ? "." + last.key : "");
+    const bool is_bare = last.kind == ConfigNode::Kind::nothing &&
+                         text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+    return is_bare ? text : "";
   }
   [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
     std::vector<const ConfigNode*> items;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "articula/config/node.hpp"
+#include "articula/config/odd_character.hpp"
+#include "articula/config/placeholder.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -17,15 +19,25 @@
 
 namespace articula::detail {
 
-/// A text from a file as a message may show it: short, on one line, without control characters.
+/// A text from a file as a message may show it: short, on one line, without control characters, and
+/// with the number of characters that nobody would see.
 [[nodiscard]] inline std::string shown(std::string_view text) {
   constexpr std::size_t longest = 60;
   std::string result;
-  for (const char c : text.substr(0, longest)) {
-    const auto code = static_cast<unsigned char>(c);
-    result += code < 0x20 || code == 0x7f ? '?' : c;
+  std::size_t taken = 0;
+  while (taken < std::min(text.size(), longest)) {
+    const TextCharacter character = first_character(text.substr(taken));
+    taken += character.bytes.size();
+    if (!odd_name(character.code).empty()) {
+      result += "<" + code_text(character.code) + ">";
+    } else {
+      const bool control =
+          character.code == 0x7f ||
+          (character.code < 0x20 && static_cast<unsigned char>(character.bytes[0]) < 0x20);
+      result += control ? "?" : character.bytes;
+    }
   }
-  return text.size() > longest ? result + "..." : result;
+  return taken < text.size() ? result + "..." : result;
 }
 
 /// True if the text is one of some words, in lower, upper or title case as YAML has them.
@@ -78,32 +90,16 @@ struct ParsedNumber {
   return number.in_range ? std::optional(number.value) : std::nullopt;
 }
 
-/// True if whoever launches ROS puts something else in place of the text, or of a part of it.
-[[nodiscard]] inline bool has_placeholder(std::string_view text) {
-  return text.find("${") != std::string_view::npos || text.find("$(") != std::string_view::npos;
-}
-
-/// What is likely to be wrong with a text that is to be a number, to be said behind what was
-/// expected; empty if that is not known.
-[[nodiscard]] inline std::string number_hint(std::string_view text) {
-  if (has_placeholder(text)) return "; a placeholder is to be filled in before";
-  if (text.find("\xC2\xA0") != std::string_view::npos) return " without no-break spaces";
-  for (const char* dash : {"\xE2\x88\x92", "\xE2\x80\x93", "\xE2\x80\x90"}) {
-    if (text.find(dash) != std::string_view::npos) return " with an ordinary minus sign, -";
-  }
-  std::string pointed(text);
-  const std::size_t comma = pointed.find(',');
-  if (comma != std::string::npos) pointed[comma] = '.';
-  if (comma != std::string::npos && parse_number(pointed).is_number) {
-    return " with a decimal point, " + shown(pointed);
-  }
-  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  return is_one_of(text, {"inf", "infinity"}) ? "; infinity is .inf" : "";
+/// What a placeholder is, for messages.
+[[nodiscard]] inline std::string unfilled_text(std::string_view placeholder) {
+  return "the placeholder '" + shown(placeholder) + "', which a template tool was to fill in";
 }
 
 /// What is likely to be wrong with a key; empty if that is not known.
 [[nodiscard]] inline std::string key_hint(std::string_view key) {
-  if (key.find("\xC2\xA0") != std::string_view::npos) return "no no-break spaces";
+  if (has_placeholder(key)) return "this placeholder to be filled in by a template tool before";
+  if (!odd_character_in(key).empty()) return "an ordinary blank, or none";
+  if (key.find("\xEF\xBC\x9A") != std::string_view::npos) return "an ordinary colon and a blank";
   if (key.find(':') != std::string_view::npos) return "a blank behind the colon";
   if (key.find('=') != std::string_view::npos) return "a colon and a blank in place of '='";
   return "";
@@ -128,9 +124,18 @@ struct ParsedNumber {
     case ConfigNode::Kind::scalar:
       break;
   }
-  if (node.quoted) return "the quoted text '" + shown(node.text) + "'";
+  if (node.quoted && !has_placeholder(node.text)) {
+    return "the quoted text '" + shown(node.text) + "'";
+  }
+  if (has_placeholder(node.text)) {
+    return unfilled_text(node.text);
+  }
   const ParsedNumber number = parse_number(node.text);
-  if (!number.is_number) return "the word '" + shown(node.text) + "'";
+  if (!number.is_number) {
+    const std::string odd = odd_character_in(node.text);
+    return "the word '" + shown(node.text) + "'" +
+           (odd.empty() ? "" : ", in which there is " + odd);
+  }
   return "the number " + shown(node.text) +
          (number.in_range ? "" : ", which is out of the range of numbers");
 }

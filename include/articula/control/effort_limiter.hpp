@@ -4,6 +4,7 @@
 
 #include "articula/control/joint_limiter.hpp"
 #include "articula/core/joint_state.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/dynamics/friction_effort.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/nonlinear_effects.hpp"
@@ -14,8 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace articula {
 
@@ -57,9 +56,10 @@ class EffortLimiter {
       const bool has_ends = is_finite(limits.lower[j]) || is_finite(limits.upper[j]);
       const bool can_brake = is_finite(limits.acceleration[j]) || is_finite(limits.deceleration[j]);
       if (has_ends && !can_brake) {
-        throw std::invalid_argument("command limits of joint '" +
-                                    std::string(joint_names(robot)[index(j)]) +
-                                    "': it has position limits, and deceleration inf");
+        detail::refuse({"command limits of joint '", joint_names(robot)[index(j)],
+                        "': its positions are limited (", limits.lower[j], " .. ", limits.upper[j],
+                        "), but not how hard it brakes: give CommandLimits::acceleration, which "
+                        "its drive can do in every posture, or deceleration"});
       }
     }
   }

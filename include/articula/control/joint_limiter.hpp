@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/control/command_limits.hpp"
+#include "articula/control/command_slack.hpp"
 #include "articula/control/limit_report.hpp"
 #include "articula/control/stopping_motion.hpp"
 
@@ -49,6 +50,9 @@ class JointLimiter {
     stop_ = stop_from(motion);
   }
 
+  /// Goes on with cycles of another length [s]. Real-time: yes.
+  void set_period(double period) noexcept { start(motion(), period); }
+
   /// Where the joint is now. Real-time: yes.
   [[nodiscard]] const CommandMotion& motion() const noexcept { return stop_.motion(); }
 
@@ -67,12 +71,11 @@ class JointLimiter {
   /// The next cycle's motion, as close to the wish as the limits allow.
   /// @param velocity  the wish, v_(k+1) [rad/s or m/s]; if not finite, the joint brakes
   /// @param report    what changed it is added here
-  /// @param planned   a stop from the wish that the caller has in hand: rounded to cycles, it may be
-  ///                  there where StoppingMotion finds none
+  /// @param slack     what is not taken for beyond a limit
   /// @return          true if the wish was granted as it is; motion() is what is given
   /// Real-time: yes. At most 40 stops are computed.
   [[nodiscard]] bool move(double velocity, JointLimitReport& report,
-                          const StoppingMotion* planned = nullptr) noexcept {
+                          const CommandSlack& slack = {}) noexcept {
     StoppingMotion braking = stop_;
     braking.advance();
     if (!is_finite(velocity)) {
@@ -82,36 +85,34 @@ class JointLimiter {
     }
     const CommandMotion now = motion();
     double wish = velocity;
-    const auto clamp = [](double& value, double low, double high, bool& clamped) {
-      const double within = std::clamp(value, low, high);
+    const auto clamp = [](double& value, double low, double high, double beyond, bool& clamped) {
+      const double within = CommandSlack::clamp(value, low, high, beyond);
       clamped = clamped || within != value;
       value = within;
     };
     const double k = std::min(soft_rate_, 1 / period_);  // faster would be beyond it in a cycle
     clamp(wish, std::min(0.0, -k * (now.position - soft_lower_)),
-          std::max(0.0, k * (soft_upper_ - now.position)), report.soft_position);
-    clamp(wish, -velocity_, velocity_, report.velocity);
+          std::max(0.0, k * (soft_upper_ - now.position)), 0, report.soft_position);
+    clamp(wish, -velocity_, velocity_, slack.velocity, report.velocity);
     double acceleration = (wish - now.velocity) / period_;
-    clamp(acceleration, -acceleration_, acceleration_, report.acceleration);
+    clamp(acceleration, -acceleration_, acceleration_, slack.acceleration, report.acceleration);
     clamp(acceleration, now.acceleration - jerk_ * period_, now.acceleration + jerk_ * period_,
-          report.jerk);
+          slack.step, report.jerk);
     const bool unchanged = wish == velocity && acceleration == (wish - now.velocity) / period_;
     if (!unchanged) wish = now.velocity + acceleration * period_;
 
     const ValueRange hard = hull(stop_.positions(), lower_, upper_);
     const ValueRange places =
         hull(stop_.positions(), std::max(lower_, soft_lower_), std::min(upper_, soft_upper_));
-    const ValueRange speeds = hull(stop_.velocities(), -velocity_, velocity_);
+    const double top_speed = velocity_ + slack.velocity;
+    const ValueRange speeds = hull(stop_.velocities(), -top_speed, top_speed);
     const auto has_stop = [&](const StoppingMotion& stop) {
-      return stop.feasible() && within(stop.positions(), places) &&
-             within(stop.velocities(), speeds);
+      return within(stop.positions(), places) && within(stop.velocities(), speeds);
     };
     const auto going = [&](double v, double a) {
       return stop_from({now.position + v * period_, v, a});
     };
-    StoppingMotion granted = going(wish, acceleration);
-    const bool as_planned = planned != nullptr && is_close(planned->motion(), wish, acceleration);
-    if (as_planned && !has_stop(granted)) granted = *planned;
+    const StoppingMotion granted = going(wish, acceleration);
     if (has_stop(granted)) {
       stop_ = granted;
       return unchanged;
@@ -146,14 +147,6 @@ class JointLimiter {
   }
   [[nodiscard]] static bool within(const ValueRange& range, const ValueRange& limits) noexcept {
     return range.lowest >= limits.lowest && range.highest <= limits.highest;
-  }
-
-  /// Whether a motion is the one that is wished for, but for what limits do not tell from rounding.
-  [[nodiscard]] bool is_close(const CommandMotion& motion, double velocity,
-                              double acceleration) const noexcept {
-    const double close = std::min(5e-9 * acceleration_, 5e-7 * jerk_ * period_);
-    return std::abs(motion.velocity - velocity) <= close * period_ &&
-           std::abs(motion.acceleration - acceleration) <= close;
   }
 
   /// How far a stop leads beyond the position limits [rad or m].

@@ -7,18 +7,16 @@
 #include "articula/control/effort_law.hpp"
 #include "articula/control/effort_limiter.hpp"
 #include "articula/control/joint_limiter.hpp"
-#include "articula/control/position_approach.hpp"
+#include "articula/control/position_limiter.hpp"
 #include "articula/control/tells_failure.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_reference.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -69,18 +67,13 @@ class Limited {
   ///         what the description says, or is missing (see EffortLimiter)
   explicit Limited(const CommandLimits<joint_count>& limits,
                    ControllerType controller = ControllerType(), const R& robot = described<R>())
-      : controller_(std::move(controller)), limits_(limits), limiter_(make_limiter(limits, robot)) {
-    if constexpr (by_position) {
-      for (int j = 0; j < joint_count; ++j) approach_[index(j)] = PositionApproach(limits, j);
-    }
-  }
+      : controller_(std::move(controller)),
+        limits_(limits),
+        limiter_(make_limiter(limits, robot)) {}
 
   /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
   void start(const State& state) noexcept {
     controller_.start(state);
-    if constexpr (by_position) {
-      for (PositionApproach& approach : approach_) approach.start();
-    }
     started_ = failed_ = goes_on_ = false;
   }
 
@@ -145,14 +138,10 @@ class Limited {
 
  private:
   using Vector = JointVector<joint_count>;
-  using JointLimiters = std::array<JointLimiter, static_cast<std::size_t>(joint_count)>;
-  using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, JointLimiters>;
-  struct NoApproaches {};
   static constexpr bool by_position = std::same_as<Command, PositionCommand<joint_count>>;
-  using Approaches =
-      std::conditional_t<by_position,
-                         std::array<PositionApproach, static_cast<std::size_t>(joint_count)>,
-                         NoApproaches>;
+  using OfJoint = std::conditional_t<by_position, PositionLimiter, JointLimiter>;
+  using OfJoints = std::array<OfJoint, static_cast<std::size_t>(joint_count)>;
+  using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, OfJoints>;
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
   [[nodiscard]] static constexpr std::size_t index(int j) noexcept {
@@ -165,8 +154,8 @@ class Limited {
     if constexpr (by_effort) {
       return EffortLimiter<R>(limits, robot);
     } else {
-      JointLimiters limiters;
-      for (int j = 0; j < joint_count; ++j) limiters[index(j)] = JointLimiter(limits, j);
+      OfJoints limiters;
+      for (int j = 0; j < joint_count; ++j) limiters[index(j)] = OfJoint(limits, j);
       return limiters;
     }
   }
@@ -183,9 +172,9 @@ class Limited {
       if (changes) limiter_.set_period(period_);
     } else {
       for (int j = 0; j < joint_count; ++j) {
-        JointLimiter& limiter = limiter_[index(j)];
+        OfJoint& limiter = limiter_[index(j)];
         if (begins) limiter.start({state.position[j], state.velocity[j], 0}, period_);
-        if (changes) limiter.start(limiter.motion(), period_);
+        if (changes) limiter.set_period(period_);
       }
     }
     started_ = started_ || begins;
@@ -223,24 +212,9 @@ class Limited {
     const bool brake = !is_finite(asked);
     Vector given;
     for (int j = 0; j < joint_count; ++j) {
-      JointLimiter& limiter = limiter_[index(j)];
-      PositionApproach& approach = approach_[index(j)];
-      if (brake) approach.start();
-      const CommandMotion now = limiter.motion();
-      // What lies far out would leave no digits for the way to the limit.
-      const double lowest = std::min(limits_.lower[j], now.position);
-      const double highest = std::max(limits_.upper[j], now.position);
-      const double wanted = std::clamp(asked[j], lowest, highest);
-      if (asked[j] < lowest || asked[j] > highest) report_[index(j)].position = true;
-      const double direct = (wanted - now.position) / period_;
-      const double wish =
-          brake ? not_a_number : approach.wish(now, wanted, period_, report_[index(j)]);
-      const std::optional<StoppingMotion> stop = brake ? std::nullopt : approach.stop();
-      const bool granted =
-          limiter.move(wish, report_[index(j)], stop ? &*stop : nullptr) && wish == direct;
-      // Rounding must not lead beyond a limit, nor away from what was granted.
-      given[j] = std::clamp(granted ? wanted : limiter.motion().position, lowest, highest);
-      limiter.measured(given[j]);
+      JointLimitReport& report = report_[index(j)];
+      given[j] =
+          brake ? limiter_[index(j)].brake(report) : limiter_[index(j)].limit(asked[j], report);
     }
     return given;
   }
@@ -292,7 +266,6 @@ class Limited {
   ControllerType controller_;
   CommandLimits<joint_count> limits_;
   Limiter limiter_;
-  [[no_unique_address]] Approaches approach_{};
   LimitReport<joint_count> report_{};
   double period_ = 1e-3;
   Vector last_given_ = Vector::Zero();  ///< before the first update, if it goes on from there

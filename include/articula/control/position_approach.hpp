@@ -3,12 +3,12 @@
 #pragma once
 
 #include "articula/control/command_limits.hpp"
+#include "articula/control/command_slack.hpp"
 #include "articula/control/limit_report.hpp"
 #include "articula/control/stopping_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace articula {
 
@@ -23,8 +23,6 @@ namespace articula {
 /// cannot be told from that.) One that jumps is taken for one that rests, and so is one that changes
 /// every other cycle only, which the joint therefore follows late by its way to brake. A crossing that
 /// the limits enforce, since what is asked for comes towards the joint or turns round, is kept small.
-/// As stops are whole cycles long, one that has begun cannot always be found again: a few in thousands
-/// of random steps crossed, by up to 3e-5 rad.
 class PositionApproach {
  public:
   /// No limits.
@@ -46,26 +44,23 @@ class PositionApproach {
   /// @param now     the joint's motion in the last cycle
   /// @param asked   the position that is asked for in this one, finite [rad or m]
   /// @param period  dt > 0 [s]
+  /// @param slack   what is not taken for beyond a limit
   /// @param report  what changed it is added here
   /// @return        (asked - q_k)/dt exactly if that can be wished for [rad/s or m/s]
   /// Real-time: yes. At most 34 stops are computed.
   [[nodiscard]] double wish(const CommandMotion& now, double asked, double period,
-                            JointLimitReport& report) noexcept {
+                            const CommandSlack& slack, JointLimitReport& report) noexcept {
     const bool on_it = asked_before_ == 0 || now.position == asked_.position;
     const bool moves = asked != (asked_before_ == 0 ? now.position : asked_.position);
     const CommandMotion goal = follow(asked, period);
     const double direct = (asked - now.position) / period;
     const double exact = (direct - now.velocity) / period;
-    const double wished = reachable(now, exact, period);
-    planned_ = goal.velocity == 0 && goal.acceleration == 0;
-    if (on_it && moves && wished == exact) {
-      planned_ = false;
-      return direct;
-    }
+    const double wished = reachable(now, exact, period, slack);
+    if (on_it && moves && wished == exact) return direct;
 
-    StoppingMotion landing = landing_from(now, before(goal, period), period);
+    StoppingMotion landing = difference(now, before(goal, period), period);
     landing.advance();
-    double safe = reachable(now, landing.motion().acceleration + goal.acceleration, period);
+    double safe = reachable(now, landing.motion().acceleration + goal.acceleration, period, slack);
     double unsafe = wished;
     const bool upwards = safe < wished;
     const auto crossing = [&](const StoppingMotion& stop) {
@@ -77,33 +72,14 @@ class PositionApproach {
       return difference({now.position + v * period, v, acceleration}, goal, period);
     };
     const double rounding = 1e-13 * (1 + std::abs(asked));
-    const double enforced = std::max(crossing(landing), rounding);
-    const auto lands = [&](const StoppingMotion& stop) {
-      return stop.feasible() && crossing(stop) <= enforced;
-    };
-    landing_ = going(wished);
-    if (lands(landing_)) return direct;
-    landing_ = landing;
+    const auto lands = [&](const StoppingMotion& stop) { return crossing(stop) <= rounding; };
+    if (lands(going(wished))) return direct;
     for (int k = 0; k < 30; ++k) {
       const double middle = safe + (unsafe - safe) / 2;
-      const StoppingMotion stop = going(middle);
-      if (lands(stop)) {
-        safe = middle;
-        landing_ = stop;
-      } else {
-        unsafe = middle;
-      }
+      (lands(going(middle)) ? safe : unsafe) = middle;
     }
     (deceleration_ < 1e15 ? report.acceleration : report.jerk) = true;
     return now.velocity + safe * period;
-  }
-
-  /// The way from the last wish to rest at what is asked for; none if that moves. Real-time: yes.
-  [[nodiscard]] std::optional<StoppingMotion> stop() const noexcept {
-    if (!planned_) return std::nullopt;
-    StoppingMotion stop = landing_;
-    stop.move_to(asked_.position + stop.motion().position);
-    return stop;
   }
 
  private:
@@ -126,15 +102,15 @@ class PositionApproach {
   }
 
   /// The acceleration within the limits that is closest to a wish.
-  [[nodiscard]] double reachable(const CommandMotion& now, double acceleration,
-                                 double period) const noexcept {
-    const auto clamp = [&](double low, double high) {
-      acceleration = std::clamp(acceleration, low, high);
+  [[nodiscard]] double reachable(const CommandMotion& now, double acceleration, double period,
+                                 const CommandSlack& slack) const noexcept {
+    const auto clamp = [&](double low, double high, double beyond) {
+      acceleration = CommandSlack::clamp(acceleration, low, high, beyond);
     };
     clamp(std::min(0.0, (-velocity_ - now.velocity) / period),
-          std::max(0.0, (velocity_ - now.velocity) / period));
-    clamp(-acceleration_, acceleration_);
-    clamp(now.acceleration - jerk_ * period, now.acceleration + jerk_ * period);
+          std::max(0.0, (velocity_ - now.velocity) / period), slack.velocity / period);
+    clamp(-acceleration_, acceleration_, slack.acceleration);
+    clamp(now.acceleration - jerk_ * period, now.acceleration + jerk_ * period, slack.step);
     return acceleration;
   }
 
@@ -148,29 +124,12 @@ class PositionApproach {
             period};
   }
 
-  /// The stop in hand if the difference went as planned, else another one.
-  [[nodiscard]] StoppingMotion landing_from(const CommandMotion& joint, const CommandMotion& goal,
-                                            double period) const noexcept {
-    StoppingMotion landing = difference(joint, goal, period);
-    const CommandMotion is = landing.motion(), planned = landing_.motion();
-    const double change = 1e-2 * std::min(jerk_ * period, deceleration_);
-    if (std::abs(is.position - planned.position) <= change * period * period &&
-        std::abs(is.velocity - planned.velocity) <= change * period &&
-        std::abs(is.acceleration - planned.acceleration) <= change) {
-      landing = landing_;
-      landing.move_to(is.position);
-    }
-    return landing;
-  }
-
   double velocity_ = CommandLimits<1>::infinity;
   double acceleration_ = 1e15;
   double deceleration_ = 1e15;
   double jerk_ = 1e30;
-  StoppingMotion landing_{};  ///< beside what is asked for, the one in hand
-  bool planned_ = false;      ///< it is a stop
-  CommandMotion asked_{};     ///< its last value, and differences
-  int asked_before_ = 0;      ///< how many values are known, at most 2
+  CommandMotion asked_{};  ///< its last value, and differences
+  int asked_before_ = 0;   ///< how many values are known, at most 2
 };
 
 }  // namespace articula

@@ -9,8 +9,9 @@
 
 namespace articula {
 
-/// One joint's command in a cycle. Commands come once per cycle, dt apart, so differences take the
-/// place of derivatives: v_k = (q_k - q_(k-1))/dt and a_k = (v_k - v_(k-1))/dt.
+/// One joint's command in a cycle. Commands come once per cycle, dt apart, so
+/// differences take the place of derivatives: v_k = (q_k - q_(k-1))/dt and a_k
+/// = (v_k - v_(k-1))/dt.
 struct CommandMotion {
   double position = 0;      ///< q_k [rad or m]
   double velocity = 0;      ///< v_k [rad/s or m/s]
@@ -23,64 +24,58 @@ struct ValueRange {
   double highest = 0;
 };
 
-/// A way from any motion to rest within limits B of acceleration and J of jerk, in whole cycles: the
-/// acceleration goes in n1 equal steps to -p (against the motion), rests there for n2 cycles, and
-/// goes in n3 equal steps to 0. From v and a, the velocity is 0 at the end for
+/// A way from any motion to rest within limits B of acceleration and J of jerk, as fast as whole cycles
+/// allow but for a cycle or two: the deceleration, at first its present value d, grows in steps of
+/// s = J dt to a level p <= B, stays there, and goes in such steps back to 0.
 ///
-///     p = (v/dt + a (n1 - 1)/2) / ((n1 + n3)/2 + n2).
+/// n steps lead to p = d + n s and take n d + s n (n + 1)/2 of what is to be lost, v/dt. The way back
+/// takes (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which that
+/// is not too much; in continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri 2008, section 3.4],
+/// of which sums over cycles make J v + d (d + s)/2. What is left to lose is taken by one smaller step to
+/// a higher level or, where even that would be too much, by one more cycle on the way back, at the level
+/// that is missing.
 ///
-/// n1, n2, n3 are the times of the fastest stop in continuous time (from v' = v - a dt/2 and a, p
-/// would be min(B, sqrt(J v' + a^2/2))), rounded to cycles so that p and its steps stay within the
-/// limits. From one cycle to the next it is the same stop, less one cycle; so whoever has one in
-/// hand, and at any time goes on with it or with a motion that has another, can always come to rest.
+/// There is such a way from every motion whose acceleration is within B. And as it begins with the
+/// largest steps, no other way to rest within the limits has a lower highest velocity.
 class StoppingMotion {
  public:
   /// At rest, for ever.
   StoppingMotion() = default;
 
   /// @param from          where it begins
-  /// @param deceleration  B > 0 [rad/s^2 or m/s^2]
+  /// @param deceleration  B > 0 [rad/s^2 or m/s^2]; a joint that brakes harder already takes that back
   /// @param jerk          J > 0 [rad/s^3 or m/s^3]
   /// @param period        dt > 0 [s]
   /// Real-time: yes. O(1), however long it takes.
   StoppingMotion(const CommandMotion& from, double deceleration, double jerk,
                  double period) noexcept
-      : period_(period), motion_(from) {
-    const double step = jerk * period;  // how far the acceleration goes in a cycle
-    const double fading = cycles(std::abs(from.acceleration) / step);
-    const double left = from.velocity + from.acceleration * period * std::max(0.0, fading - 1) / 2;
-    const double side = left < 0 ? -1 : 1;
-    const double v = side * from.velocity, a = side * from.acceleration;
-    const double peak = std::sqrt(std::max(0.0, jerk * (v - a * period / 2) + a * a / 2));
-    const double p = std::min(deceleration, std::max(-a, peak));
-    const double n1 = std::max(1.0, cycles(std::abs(a + p) / step));
-    const double n3 = std::max(1.0, cycles(p / step));
-    feasible_ = fit(side, v, a, deceleration, step, n1, n3) ||
-                (n3 > 1 && fit(side, v, a, deceleration, step, n1, n3 - 1));
+      : period_(period), step_(jerk * period), motion_(from) {
+    const double rest = from.velocity / period +
+                        std::copysign(way_back(std::abs(from.acceleration)), from.acceleration);
+    side_ = rest < 0 ? -1 : 1;
+    plan(-side_ * from.acceleration, side_ * from.velocity / period, deceleration);
   }
-
-  /// Whether acceleration and jerk keep their limits. They may not where rounding to cycles is
-  /// coarse; it ends at rest all the same.
-  [[nodiscard]] bool feasible() const noexcept { return feasible_; }
 
   /// Where the joint is now. Real-time: yes.
   [[nodiscard]] const CommandMotion& motion() const noexcept { return motion_; }
 
   /// Goes on by one cycle. Real-time: yes.
   void advance() noexcept {
-    while (current_ < stretches_.size() && !(stretches_[current_].cycles > 0)) ++current_;
-    if (current_ == stretches_.size()) {
+    if (current_ == count_) {
       motion_ = {motion_.position, 0, 0};
       return;
     }
-    motion_ = after(motion_, stretches_[current_].change, 1);
-    stretches_[current_].cycles -= 1;
+    Stretch& stretch = stretches_[current_];
+    motion_ = after(motion_, stretch.change, 1);
+    stretch.cycles -= 1;
+    if (!(stretch.cycles > 0)) ++current_;
   }
 
   /// The same stop elsewhere. Real-time: yes.
   void move_to(double position) noexcept { motion_.position = position; }
 
-  /// All positions on the way, the present one included [rad or m]. Real-time: yes.
+  /// All positions on the way, the present one included [rad or m]. Real-time:
+  /// yes.
   [[nodiscard]] ValueRange positions() const noexcept {
     return range(&CommandMotion::position, [this](const CommandMotion& m, double c) {
       // v_i = v + dt (i a + c i (i + 1)/2) changes its sign where
@@ -91,7 +86,8 @@ class StoppingMotion {
     });
   }
 
-  /// All velocities on the way, the present one included [rad/s or m/s]. Real-time: yes.
+  /// All velocities on the way, the present one included [rad/s or m/s].
+  /// Real-time: yes.
   [[nodiscard]] ValueRange velocities() const noexcept {
     return range(&CommandMotion::velocity, [](const CommandMotion& m, double c) {
       return ValueRange{-m.acceleration / c, -m.acceleration / c};  // where a_i changes its sign
@@ -105,8 +101,93 @@ class StoppingMotion {
     double change = 0;  ///< [rad/s^2 or m/s^2]
   };
 
-  /// Rounds up, but not for rounding's sake.
-  [[nodiscard]] static double cycles(double count) noexcept { return std::ceil(count - 1e-9); }
+  /// Rounds up and down, but not for rounding's sake.
+  [[nodiscard]] static double up(double count) noexcept { return std::ceil(count - 1e-9); }
+  [[nodiscard]] static double down(double count) noexcept { return std::floor(count + 1e-9); }
+
+  /// How many whole steps lie between a level and 0, which the last step
+  /// reaches.
+  [[nodiscard]] double steps_back(double level) const noexcept {
+    return std::max(0.0, up(level / step_) - 1);
+  }
+  /// What is lost while the deceleration goes back from a level to 0.
+  [[nodiscard]] double way_back(double level) const noexcept {
+    const double m = steps_back(level);
+    return m * level - step_ * m * (m + 1) / 2;
+  }
+
+  /// @param d     deceleration at the beginning; negative while the joint
+  /// accelerates
+  /// @param lost  what is to be lost of velocity/dt
+  /// @param most  B
+  void plan(double d, double lost, double most) noexcept {
+    if (d > most * (1 + 1e-6)) {  // down to where it may stay
+      const double n = up((d - most) / step_);
+      const double level = std::max(0.0, d - n * step_);
+      add(n, (level - d) / n);
+      return stay(level, lost - n * d - (level - d) * (n + 1) / 2);
+    }
+    const double fewest = d < 0 ? up(-d / step_) : 0;
+    const auto taken = [&](double n) { return n * d + step_ * n * (n + 1) / 2; };
+    const auto fits = [&](double n) {
+      const double level = d + n * step_;
+      return level <= most && taken(n) + way_back(level) <= lost;
+    };
+    const double peak = std::sqrt(std::max(0.0, step_ * lost + d * (d + step_) / 2));
+    double n = std::max(fewest, down((std::min(peak, most) - d) / step_));
+    for (int k = 0; k < 2 && fits(n + 1); ++k) ++n;
+    while (n > fewest && !fits(n)) --n;
+    if (!fits(n)) n = fewest - 1;  // not even the first level beyond 0
+    n = std::max(0.0, n);
+    const double level = d + n * step_, left = lost - taken(n);
+    add(n, step_);
+    const double higher = std::min(level_for(std::max(0.0, left)), most);
+    if (higher > level) {
+      add(1, higher - level);
+      stay(higher, left - higher);
+    } else {
+      stay(level, left);
+    }
+  }
+
+  /// The level from which one cycle there and the way back lose as much as
+  /// said.
+  [[nodiscard]] double level_for(double lost) const noexcept {
+    // At m s it is s m (m + 1)/2.
+    const double m = down((std::sqrt(1 + 8 * std::max(0.0, lost) / step_) - 1) / 2);
+    return (lost + step_ * m * (m + 1) / 2) / (m + 1);
+  }
+
+  /// Stays at a level for as long as there is more to lose than on the way
+  /// back, and goes that way.
+  void stay(double level, double lost) noexcept {
+    double extra = std::max(0.0, lost - way_back(level));
+    if (level > 0) {
+      const double n = down(extra / level);
+      add(n, 0);
+      extra = std::max(0.0, extra - n * level);
+    }
+    if (extra <= 1e-9 * std::min(level, step_)) extra = 0;  // rounding
+    const double m = steps_back(level);
+    const double before = std::clamp(down((level - extra) / step_), 0.0, m);
+    const double last = level - m * step_;
+    add(before, -step_);
+    const double here = level - before * step_;
+    if (extra > 0) add(1, extra - here);
+    const double next = extra > 0 ? extra : here;
+    if (before < m) {
+      add(1, here - step_ - next);
+      add(m - before - 1, -step_);
+      add(1, -last);
+    } else {
+      add(1, -next);
+    }
+  }
+
+  /// @param change  of the deceleration, in each cycle
+  void add(double cycles, double change) noexcept {
+    if (cycles > 0) stretches_[count_++] = {cycles, -side_ * change};
+  }
 
   /// The motion n cycles later, the acceleration changing by c in each.
   [[nodiscard]] CommandMotion after(const CommandMotion& m, double c, double n) const noexcept {
@@ -116,21 +197,8 @@ class StoppingMotion {
         m.velocity + period_ * (ones * m.acceleration + sum * c), m.acceleration + ones * c};
   }
 
-  /// Makes the stop of n1 and n3 cycles; n2 is as small as the limits allow.
-  /// @return whether they allow it
-  bool fit(double side, double v, double a, double deceleration, double step, double n1,
-           double n3) noexcept {
-    const double lost = v / period_ + a * (n1 - 1) / 2;
-    const double most = std::min({deceleration, n3 * step, n1 * step - a});
-    const double n2 = most > 0 ? std::max(0.0, cycles(lost / most - (n1 + n3) / 2)) : 0;
-    const double p = lost / ((n1 + n3) / 2 + n2);
-    stretches_ = {{{n1, side * (-p - a) / n1}, {n2, 0}, {n3, side * p / n3}}};
-    constexpr double rounding = 1e-9;
-    return p >= -rounding * step && p <= most + rounding * step &&
-           -p - a <= n1 * step * (1 + rounding);
-  }
-
-  /// The range of a quantity, found at the ends of the stretches and next to its turning points.
+  /// The range of a quantity, found at the ends of the stretches and next to
+  /// its turning points.
   template <class TurningPoints>
   [[nodiscard]] ValueRange range(double CommandMotion::*quantity,
                                  TurningPoints turning_points) const noexcept {
@@ -139,7 +207,7 @@ class StoppingMotion {
     const auto add = [&](double value) {
       values = {std::min(values.lowest, value), std::max(values.highest, value)};
     };
-    for (std::size_t k = current_; k < stretches_.size(); ++k) {
+    for (std::size_t k = current_; k < count_; ++k) {
       const auto& [n, c] = stretches_[k];
       const ValueRange points = turning_points(m, c);
       for (const double point : {points.lowest, points.highest}) {
@@ -152,10 +220,12 @@ class StoppingMotion {
   }
 
   double period_ = 1;  ///< dt [s]
+  double step_ = 1;    ///< s [rad/s^2 or m/s^2]
+  double side_ = 1;    ///< of the velocity that is to be lost
   CommandMotion motion_{};
-  std::array<Stretch, 3> stretches_{};
+  std::array<Stretch, 8> stretches_{};
   std::size_t current_ = 0;
-  bool feasible_ = true;
+  std::size_t count_ = 0;
 };
 
 }  // namespace articula

@@ -19,6 +19,24 @@ struct MotionLimits {
   JointVector<N> jerk = JointVector<N>::Zero();          ///< J [rad/s^3 or m/s^3], N x 1
 };
 
+/// The limits of a motion as fast as the robot's description allows. It says nothing of acceleration
+/// and jerk:
+///
+///     const auto limits = motion_limits(Q2d(), {10, 30}, {200, 600});
+///
+/// @param robot         its joints' limits of velocity are taken; a joint without one makes no motion
+///                      that validate() accepts
+/// @param acceleration  A [rad/s^2 or m/s^2], N x 1
+/// @param jerk          J [rad/s^3 or m/s^3], N x 1
+/// Real-time: yes.
+template <Robot R>
+[[nodiscard]] MotionLimits<joint_count<R>> motion_limits(
+    const R& robot, const JointVector<joint_count<R>>& acceleration,
+    const JointVector<joint_count<R>>& jerk) noexcept {
+  const auto velocity = [](const JointProperties& joint) { return joint.limits.velocity; };
+  return {joint_values(robot, velocity), acceleration, jerk};
+}
+
 /// Refuses limits that a profile cannot be computed with: each must lie between 1e-9 and 1e9, so
 /// that powers and quotients of them neither overflow nor vanish. A velocity limit must not be
 /// above that of the robot's joint either.

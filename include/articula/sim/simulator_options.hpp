@@ -72,7 +72,7 @@ template <Robot R>
 }
 
 /// Refuses options that cannot be simulated: periods, steps, bandwidths, resolutions or deviations
-/// out of range, a start outside the joint limits, a mass matrix that is singular at the start, damping
+/// out of range, drives of no kind, a start outside the joint limits, a mass matrix that is singular at the start, damping
 /// too strong for the step.
 /// @throws std::invalid_argument naming the option or joint, the value and the limit
 /// Real-time: no (throws).
@@ -86,6 +86,10 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     refuse({"period ", options.period, " s is not a positive number"});
   }
   if (options.substeps < 1) refuse({"substeps ", options.substeps, " is less than 1"});
+  if (options.drives != DriveModel::servo && options.drives != DriveModel::ideal) {
+    refuse(
+        {"drives ", static_cast<int>(options.drives), " is neither DriveModel::servo nor ideal"});
+  }
 
   const JointVector<n> q = initial_position(robot, options);
   for (int j = 0; j < n; ++j) {

@@ -32,6 +32,7 @@ struct UrdfDescription {
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint, from <ros2_control>
   std::vector<std::string> notices{};  ///< what the user should know, a line each:
                                        ///< words in links and joints that URDF does not know,
+                                       ///< elements that stand twice and say the same,
                                        ///< inertias that no real body has, limits of 0 and
                                        ///< those of continuous joints, places beyond limits,
                                        ///< links that move without <inertial>, names that lead

@@ -4,6 +4,8 @@
 
 #include "articula/model/urdf/control.hpp"
 #include "articula/model/urdf/messages.hpp"
+#include "articula/model/urdf/number_check.hpp"
+#include "articula/model/urdf/repeated_elements.hpp"
 #include "articula/model/urdf/source.hpp"
 #include "articula/model/urdf/unknown_words.hpp"
 #include "articula/model/urdf/xml.hpp"
@@ -34,7 +36,8 @@ struct UrdfDocument {
   std::map<std::string, std::string>
       command_mimics{};  ///< likewise, whom a joint is to mimic; empty: nobody
   std::vector<UrdfTransmission> transmissions{};
-  std::vector<std::string> unknown_words{};  ///< of links and joints, a line each, see notices
+  std::vector<std::string> unknown_words{};      ///< of links and joints, a line each, see notices
+  std::vector<std::string> repeated_elements{};  ///< likewise
 };
 
 namespace detail {
@@ -131,6 +134,7 @@ inline void blank_white_space(std::string& text) {
   result.transmissions = std::move(control.transmissions);
 
   result.unknown_words = detail::UnknownWords(robot).take();  // some are removed next
+  result.repeated_elements = detail::RepeatedElements(result.file, robot).take();
 
   // TinyXML may read odd characters otherwise than it has written them, so from here on everybody
   // reads what it writes.
@@ -139,6 +143,7 @@ inline void blank_white_space(std::string& text) {
     const std::string where =
         std::string(element.Value()) + " '" + detail::attribute(element, "name") + "'";
     detail::refuse_placeholders(result.file, where, element);
+    detail::check_numbers(result.file, where, element);
   });
   detail::XmlPrinter printer;
   document.Accept(&printer);

@@ -17,9 +17,12 @@ namespace articula::detail {
 /// Collects what the user of a URDF should know, a line each.
 class UrdfNotices {
  public:
-  /// Begins with words that are not known: they may be why there are others.
+  /// Begins with words that are not known and what stands twice: they may be why there are others.
   explicit UrdfNotices(const UrdfDocument& document)
-      : document_(document), notices_(document.unknown_words) {}
+      : document_(document), notices_(document.unknown_words) {
+    notices_.insert(notices_.end(), document.repeated_elements.begin(),
+                    document.repeated_elements.end());
+  }
 
   [[nodiscard]] std::vector<std::string> take() { return std::move(notices_); }
 

@@ -40,6 +40,10 @@ class UrdfSource {
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
       throw UrdfError(name_, "it is UTF-16: save it as UTF-8");
     }
+    if (text.starts_with(std::string_view("<\0", 2)) ||
+        text.starts_with(std::string_view("\0<", 2))) {
+      throw UrdfError(name_, "it is UTF-16: save it as UTF-8");
+    }
     if (text.find('\0') != std::string::npos) throw UrdfError(name_, "it is no text: it holds NUL");
     return text;
   }

@@ -114,6 +114,8 @@ class TagReader {
     }
     if (take("<!DOCTYPE")) {
       if (has_root_) return "a document type stands behind the beginning of the robot";
+      if (has_type_) return "a second document type; XML has one";
+      has_type_ = true;
       std::string fault = document_type();
       if (fault.empty()) blank(start);
       return fault;
@@ -189,6 +191,7 @@ class TagReader {
   std::size_t at_ = 0;
   int depth_ = 0;
   bool has_root_ = false;
+  bool has_type_ = false;
 };
 
 /// What is wrong with the tags of an XML text, with the line; empty if nothing is. What TinyXML

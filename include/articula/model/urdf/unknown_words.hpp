@@ -6,33 +6,49 @@
 #include "articula/model/urdf/xml.hpp"
 
 #include <algorithm>
-#include <set>
+#include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace articula::detail {
 
-/// Collects the attributes and child elements of a robot's links and joints that URDF does not know,
-/// a line each: urdfdom passes them over in silence. Elements that tell nothing of mechanics are not
-/// looked into.
+/// Collects the attributes and child elements of a robot's links and joints that URDF does not know:
+/// urdfdom passes them over in silence. Each word has one line, with the first link or joint that has it
+/// and how many others do. Elements that tell nothing of mechanics are not looked into.
 class UnknownWords {
  public:
   explicit UnknownWords(const XmlElement& robot) {
     for (const char* kind : {"link", "joint"}) {
       for_each_child(robot, kind, [&](const XmlElement& element) {
-        std::string name = attribute(element, "name");
-        for (char& c : name) c = c == '\t' || c == '\r' || c == '\n' ? ' ' : c;
-        owner_ = std::string(kind) + " '" + name + "': ";
+        owner_ = std::string(kind) + " '" + one_line(attribute(element, "name")) + "': ";
         look_at(element);
       });
     }
   }
 
-  [[nodiscard]] std::vector<std::string> take() { return std::move(lines_); }
+  [[nodiscard]] std::vector<std::string> take() const {
+    std::vector<std::string> lines;
+    for (const Line& line : lines_) {
+      lines.push_back(line.first + line.word);
+      if (line.others == 0) continue;
+      lines.back() += (lines.back().ends_with('?') ? " " : "; ") + std::to_string(line.others) +
+                      " other" + (line.others == 1 ? "" : "s") +
+                      (line.others == 1 ? " has" : " have") + " it, too";
+    }
+    return lines;
+  }
 
  private:
+  /// A word that is not known in an element.
+  struct Line {
+    std::string first{};  ///< the link or joint that has it first
+    std::string last{};   ///< and the one that had it last
+    std::string word{};
+    std::size_t others = 0;  ///< links and joints besides the first
+  };
+
   void look_at(const XmlElement& element) {
     const KnownWords* known = known_words(element.Value());
     if (!known) return;
@@ -55,17 +71,25 @@ class UnknownWords {
   void add(const KnownWords& place, const std::string& word, const std::string& open,
            std::string_view meant, const char* close) {
     if (word.find(':') != std::string::npos || word == "xmlns") return;
-    std::string line = owner_ + "<" + std::string(place.element) + ">: the " + open + word + close +
+    std::string line = "<" + std::string(place.element) + ">: the " + open + word + close +
                        " is not known there and does not count";
     if (!meant.empty()) {
       line += std::string("; did you mean ") + open.back() + std::string(meant) + close + "?";
     }
-    if (seen_.insert(line).second) lines_.push_back(line);
+    const auto [at, is_new] = index_.try_emplace(line, lines_.size());
+    if (is_new) {
+      lines_.push_back({.first = owner_, .last = owner_, .word = line});
+      return;
+    }
+    Line& known = lines_[at->second];
+    if (known.last == owner_) return;  // a link may have the same element often
+    known.last = owner_;
+    ++known.others;
   }
 
-  std::vector<std::string> lines_{};
-  std::set<std::string> seen_{};  ///< a link may have the same element often
-  std::string owner_{};           ///< the link or joint, for the lines
+  std::vector<Line> lines_{};
+  std::map<std::string, std::size_t> index_{};  ///< of the lines, by word
+  std::string owner_{};                         ///< the link or joint, for the lines
 };
 
 }  // namespace articula::detail

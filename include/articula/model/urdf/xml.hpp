@@ -48,6 +48,12 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
   return text ? text : "";
 }
 
+/// A name as a message shows it.
+[[nodiscard]] inline std::string one_line(std::string text) {
+  for (char& c : text) c = c == '\t' || c == '\r' || c == '\n' ? ' ' : c;
+  return text;
+}
+
 /// An element's text without white space around it, empty if there is none.
 [[nodiscard]] inline std::string text_of(const XmlElement& element) {
   std::string text;
@@ -87,14 +93,20 @@ inline void refuse_xacro(const std::string& file, const XmlElement& element) {
   for_each_child(element, nullptr, [&](const XmlElement& child) { refuse_xacro(file, child); });
 }
 
-/// @throws UrdfError if an attribute holds what xacro would have replaced
+/// @throws UrdfError if an attribute holds what xacro or a template tool would have replaced
 /// @param where  element of the robot, for the message
 inline void refuse_placeholders(const std::string& file, const std::string& where,
                                 const XmlElement& element) {
   for (auto each = element.FirstAttribute(); each; each = each->Next()) {
     const std::string text = each->Value();
-    if (text.find("${") == std::string::npos && text.find("$(") == std::string::npos) continue;
-    throw UrdfError(file, where + ": '" + text + "'" + xacro_advice);
+    for (const char* bracket : {"${", "$(", "{{", "{%", "<%"}) {
+      if (text.find(bracket) == std::string::npos) continue;
+      throw UrdfError(file,
+                      where + ": '" + text + "'" +
+                          (bracket[0] == '$' ? xacro_advice
+                                             : " is a placeholder that a template tool was to "
+                                               "fill in"));
+    }
   }
   for_each_child(element, nullptr,
                  [&](const XmlElement& child) { refuse_placeholders(file, where, child); });

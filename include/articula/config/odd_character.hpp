@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Characters that look like a blank, or like nothing, and are none to YAML.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace articula::detail {
+
+/// A character of a text in UTF-8.
+struct TextCharacter {
+  std::string_view bytes{};  ///< empty at the end of the text; a broken one is one byte
+  char32_t code = 0;         ///< 0 if it is broken
+};
+
+/// The character at which a text begins.
+[[nodiscard]] inline TextCharacter first_character(std::string_view text) {
+  if (text.empty()) return {};
+  const auto lead = static_cast<unsigned char>(text[0]);
+  const std::size_t size = lead < 0x80             ? 1
+                           : (lead & 0xe0) == 0xc0 ? 2
+                           : (lead & 0xf0) == 0xe0 ? 3
+                           : (lead & 0xf8) == 0xf0 ? 4
+                                                   : 0;
+  if (size == 0 || size > text.size()) return {text.substr(0, 1), 0};
+  char32_t code = size == 1 ? lead : lead & (0x7fU >> size);
+  for (std::size_t k = 1; k < size; ++k) {
+    const auto next = static_cast<unsigned char>(text[k]);
+    if ((next & 0xc0) != 0x80) return {text.substr(0, 1), 0};
+    code = code << 6 | (next & 0x3fU);
+  }
+  return {text.substr(0, size), code};
+}
+
+/// What a blank that YAML takes for a letter, or a character without any shape, is called; empty for
+/// others. They come with what is copied from web pages, chats and word processors.
+[[nodiscard]] inline std::string_view odd_name(char32_t code) {
+  struct Range {
+    char32_t first, last;
+    std::string_view name;
+  };
+  static constexpr std::array<Range, 14> odd = {{{0x85, 0x85, "a line end of old mainframes"},
+                                                 {0xa0, 0xa0, "a no-break space"},
+                                                 {0xad, 0xad, "a soft hyphen"},
+                                                 {0x1680, 0x1680, "a blank of its own kind"},
+                                                 {0x2000, 0x200a, "a blank of its own width"},
+                                                 {0x200b, 0x200b, "a zero-width space"},
+                                                 {0x200c, 0x200d, "a zero-width joiner"},
+                                                 {0x200e, 0x200f, "a mark of direction"},
+                                                 {0x2028, 0x2029, "a separator of lines"},
+                                                 {0x202a, 0x202e, "a mark of direction"},
+                                                 {0x202f, 0x202f, "a narrow no-break space"},
+                                                 {0x205f, 0x2064, "a blank of its own width"},
+                                                 {0x3000, 0x3000, "an ideographic space"},
+                                                 {0xfeff, 0xfeff, "a byte order mark"}}};
+  const auto found = std::find_if(odd.begin(), odd.end(), [code](const Range& range) {
+    return code >= range.first && code <= range.last;
+  });
+  return found == odd.end() ? std::string_view() : found->name;
+}
+
+/// U+00A0 or the like.
+[[nodiscard]] inline std::string code_text(char32_t code) {
+  std::string digits;
+  for (; code != 0 || digits.size() < 4; code >>= 4) {
+    digits.insert(digits.begin(), "0123456789ABCDEF"[code & 0xf]);
+  }
+  return "U+" + digits;
+}
+
+/// The first odd character of a text as a message names it, "a no-break space (U+00A0)"; empty if
+/// there is none.
+[[nodiscard]] inline std::string odd_character_in(std::string_view text) {
+  while (!text.empty()) {
+    const TextCharacter character = first_character(text);
+    const std::string_view name = odd_name(character.code);
+    if (!name.empty()) return std::string(name) + " (" + code_text(character.code) + ")";
+    text.remove_prefix(character.bytes.size());
+  }
+  return "";
+}
+
+}  // namespace articula::detail
