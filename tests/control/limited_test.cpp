@@ -310,20 +310,17 @@ TEST_CASE("a motion as fast as the limits allow passes to the last bit") {
     const JointVector<1> from(random.number(-1, 1)), to(random.number(-1, 1));
     const JerkLimitedProfile<Slider> profile(
         from, to, {limits.velocity, limits.acceleration, limits.jerk}, robot);
-    const bool ends_at_limit = random.one_in(4);
+    const bool ends_at_limit = random.one_in(2);
     (to[0] > from[0] ? limits.upper : limits.lower)[0] =
         ends_at_limit ? to[0] : 2 * to[0] - from[0];
     CAPTURE(k, from[0], to[0], limits.velocity[0], limits.acceleration[0], limits.jerk[0]);
     PositionRun run(limits, from[0]);
-    double largest = 0;
     for (int cycle = 1; cycle * dt < profile.duration() + 0.1; ++cycle) {
       CAPTURE(cycle);
       const double asked = profile.sample(cycle * dt).position[0];
-      largest = std::max(largest, std::abs(run.next(asked) - asked));
-      if (!ends_at_limit) REQUIRE_FALSE(run.report().any());
+      REQUIRE(run.next(asked) == asked);
+      REQUIRE_FALSE(run.report().any());
     }
-    // A stop in whole cycles is longer than one that is not, by about a dt^2 for each step of its way.
-    CHECK(largest <= (ends_at_limit ? 2e-3 : 0));
   }
 }
 

@@ -24,16 +24,15 @@ struct ValueRange {
   double highest = 0;
 };
 
-/// A way from any motion to rest within limits B of acceleration and J of jerk, as fast as whole cycles
-/// allow but for a cycle or two: the deceleration, at first its present value d, grows in steps of
+/// A way from any motion to rest within limits B of acceleration and J of jerk, about as fast as whole
+/// cycles allow: the deceleration, at first its present value d, grows in steps of
 /// s = J dt to a level p <= B, stays there, and goes in such steps back to 0.
 ///
 /// n steps lead to p = d + n s and take n d + s n (n + 1)/2 of what is to be lost, v/dt. The way back
 /// takes (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which that
 /// is not too much; in continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri 2008, section 3.4],
-/// of which sums over cycles make J v + d (d + s)/2. What is left to lose is taken by one smaller step to
-/// a higher level or, where even that would be too much, by one more cycle on the way back, at the level
-/// that is missing.
+/// of which sums over cycles make J v + d (d + s)/2. What is left to lose is taken by a smaller step to
+/// one more level, p + s at most, or p - s at least.
 ///
 /// There is such a way from every motion whose acceleration is within B. And as it begins with the
 /// largest steps, no other way to rest within the limits has a lower highest velocity.
@@ -116,8 +115,7 @@ class StoppingMotion {
     return m * level - step_ * m * (m + 1) / 2;
   }
 
-  /// @param d     deceleration at the beginning; negative while the joint
-  /// accelerates
+  /// @param d     deceleration at the beginning; negative while the joint accelerates
   /// @param lost  what is to be lost of velocity/dt
   /// @param most  B
   void plan(double d, double lost, double most) noexcept {
@@ -136,52 +134,33 @@ class StoppingMotion {
     const double peak = std::sqrt(std::max(0.0, step_ * lost + d * (d + step_) / 2));
     double n = std::max(fewest, down((std::min(peak, most) - d) / step_));
     for (int k = 0; k < 2 && fits(n + 1); ++k) ++n;
-    while (n > fewest && !fits(n)) --n;
-    if (!fits(n)) n = fewest - 1;  // not even the first level beyond 0
-    n = std::max(0.0, n);
+    for (int k = 0; k < 2 && n > fewest && !fits(n); ++k) --n;
+    if (n == fewest && !fits(n)) n = std::max(0.0, fewest - 1);  // the first is too much already
     const double level = d + n * step_, left = lost - taken(n);
     add(n, step_);
-    const double higher = std::min(level_for(std::max(0.0, left)), most);
-    if (higher > level) {
-      add(1, higher - level);
-      stay(higher, left - higher);
-    } else {
-      stay(level, left);
-    }
+    const double next = std::min(level_for(left), most);
+    add(1, next - level);
+    stay(next, left - next);
   }
 
-  /// The level from which one cycle there and the way back lose as much as
-  /// said.
+  /// The level from which one cycle there and the way back lose as much as said. At m s it is
+  /// s m (m + 1)/2, and between those it grows in proportion.
   [[nodiscard]] double level_for(double lost) const noexcept {
-    // At m s it is s m (m + 1)/2.
-    const double m = down((std::sqrt(1 + 8 * std::max(0.0, lost) / step_) - 1) / 2);
+    if (!(lost > 0)) return 0;
+    const double m = down((std::sqrt(1 + 8 * lost / step_) - 1) / 2);
     return (lost + step_ * m * (m + 1) / 2) / (m + 1);
   }
 
-  /// Stays at a level for as long as there is more to lose than on the way
-  /// back, and goes that way.
+  /// Stays at a level for as long as more is to be lost than on the way back, and goes that way.
   void stay(double level, double lost) noexcept {
-    double extra = std::max(0.0, lost - way_back(level));
-    if (level > 0) {
-      const double n = down(extra / level);
-      add(n, 0);
-      extra = std::max(0.0, extra - n * level);
-    }
-    if (extra <= 1e-9 * std::min(level, step_)) extra = 0;  // rounding
-    const double m = steps_back(level);
-    const double before = std::clamp(down((level - extra) / step_), 0.0, m);
-    const double last = level - m * step_;
-    add(before, -step_);
-    const double here = level - before * step_;
-    if (extra > 0) add(1, extra - here);
-    const double next = extra > 0 ? extra : here;
-    if (before < m) {
-      add(1, here - step_ - next);
-      add(m - before - 1, -step_);
-      add(1, -last);
-    } else {
-      add(1, -next);
-    }
+    const double n = level > 0 ? down((lost - way_back(level)) / level) : 0;
+    add(n, 0);
+    const double next = level_for(lost - n * level);
+    add(1, next - level);
+    if (!(next > 0)) return;
+    const double m = steps_back(next);
+    add(m, -step_);
+    add(1, m * step_ - next);
   }
 
   /// @param change  of the deceleration, in each cycle
@@ -223,7 +202,7 @@ class StoppingMotion {
   double step_ = 1;    ///< s [rad/s^2 or m/s^2]
   double side_ = 1;    ///< of the velocity that is to be lost
   CommandMotion motion_{};
-  std::array<Stretch, 8> stretches_{};
+  std::array<Stretch, 6> stretches_{};
   std::size_t current_ = 0;
   std::size_t count_ = 0;
 };
