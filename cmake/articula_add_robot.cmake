@@ -15,7 +15,7 @@
 #                     limits with a warning. Joints that mimic one of them are held, too
 #   GRAVITY           acceleration of free fall in the root link's frame, 0 0 -9.81 [m/s^2] if not given
 #   RIGHT_ANGLE_TOLERANCE  how far from 0, 1 and -1 the elements of rotations may be that dynamics
-#                     takes for those of right angles written with few digits, 1e-6 if not given; 0
+#                     takes for those of right angles written with few digits, 1e-7 if not given; 0
 #                     takes every angle as it is written, 0.1 is the largest
 #   ALLOW_UNPHYSICAL  accept inertias that no real body has, with a warning for each
 #

@@ -158,11 +158,25 @@ TEST_CASE("Right angles written with few digits are recognised within the tolera
     return canonical_form(arm, tolerance...).mechanism.bodies[0].placement.rotation;
   };
   CHECK(rotation(1.5707963) == quarter_turn);
-  CHECK(rotation(1.570796) == quarter_turn);
-  CHECK_FALSE(rotation(1.5708) == quarter_turn);
+  CHECK_FALSE(rotation(1.570796) == quarter_turn);
+  CHECK(rotation(1.570796, 1e-6) == quarter_turn);
   CHECK(rotation(1.5708, 1e-5) == quarter_turn);
   CHECK(rotation(1.5707963, 0.0) == rotation_from_rpy({1.5707963, 0, 0}));
   CHECK(rotation(0.3).rows[1].y == Approx(std::cos(0.3)).epsilon(1e-15));
+}
+
+TEST_CASE("An angle beyond the tolerance is not taken for a right one in part") {
+  // Turned on, as by a joint that is locked, one small element is within the tolerance, another is not.
+  const Matrix3<double> turned = rotation_from_rpy({1.5708, 0, 0}) * rotation_from_rpy({0, 0, 0.2});
+  REQUIRE(std::abs(turned.rows[1].x) < 1e-6);
+  REQUIRE(std::abs(turned.rows[1].y) > 1e-6);
+  Mechanism<1> arm;
+  arm.bodies[0].placement.rotation = turned;
+  const Matrix3<double> is = canonical_form(arm, 1e-6).mechanism.bodies[0].placement.rotation;
+  for (int k = 0; k < 3; ++k) {
+    const Vector3<double> off = is.column(k) - turned.column(k);
+    CHECK(std::sqrt(dot(off, off)) < 1e-15);  // rounding
+  }
 }
 
 TEST_CASE("The canonical form can be had at compile time") {

@@ -116,17 +116,33 @@ TEST_CASE("what is said of the robot names the robot") {
   CHECK_THROWS_WITH(read_urdf(UrdfSource(file)), Contains("robot 'base': no joint moves"));
 }
 
-TEST_CASE("mimics that leave a joint no room are reported") {
-  const auto finger = [](const std::string& name, const std::string& link,
-                         const std::string& mimic) {
+TEST_CASE("limits of a mimic that contradict what it mimics do not count, and that is told") {
+  const auto finger = [](const std::string& name, const std::string& link, double lower,
+                         double upper, const std::string& mimic) {
     return joint(name, "prismatic", "base", link,
-                 "<limit lower=\"0\" upper=\"0.04\" effort=\"1\" velocity=\"1\"/>" + mimic);
+                 "<limit lower=\"" + std::to_string(lower) + "\" upper=\"" + std::to_string(upper) +
+                     "\" effort=\"1\" velocity=\"1\"/>" + mimic);
   };
-  const UrdfDescription description = read_urdf(
-      UrdfSource(robot("<link name=\"base\"/>" + solid("a") + solid("b") + finger("left", "a", "") +
-                       finger("right", "b", "<mimic joint=\"left\" multiplier=\"-1\"/>"))));
-  REQUIRE(description.notices.size() == 1);
-  CHECK_THAT(description.notices[0], Contains("joint 'left'") && Contains("mimic"));
+  const auto read = [&](const std::string& others) {
+    return read_urdf(UrdfSource(robot("<link name=\"base\"/>" + solid("a") + solid("b") +
+                                      solid("c") + finger("left", "a", 0, 0.5, "") + others)));
+  };
+  const std::string minus = "<mimic joint=\"left\" multiplier=\"-1\"/>";
+  const std::string weld = joint("weld", "fixed", "base", "c");
+  const UrdfDescription opposite = read(finger("right", "b", 0, 0.5, minus) + weld);
+  CHECK(opposite.notices == std::vector<std::string>{
+                                "joint 'right': its limits, 0 .. 0.5, would leave 'left', which it "
+                                "mimics -1 times, no room to move, so they do not count"});
+  const JointLimits limits = model_of_urdf<1, 2>(opposite).joints[0].limits;
+  CHECK(limits.lower == 0);
+  CHECK(limits.upper == 0.5);
+  // Limits that only narrow it do count; and so do those that leave no room together.
+  CHECK(read(finger("right", "b", -0.25, 0, minus) + weld).notices.empty());
+  const UrdfDescription both =
+      read(finger("up", "b", 0, 0.25, "<mimic joint=\"left\"/>") +
+           finger("down", "c", -0.5, -0.25, "<mimic joint=\"left\" multiplier=\"-1\"/>"));
+  REQUIRE(both.notices.size() == 1);
+  CHECK_THAT(both.notices[0], Contains("joint 'left'") && Contains("mimic it together"));
 }
 
 TEST_CASE("document types and processing instructions are passed over") {

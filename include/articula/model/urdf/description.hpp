@@ -6,6 +6,7 @@
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
 #include "articula/model/urdf/leader.hpp"
+#include "articula/model/urdf/mimic_limits.hpp"
 #include "articula/model/urdf/notices.hpp"
 #include "articula/model/urdf/options.hpp"
 #include "articula/model/validation.hpp"
@@ -60,6 +61,7 @@ class UrdfReader {
     select();
     lock();
     for (const urdf::Joint* joint : selected_) add(*joint);
+    mend_mimic_limits(result_.joints, notices_);
     check();
     notices_.add_robot(result_.links, result_.joints);
     result_.notices = notices_.take();

@@ -44,6 +44,14 @@ class UrdfNotices {
     add_names();
   }
 
+  /// A mimic whose limits do not count.
+  void add_contradiction(const Joint& joint) {
+    add(joint, "its limits, " + range_text(joint.limits) + ", would leave '" +
+                   std::string(joint.mimic.joint.view()) + "', which it mimics " +
+                   rounded_text(joint.mimic.multiplier) +
+                   " times, no room to move, so they do not count");
+  }
+
  private:
   void add(const std::string& text) { notices_.push_back(text); }
   void add(const Joint& joint, const std::string& text) {
@@ -69,8 +77,9 @@ class UrdfNotices {
     if (joint.mimic.joint.empty()) {
       const JointLimits limits = properties_of(joints, joint).limits;
       if (limits.lower == limits.upper && joint.limits.lower != joint.limits.upper) {
-        add(joint, "those that mimic it leave it no room to move, lower and upper limit are " +
-                       rounded_text(limits.lower));
+        add(joint,
+            "those that mimic it together leave it no room to move, lower and upper limit are " +
+                rounded_text(limits.lower));
       }
     }
     const auto initial = document_.initial_values.find(name);
