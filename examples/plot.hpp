@@ -67,7 +67,7 @@ class Plot {
            << " font 'Helvetica,15' background rgb 'white'\n"
            << "set output '" << name_ << ".svg'\n"
            << "set datafile separator ','\nset grid\nset offsets 0, 0, graph 0.05, graph 0.05\n"
-           << "set lmargin 10\nset rmargin 30\nset key outside right top\nset multiplot layout "
+           << "set lmargin 10\nset key outside center top horizontal\nset multiplot layout "
            << units.size() << ",1\n";
     for (std::size_t u = 0; u < units.size(); ++u) {
       if (u + 1 == units.size()) script << "set xlabel 'time [s]'\n";
