@@ -346,6 +346,8 @@ TEST_CASE("decimal commas in the matrices of computed torque are told") {
     CHECK(kp(matrix) == "none");
   }
   CHECK_THAT(kp("[1, 0,\n     0, 5]"), Contains("none"));
+  CHECK(kp("[1,0,\n     0,5]") == "none");  // a line for each row
+  CHECK(kp("[1, 1]\nqos_overrides: {}\nstart_type_description_service: true") == "none");
   const std::string one = "joints: [pivot]\n";
   const auto spinner = [&](const std::string& list) {
     return complaint_of([&] {

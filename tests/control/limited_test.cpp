@@ -34,8 +34,11 @@ CommandLimits<1> random_limits(support::Random& random) {
   if (!random.one_in(4)) limits.velocity[0] = random.number(0.1, 5);
   if (!random.one_in(4)) {
     limits.acceleration[0] = std::pow(10, random.number(0, 3));
-    if (random.one_in(3)) limits.deceleration[0] = limits.acceleration[0] * random.number(0.3, 1);
-    if (random.one_in(2)) limits.jerk[0] = limits.acceleration[0] * random.number(3, 300);
+    if (random.one_in(3)) {
+      limits.deceleration[0] = limits.acceleration[0] * std::pow(10, random.number(-2, 0));
+    }
+    if (random.one_in(2))
+      limits.jerk[0] = limits.acceleration[0] * std::pow(10, random.number(0.5, 4.5));
   }
   return limits;
 }
@@ -175,7 +178,7 @@ TEST_CASE("velocity commands keep all limits of a drive that follows") {
       CAPTURE(cycle);
       const double given = controller.update(at(q, v), to_velocity(wishes.next()), dt).velocity[0];
       const double a_new = (given - v) / dt;
-      REQUIRE(std::abs(given) <= limits.velocity[0]);
+      REQUIRE(std::abs(given) <= limits.velocity[0] * (1 + 1e-15));  // rounding
       REQUIRE(std::abs(a_new) <= limits.acceleration[0] * (1 + 1e-8));
       REQUIRE(std::abs(a_new - a) <= limits.jerk[0] * dt * (1 + 1e-6) + 1e-9);
       q += given * dt;
@@ -246,6 +249,9 @@ TEST_CASE("a constant position is approached without crossing it, and then held 
           k == 0 ? 0.5 - 0.4 * leg
                  : random.number(std::max(limits.lower[0], -2.0), std::min(limits.upper[0], 2.0));
       CAPTURE(leg, goal, watch.q);
+      // What is so near cannot be told from the beginning of a motion that is to be followed.
+      const double near = is_finite(limits.jerk[0]) ? 2.2 * limits.jerk[0] * dt * dt * dt : 0;
+      if (std::abs(goal - watch.q) < near) continue;
       const double side = goal > watch.q ? 1 : -1;
       double beyond = 0;
       int cycles = 0;

@@ -25,6 +25,8 @@ Case random_case(support::Random& random) {
   const double speed = 2000 * c.deceleration * c.period;
   c.from = {random.number(-1, 1), random.number(-1, 1) * std::min(speed, 10.0),
             random.one_in(5) ? 0 : random.number(-1, 1) * c.deceleration};
+  const bool takes_long = c.jerk * c.period < 0.01 * c.deceleration;
+  if (random.one_in(4) && !takes_long) c.from.acceleration *= 5;  // it may brake harder already
   return c;
 }
 
@@ -71,7 +73,8 @@ TEST_CASE(
       // Up to rounding: of sums of thousands of cycles, and what is not worth a cycle (1e-9 of a step).
       const double a = c.deceleration;
       kept =
-          kept && std::abs(m.acceleration) <= a * (1 + 1e-6) &&
+          kept &&
+          std::abs(m.acceleration) <= std::max(a, std::abs(last.acceleration)) * (1 + 1e-6) &&
           std::abs(m.acceleration - last.acceleration) <=
               c.jerk * c.period * (1 + 1e-6) + 1e-9 * a &&
           std::abs(m.velocity - last.velocity - m.acceleration * c.period) <= 1e-7 * a * c.period;
@@ -108,6 +111,27 @@ TEST_CASE("a stop is about as fast as in continuous time") {
     // Three stretches of whole cycles.
     CHECK(cycles * dt <= time + 3 * dt);
     CHECK(stop.motion().position <= v * time / 2 + dt * v);
+  }
+}
+
+TEST_CASE("who brakes too hard takes that back step by step, and then brakes as hard as may be") {
+  constexpr double dt = 1e-3;
+  for (const double jerk : {200.0, 3e3, 4.9e3, 9e3, 1e5, 1e30}) {
+    CAPTURE(jerk);
+    StoppingMotion stop({0, 2, -10}, 2, jerk, dt);
+    const double steps = std::ceil(8 / (jerk * dt));
+    for (int cycle = 1; cycle <= steps; ++cycle) {
+      const double before = stop.motion().acceleration;
+      stop.advance();
+      CHECK(stop.motion().acceleration <= -2 + 1e-9);
+      CHECK(stop.motion().acceleration - before <= jerk * dt * (1 + 1e-9));
+    }
+    CHECK(stop.motion().acceleration == Approx(-2));
+    // The way back takes B^2/(2 J) of the velocity, and what is left by whole cycles less than B dt.
+    while (stop.motion().velocity > 2 * 2 / (2 * jerk) + 2 * 2 * dt) {
+      stop.advance();
+      REQUIRE(stop.motion().acceleration == Approx(-2));
+    }
   }
 }
 

@@ -298,6 +298,9 @@ TEST_CASE("elements given twice that say the same, or do not count, are reported
         Notices{second + "safety_controller>, which does not count"});
   CHECK(notices("<dynamics damping=\"1\"/><dynamics damping=\"2\"/><gazebo/><gazebo/>", "fixed") ==
         Notices{second + "dynamics>, which does not count"});
+  // What is left out says what it is by default.
+  CHECK(notices("<origin rpy=\"0 0 0\"/><origin xyz=\"0 0 0\"/>") ==
+        Notices{second + "origin>, which says the same as the first"});
   CHECK_THROWS_WITH(notices("<origin xyz=\"1 0 0\"/><origin/>", "fixed"),
                     Contains("joint 'end': a second <origin>, which says something else"));
   std::string twice = solid("rod");

@@ -22,13 +22,14 @@ namespace articula::detail {
          digits.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// True if a list is written in pairs, with no blank in a pair and some between pairs: [1,5, 2,5].
+/// True if a list is written in pairs, with no blank in a pair and some between pairs: [1,5, 2,5]. (A
+/// matrix has a line for each row.)
 [[nodiscard]] inline bool is_in_pairs(const std::vector<ConfigNode>& items) {
   for (std::size_t k = 1; k < items.size(); ++k) {
     const int end = items[k - 1].mark.column + static_cast<int>(items[k - 1].text.size());
     const int gap = items[k].mark.column - end;  // 1: the comma alone
     const bool in_line = items[k].mark.line == items[k - 1].mark.line;
-    if (k % 2 == 1 ? !in_line || gap != 1 : in_line && gap == 1) return false;
+    if (!in_line || (k % 2 == 1 ? gap != 1 : gap == 1)) return false;
   }
   return true;
 }

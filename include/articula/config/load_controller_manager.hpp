@@ -54,6 +54,8 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
   constexpr std::string_view runner = "see RunOptions";
   take_unused(map, {{"use_sim_time", truth, "the loop's clock is a type in the program"},
                     {"robot_description", word, "nothing is published or received here"},
+                    {"qos_overrides", any_map, "nothing is published or received here"},
+                    {"start_type_description_service", truth, "there are no services"},
                     {"enforce_command_limits", truth, always},
                     {"handle_exceptions", truth, always},
                     {"shutdown_on_initial_state_failure", truth, always},

@@ -63,6 +63,8 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
                     {"action_monitor_rate", number, topics},
                     {"robot_description", word, topics},
                     {"use_sim_time", truth, topics},
+                    {"qos_overrides", any_map, topics},
+                    {"start_type_description_service", truth, topics},
                     {"update_rate", number, loop},
                     {"is_async", truth, loop},
                     {"async_parameters", any_map, loop},

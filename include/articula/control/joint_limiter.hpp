@@ -50,7 +50,9 @@ class JointLimiter {
     stop_ = stop_from(motion);
   }
 
-  /// Goes on with cycles of another length [s]. Real-time: yes.
+  /// Goes on with cycles of another length [s]. What differences make of the change itself, and of a
+  /// jerk that is large for the new length, may pass the limits of acceleration and jerk for some cycles.
+  /// Real-time: yes.
   void set_period(double period) noexcept { start(motion(), period); }
 
   /// Where the joint is now. Real-time: yes.

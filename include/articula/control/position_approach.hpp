@@ -19,8 +19,8 @@ namespace articula {
 /// A position that moves within the limits of velocity and acceleration is met in its own motion:
 /// what must come to rest is the difference, as if the position asked for went on with the velocity and
 /// acceleration of its last three values. (Jerks are not asked about: of rounded numbers they are huge.)
-/// Where the joint is on it already it follows, whatever comes next. (A step of less than about J dt^3
-/// cannot be told from that.) One that jumps is taken for one that rests, and so is one that changes
+/// Where the joint is on it already it follows, whatever comes next. (A step of less than some 2 J dt^3
+/// cannot be told from that, and is crossed by as much at most.) One that jumps is taken for one that rests, and so is one that changes
 /// every other cycle only, which the joint therefore follows late by its way to brake. A crossing that
 /// the limits enforce, since what is asked for comes towards the joint or turns round, is kept small.
 class PositionApproach {

@@ -119,28 +119,30 @@ class StoppingMotion {
   /// @param lost  what is to be lost of velocity/dt
   /// @param most  B
   void plan(double d, double lost, double most) noexcept {
-    if (d > most * (1 + 1e-6)) {  // down to where it may stay
-      const double n = up((d - most) / step_);
-      const double level = std::max(0.0, d - n * step_);
-      add(n, (level - d) / n);
-      return stay(level, lost - n * d - (level - d) * (n + 1) / 2);
-    }
-    const double fewest = d < 0 ? up(-d / step_) : 0;
-    const auto taken = [&](double n) { return n * d + step_ * n * (n + 1) / 2; };
+    const bool is_too_high = d > most;
+    const double n =
+        is_too_high ? std::max(0.0, up((d - most) / step_) - 1) : steps_up(d, lost, most);
+    const double step = is_too_high ? -step_ : step_;
+    add(n, step);
+    const double level = d + n * step, left = lost - (n * d + step * n * (n + 1) / 2);
+    const double next = std::min(level_for(left), most);
+    add(1, next - level);
+    stay(next, left - next);
+  }
+
+  /// How many whole steps the deceleration grows at first.
+  [[nodiscard]] double steps_up(double d, double lost, double most) const noexcept {
     const auto fits = [&](double n) {
       const double level = d + n * step_;
-      return level <= most && taken(n) + way_back(level) <= lost;
+      return level <= most && n * d + step_ * n * (n + 1) / 2 + way_back(level) <= lost;
     };
+    const double fewest = d < 0 ? up(-d / step_) : 0;
     const double peak = std::sqrt(std::max(0.0, step_ * lost + d * (d + step_) / 2));
     double n = std::max(fewest, down((std::min(peak, most) - d) / step_));
     for (int k = 0; k < 2 && fits(n + 1); ++k) ++n;
     for (int k = 0; k < 2 && n > fewest && !fits(n); ++k) --n;
-    if (n == fewest && !fits(n)) n = std::max(0.0, fewest - 1);  // the first is too much already
-    const double level = d + n * step_, left = lost - taken(n);
-    add(n, step_);
-    const double next = std::min(level_for(left), most);
-    add(1, next - level);
-    stay(next, left - next);
+    // The first level beyond 0 may be too much already.
+    return n == fewest && !fits(n) ? std::max(0.0, fewest - 1) : n;
   }
 
   /// The level from which one cycle there and the way back lose as much as said. At m s it is

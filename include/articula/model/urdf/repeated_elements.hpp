@@ -33,23 +33,30 @@ namespace articula::detail {
   }
 }
 
-/// True if two elements have the same attributes and child elements, as far as URDF knows them.
-[[nodiscard]] inline bool say_the_same(const XmlElement& a, const XmlElement& b) {
-  const KnownWords* known = known_words(a.Value());
+/// What an attribute says, also where it or its element is left out.
+[[nodiscard]] inline std::string_view said_by(const XmlElement* element, const std::string& name) {
+  const char* text = element ? element->Attribute(name.c_str()) : nullptr;
+  if (text) return text;
+  if (name == "xyz" || name == "rpy") return "0 0 0";
+  if (name == "multiplier") return "1";
+  const bool is_zero = name == "offset" || name == "lower" || name == "upper" ||
+                       name == "damping" || name == "friction";
+  return is_zero ? "0" : "";
+}
+
+/// True if two elements say the same, as far as URDF knows their words; nullptr is one that is left out.
+[[nodiscard]] inline bool say_the_same(const XmlElement* a, const XmlElement* b) {
+  const KnownWords* known = known_words((a ? a : b)->Value());
   if (!known) return true;  // none of those about mechanics
   for (const std::string_view word : known->attributes) {
     const std::string name(word);
-    const char* left = a.Attribute(name.c_str());
-    const char* right = b.Attribute(name.c_str());
-    if ((left != nullptr) != (right != nullptr)) return false;
-    if (left && !say_the_same(std::string_view(left), std::string_view(right))) return false;
+    if (!say_the_same(said_by(a, name), said_by(b, name))) return false;
   }
   for (const std::string_view word : known->children) {
     const std::string name(word);
-    const XmlElement* left = a.FirstChildElement(name.c_str());
-    const XmlElement* right = b.FirstChildElement(name.c_str());
-    if ((left != nullptr) != (right != nullptr)) return false;
-    if (left && !say_the_same(*left, *right)) return false;
+    const XmlElement* left = a ? a->FirstChildElement(name.c_str()) : nullptr;
+    const XmlElement* right = b ? b->FirstChildElement(name.c_str()) : nullptr;
+    if ((left || right) && !say_the_same(left, right)) return false;
   }
   return true;
 }
@@ -93,7 +100,7 @@ class RepeatedElements {
         if (name == "inertial") look_at(child);
         return;
       }
-      const bool is_same = say_the_same(*first, child);
+      const bool is_same = say_the_same(first, &child);
       const std::string what = owner_ + "a second <" + std::string(name) + ">, which ";
       if (!is_same && counts(element, name)) {
         throw UrdfError(file_, what + "says something else than the first");
