@@ -248,7 +248,7 @@ TEST_CASE("Elements given twice that say different things") {
   for (const auto& [name, inside] :
        {std::pair<std::string, std::string>{"limit",
                                             limit + "<limit effort=\"2\" velocity=\"1\"/>"},
-        {"limit", limit + "<limit effort=\"1\" velocity=\"1\" lower=\"0\"/>"},
+        {"limit", limit + "<limit effort=\"1\" velocity=\"1\" lower=\"-1\"/>"},
         {"mimic", "<mimic joint=\"a\"/><mimic joint=\"b\"/>"},
         {"axis", "<axis xyz=\"0 0 1\"/><axis xyz=\"0 1 0\"/>"},
         {"axis", "<axis xyz=\"0 0 1\"/><axis/>"},
