@@ -444,6 +444,32 @@ TEST_CASE("multi-mode: the drives' springs keep the limit of the total") {
   }
 }
 
+TEST_CASE("multi-mode: what the drives' springs and dampers do within a cycle is foreseen") {
+  const Model<1> robot = support::slider();  // 2 kg
+  CommandLimits<1> limits;
+  limits.velocity[0] = 0.4;
+  limits.acceleration[0] = 1;
+  limits.effort[0] = 100;
+  const ImpedanceGains gains{.stiffness = 5000, .damping = 500};
+  LimitedImpedance<Model<1>> controller(limits, DriveImpedance<Model<1>>({gains}, robot), robot);
+  Simulator<Model<1>> simulator(robot);
+  JointState<1> state;
+  JointReference<1> reference;
+  reference.position[0] = 0.5;
+  static_cast<void>(simulator.read(state));
+  controller.start(state);
+  double hardest = 0, last = 0;
+  for (int k = 0; k < 3000; ++k) {
+    static_cast<void>(simulator.write(controller.update(state, reference, dt)));
+    static_cast<void>(simulator.read(state));
+    hardest = std::max(hardest, std::abs(state.velocity[0] - last) / dt);
+    last = state.velocity[0];
+  }
+  CHECK(state.position[0] == Approx(0.5).epsilon(1e-3));
+  // The acceleration is not quite constant within a cycle: (D dt/m)^2/12 is 0.005; it would be 0.13 more.
+  CHECK(hardest <= 1.02);
+}
+
 TEST_CASE("multi-mode: what is within the limits passes, what is no number brakes") {
   using R = support::TiltedQ2d;
   CommandLimits<2> limits = command_limits(R());

@@ -88,9 +88,13 @@ class EffortLimiter {
   /// @param state   measured joints
   /// @param asked   the wish [N m or N], N x 1
   /// @param report  what changed it is added here
+  /// @param stiffness, damping  K and D of springs and dampers in the drives, which change the effort
+  ///                within the cycle [N m/rad or N/m; N m s/rad or N s/m], N x 1
   /// Real-time: yes. O(N^3), O(N^4) at most where many joints meet their limits.
   [[nodiscard]] Vector limit(const JointState<joint_count>& state, const Vector& asked,
-                             LimitReport<joint_count>& report) noexcept {
+                             LimitReport<joint_count>& report,
+                             const Vector& stiffness = Vector::Zero(),
+                             const Vector& damping = Vector::Zero()) noexcept {
     if (!is_finite(state)) {
       for (JointLimitReport& joint : report) joint.non_finite = true;
       effort_.setZero();
@@ -109,8 +113,10 @@ class EffortLimiter {
     const Vector& q = state.position;
     const Vector& v = state.velocity;
     Matrix m = mass_matrix(robot_, q);
-    m.diagonal() += damping_ * period_ / 2;
-    const Vector bias = nonlinear_effects(robot_, q, v) - friction_effort(robot_, v);
+    // Means over a cycle of constant acceleration a: v grows by a dt/2, q by v dt/2 + a dt^2/6.
+    m.diagonal() += (damping_ + damping) * period_ / 2 + stiffness * period_ * period_ / 6;
+    const Vector bias = nonlinear_effects(robot_, q, v) - friction_effort(robot_, v) +
+                        stiffness.cwiseProduct(v) * period_ / 2;
     for (int j = 0; j < joint_count; ++j) {
       // With a constant acceleration over the cycle, q + v dt/2 and v are motions in differences.
       limiters_[index(j)].measured(

@@ -249,7 +249,9 @@ class Limited {
     given.stiffness = given.stiffness.cwiseMax(0);
     given.damping = given.damping.cwiseMax(0);
     const Vector total = spring_pull(given, state) + asked.effort;
-    const Vector effort = limit_effort(state, total);
+    const Vector effort =
+        started_ ? limiter_.limit(state, total, report_, given.stiffness, given.damping)
+                 : Vector(Vector::Zero());
     for (int j = 0; j < joint_count; ++j) {
       JointLimitReport& report = report_[index(j)];
       report.position = report.position || given.position[j] != asked.position[j];
