@@ -41,7 +41,7 @@ TEST_CASE("at rest nothing happens") {
   CHECK(stop.positions().highest == 3);
 }
 
-TEST_CASE("without a limit of jerk the deceleration is constant, over whole cycles") {
+TEST_CASE("without a limit of jerk the deceleration is constant, but for the last cycle's rest") {
   StoppingMotion stop({0, 1, 0}, 1, 1e30, 0.3);  // 3.3 cycles, so three and one with less
   const double expected[] = {0.7, 0.4, 0.1, 0};
   for (const double velocity : expected) {

@@ -25,8 +25,8 @@ struct ValueRange {
 };
 
 /// A way from any motion to rest within limits B of acceleration and J of jerk, about as fast as whole
-/// cycles allow: the deceleration, at first its present value d, grows in steps of
-/// s = J dt to a level p <= B, stays there, and goes in such steps back to 0.
+/// cycles allow: the deceleration, at first its present value d, grows in steps of s = J dt to a level
+/// p <= B, stays there, and goes in such steps back to 0. A larger d first goes back to B.
 ///
 /// n steps lead to p = d + n s and take n d + s n (n + 1)/2 of what is to be lost, v/dt. The way back
 /// takes (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which that
@@ -85,8 +85,7 @@ class StoppingMotion {
     });
   }
 
-  /// All velocities on the way, the present one included [rad/s or m/s].
-  /// Real-time: yes.
+  /// All velocities on the way, the present one included [rad/s or m/s]. Real-time: yes.
   [[nodiscard]] ValueRange velocities() const noexcept {
     return range(&CommandMotion::velocity, [](const CommandMotion& m, double c) {
       return ValueRange{-m.acceleration / c, -m.acceleration / c};  // where a_i changes its sign
@@ -104,8 +103,7 @@ class StoppingMotion {
   [[nodiscard]] static double up(double count) noexcept { return std::ceil(count - 1e-9); }
   [[nodiscard]] static double down(double count) noexcept { return std::floor(count + 1e-9); }
 
-  /// How many whole steps lie between a level and 0, which the last step
-  /// reaches.
+  /// How many whole steps lie between a level and 0, which the last step reaches.
   [[nodiscard]] double steps_back(double level) const noexcept {
     return std::max(0.0, up(level / step_) - 1);
   }
