@@ -149,3 +149,24 @@ TEST_CASE("Sines and cosines that can be taken together stand together, in pairs
     CHECK(compiled.instructions[i].left == compiled.instructions[i + 1].left);
   }
 }
+
+/// An angle, its sine, a product that the angle does not need, and the sine of a sine.
+struct Late {
+  template <class S>
+  constexpr std::array<S, 4> operator()(const std::array<S, 3>& in) const {
+    using std::sin;
+    const S angle = in[0] + in[1], product = in[1] * in[2], sine = sin(angle);
+    return {angle, sine, sine * product, sin(sine + product)};
+  }
+};
+
+TEST_CASE("Before the angles there is what they need, and nothing else") {
+  constexpr const auto& compiled = program<Late, 3>;
+  STATIC_REQUIRE(compiled.angles_begin == 3);  // two inputs and their sum
+  STATIC_REQUIRE(compiled.angles_end == 5);
+  const std::array<double, 3> in{0.5, -1.25, 0.75};
+  const auto result = run_program<compiled>(in), expected = Late{}(in);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    CHECK(result[i] == Approx(expected[i]).epsilon(1e-15));
+  }
+}

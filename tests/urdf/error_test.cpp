@@ -176,6 +176,20 @@ TEST_CASE("Inertias that cannot be") {
   CHECK(refusal(inertial("1", "1", "-1.5")) ==
         "URDF: link 'rod': the inertia is not positive definite (mass 1 kg, principal moments of "
         "inertia -0.5, 1, 2.5 kg m^2); allow_unphysical accepts it");
+  const std::string bad =
+      "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
+      "izz='2.5'/></inertial>";
+  const auto link = [&](const char* name) {
+    return "<link name='" + std::string(name) + "'>" + bad + "</link>";
+  };
+  CHECK(
+      refusal(robot(base + link("rod") + link("tool") + link("flag") +
+                    "<joint name='pivot' type='continuous'><parent link='base'/><child link='rod'/>"
+                    "<axis xyz='0 0 1'/></joint><joint name='weld' type='fixed'><parent "
+                    "link='rod'/><child link='tool'/></joint><joint name='weld2' "
+                    "type='fixed'><parent link='rod'/><child link='flag'/></joint>")) ==
+      "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
+      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical accepts it, as it does 'tool', 'flag'");
   CHECK(refusal(inertial("-1"), {.allow_unphysical = true}) ==
         "URDF: link 'rod': the mass is negative (-1 kg)");
   CHECK(refusal(pendulum("<link name='rod'/>")) ==

@@ -207,6 +207,23 @@ TEST_CASE("a mimic of a mimic that is left out follows the joint at the end of t
                              "lock 'master' where it is to be"));
 }
 
+TEST_CASE("limits of many turns are reported") {
+  const auto notices = [](const char* type, const char* lower, const char* upper) {
+    const std::string limit = "<limit lower=\"" + std::string(lower) + "\" upper=\"" + upper +
+                              "\" effort=\"9\" velocity=\"2\"/>";
+    return read_urdf(UrdfSource(robot("<link name=\"base\"/>" + solid("a") +
+                                      joint("elbow", type, "base", "a", limit))))
+        .notices;
+  };
+  using Notices = std::vector<std::string>;
+  CHECK(notices("revolute", "-1", "170") ==
+        Notices{"joint 'elbow': its limits, -1 .. 170 rad, reach farther than four turns; are they "
+                "degrees?"});
+  CHECK(notices("revolute", "-25.2", "1").size() == 1);
+  CHECK(notices("revolute", "-25.1", "25.1").empty());
+  CHECK(notices("prismatic", "-1", "170").empty());
+}
+
 TEST_CASE("a place beyond the limits is reported") {
   const std::string limit = "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"2\"/>";
   const std::string file = robot(

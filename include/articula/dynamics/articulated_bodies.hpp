@@ -56,8 +56,8 @@ template <class S>
 [[nodiscard]] constexpr ArticulatedInertia<S> in_parent(const JointPlacement<S>& joint,
                                                         const ArticulatedInertia<S>& own) noexcept {
   const Vector3<S>& t = joint.translation;
-  const Symmetric3<S> mass = rotated(joint.rotation, joint.turn(own.mass));
-  const Symmetric3<S> moment = rotated(joint.rotation, joint.turn(own.moment));
+  const Symmetric3<S> mass = joint.to_parent(own.mass);
+  const Symmetric3<S> moment = joint.to_parent(own.moment);
   Matrix3<S> coupling = own.coupling.transposed();  // its rows are columns now
   for (Vector3<S>& column : coupling.rows) column = joint.to_parent(column);
   coupling = coupling.transposed();

@@ -148,6 +148,20 @@ template <class Algorithm, DescribedRobot R>
   }
 }
 
+/// Arrays of N numbers as one.
+template <class Array, std::size_t N, std::size_t Arrays>
+struct OneAfterTheOther {
+  const Array* arrays[Arrays];  // NOLINT
+
+  [[gnu::always_inline]] auto operator[](std::size_t i) const noexcept {
+    return (*arrays[i / N])[i % N];
+  }
+};
+
+/// For std::declval: an algorithm's other inputs, whatever they are to be read from.
+template <class S, int N, class>
+using ArrayOf = JointArray<S, N>;
+
 }  // namespace detail
 
 /// The program that an algorithm becomes for a robot.
@@ -156,23 +170,26 @@ inline constexpr const auto& program = detail::cheapest_program<Algorithm, R>();
 
 /// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
 /// but for rounding.
-/// @param q       joint positions [rad or m]
-/// @param inputs  the algorithm's other inputs
+/// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack; an array, or
+///                what else can be read so, as a pointer to N numbers
+/// @param inputs  the algorithm's other inputs, of the same type
 /// Real-time: yes.
-template <class Algorithm, DescribedRobot R, class S, std::size_t N, class... Inputs>
-[[nodiscard, gnu::always_inline]] inline auto run(const std::array<S, N>& q,
+template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto run(const Input& q,
                                                   const Inputs&... inputs) noexcept {
-  std::array<S, (1 + sizeof...(Inputs)) * N> input;
-  std::size_t next = 0;
-  const auto append = [&](const S& value) __attribute__((always_inline)) { input[next++] = value; };
-  symbolic::for_each_scalar<S>(q, append);
-  (symbolic::for_each_scalar<S>(inputs, append), ...);
+  using S = std::remove_cvref_t<decltype(q[0])>;
+  constexpr int n = detail::ModelOf<R>::joint_count, b = detail::ModelOf<R>::body_count;
+  if constexpr (requires { std::tuple_size<Input>::value; }) {
+    static_assert(std::tuple_size_v<Input> == n, "articula: there are as many numbers as joints");
+  }
+  const detail::OneAfterTheOther<Input, std::size_t{n}, 1 + sizeof...(Inputs)> input{
+      {&q, &inputs...}};
   const auto output = symbolic::run_program<program<Algorithm, R>>(input);
 
-  constexpr int n = static_cast<int>(N), b = detail::ModelOf<R>::body_count;
   decltype(Algorithm::template evaluate<S, n, b>(
-      std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(), inputs...)) result;
-  next = 0;
+      std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(),
+      std::declval<detail::ArrayOf<S, n, Inputs>>()...)) result;
+  std::size_t next = 0;
   symbolic::for_each_scalar<S>(
       result, [&](S & value) __attribute__((always_inline)) { value = output[next++]; });
   return result;

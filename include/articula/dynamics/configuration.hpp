@@ -62,42 +62,64 @@ struct AxialTurn {
   }
 };
 
-/// Where one body stands relative to its parent, and how its mass lies in its frame. Turning by the
-/// joint and turning by the body's fixed placement are kept apart, because a turn about z costs
-/// four multiplications and a general one nine.
+/// Where one body stands relative to its parent, and how its mass lies in its frame. For scalars that
+/// know zeros, turning by the joint and turning by the body's fixed placement are kept apart: a turn
+/// about z costs four multiplications, and a fixed one often none. For numbers they are one matrix.
 template <class S>
 struct JointPlacement {
-  Matrix3<S> rotation;     ///< fixed turn to the parent's frame, R
-  AxialTurn<S> turn;       ///< turn about z that comes before it
+  static constexpr bool turns_are_apart = requires { requires S::simplifies; };
+
+  Matrix3<S> rotation;     ///< turn to the parent's frame: R Rz(q); apart, R
+  AxialTurn<S> turn;       ///< apart, the turn about z that comes before it; else of no meaning
   Vector3<S> translation;  ///< origin of this body in the parent's frame [m], 3 x 1
   MassMoments<S> moments;  ///< of the body, in its frame
 
+  /// Adds the joint's turn to the fixed one, once.
+  constexpr void add_turn(const AxialTurn<S>& joint) noexcept {
+    if constexpr (turns_are_apart) {
+      turn = joint;
+    } else {
+      rotation = turned(joint);
+    }
+  }
   /// Parent's components of a vector given in this body's: R Rz(q) x.
   [[nodiscard]] constexpr Vector3<S> to_parent(const Vector3<S>& x) const noexcept {
-    return rotation * turn(x);
+    if constexpr (turns_are_apart) return rotation * turn(x);
+    return rotation * x;
+  }
+  /// The same for a matrix: R Rz(q) A Rz(q)^T R^T.
+  [[nodiscard]] constexpr Symmetric3<S> to_parent(const Symmetric3<S>& a) const noexcept {
+    if constexpr (turns_are_apart) return rotated(rotation, turn(a));
+    return rotated(rotation, a);
   }
   /// This body's components of a vector given in the parent's: Rz(q)^T R^T x.
   [[nodiscard]] constexpr Vector3<S> from_parent(const Vector3<S>& x) const noexcept {
-    return turn.back(transposed_times(rotation, x));
+    if constexpr (turns_are_apart) return turn.back(transposed_times(rotation, x));
+    return transposed_times(rotation, x);
   }
   /// Adds a mass distribution given in this body's frame to one of the parent: with t the
   /// translation, h the turned first moment and a = h + m t/2, J becomes R J R^T + a t^T + t a^T.
   constexpr void add_to_parent(const MassMoments<S>& own, MassMoments<S>& parent) const noexcept {
-    const MassMoments<S> turned = turn(own);
     const Vector3<S>& t = translation;
-    const Vector3<S> h = rotation * turned.first, half_shift = (S(0.5) * own.mass) * t;
+    const Vector3<S> h = to_parent(own.first), half_shift = (S(0.5) * own.mass) * t;
     const Vector3<S> a = h + half_shift;
     const S xx = a.x * t.x, yy = a.y * t.y, zz = a.z * t.z;
     const Symmetric3<S> shift{xx + xx, a.x * t.y + a.y * t.x, a.x * t.z + a.z * t.x,
                               yy + yy, a.y * t.z + a.z * t.y, zz + zz};
     parent.mass = parent.mass + own.mass;
     parent.first = parent.first + h + (half_shift + half_shift);
-    parent.second = parent.second + shift + rotated(rotation, turned.second);
+    parent.second = parent.second + shift + to_parent(own.second);
   }
   /// The whole turn as a matrix, R Rz(q).
   [[nodiscard]] constexpr Matrix3<S> matrix() const noexcept {
+    if constexpr (turns_are_apart) return turned(turn);
+    return rotation;
+  }
+
+ private:
+  [[nodiscard]] constexpr Matrix3<S> turned(const AxialTurn<S>& joint) const noexcept {
     const Vector3<S> x = rotation.column(0), y = rotation.column(1);
-    const S &s = turn.sine, &c = turn.cosine;
+    const S &s = joint.sine, &c = joint.cosine;
     return Matrix3<S>{{{c * x + s * y, c * y - s * x, rotation.column(2)}}}.transposed();
   }
 };
@@ -179,9 +201,10 @@ template <class S, int N, int B>
   Configuration<S, B> configuration;
   JointArray<AxialTurn<S>, B> joint_turns;
   if (frames == Frames::moving) joint_turns = detail::turns_by(position);
-  JointArray<S, B> angle{};              // by which a body has turned in the frame it is seen in
-  JointArray<AxialTurn<S>, B> own_turn;  // by that angle
-  own_turn.fill({S(0.0), S(1.0)});       // g++ 12 leaves elements of large arrays uninitialised
+  // By which a body has turned in the frame that it is seen in: 0 where that is its own.
+  JointArray<S, B> angle{};
+  JointArray<AxialTurn<S>, B> own_turn;
+  own_turn.fill({S(0.0), S(1.0)});  // g++ 12 leaves elements of large arrays uninitialised
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Body& body = mechanism.bodies[i];
     JointPlacement<S>& joint = configuration[i];
@@ -206,7 +229,7 @@ template <class S, int N, int B>
       own_turn[i] = turn;
       joint.moments = turn(joint.moments);
     } else {
-      joint.turn = turn;
+      joint.add_turn(turn);
       angle[i] = S(0.0);
     }
   }

@@ -9,6 +9,7 @@
 #include "articula/symbolic/pack.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -67,32 +68,48 @@ template <std::size_t N>
 /// Runs an algorithm on a robot at positions q: the one place that knows how. For a described robot
 /// that is the program which the compiler made of `Algorithm::evaluate`; for a model the function
 /// itself is called with the mechanism, the configuration at q and the other inputs as arrays.
-/// @tparam S  double or a pack
-template <class Algorithm, Robot R, class S, std::size_t N, class... Inputs>
-[[nodiscard, gnu::always_inline]] inline auto evaluate_arrays(const R& robot,
-                                                              const std::array<S, N>& q,
-                                                              const Inputs&... inputs) noexcept {
+/// @param inputs  input[i] is a number, or a pack of those of several robots
+template <class Algorithm, Robot R, class Input, class... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto evaluate_numbers(const R& robot, const Input& q,
+                                                               const Inputs&... inputs) noexcept {
   if constexpr (DescribedRobot<R>) {
     return compiled::run<Algorithm, R>(q, inputs...);
   } else {
+    using S = std::remove_cvref_t<decltype(q[0])>;
     constexpr int n = R::joint_count, b = R::body_count;
     const Mechanism<n, b>& mechanism = compiled::mechanism_for<Algorithm>(robot);
-    const auto configuration = configuration_of<S, n, b>(mechanism, q);
-    return Algorithm::template evaluate<S, n, b>(mechanism, configuration, inputs...);
+    const auto array = [](const Input& numbers) __attribute__((always_inline)) {
+      return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+        return JointArray<S, n>{numbers[I]...};
+      }
+      (std::make_index_sequence<std::size_t{n}>{});
+    };
+    const auto configuration = configuration_of<S, n, b>(mechanism, array(q));
+    return Algorithm::template evaluate<S, n, b>(mechanism, configuration, array(inputs)...);
   }
 }
 
 /// The same for Eigen's vectors.
-template <class Algorithm, Robot R, class... Inputs>
+template <class Algorithm, Robot R, std::same_as<JointVector<joint_count<R>>>... Inputs>
 [[nodiscard, gnu::always_inline]] inline auto evaluate(const R& robot,
                                                        const JointVector<joint_count<R>>& q,
                                                        const Inputs&... inputs) noexcept {
-  return evaluate_arrays<Algorithm>(robot, to_array(q), to_array(inputs)...);
+  return evaluate_numbers<Algorithm>(robot, q.data(), inputs.data()...);
 }
+
+/// Numbers of as many robots as a pack has lanes, out of rows of K.
+template <int Lanes, int K>
+struct Columns {
+  const double* first;
+
+  [[gnu::always_inline]] symbolic::Pack<Lanes> operator[](std::size_t row) const noexcept {
+    return symbolic::Pack<Lanes>::load(first + row * K);
+  }
+};
 
 /// The same for K robots at once, as many as fit into a register at a time. If K is no multiple of
 /// that, the last ones are those that end at column K: some are computed twice.
-template <class Algorithm, Robot R, int K, class... Inputs>
+template <class Algorithm, Robot R, int K, std::same_as<JointVectors<joint_count<R>, K>>... Inputs>
 [[nodiscard]] JointVectors<joint_count<R>, K> evaluate_columns(
     const R& robot, const JointVectors<joint_count<R>, K>& q, const Inputs&... inputs) noexcept {
   static_assert(K >= 2, "articula: a single robot has a JointVector");
@@ -104,16 +121,13 @@ template <class Algorithm, Robot R, int K, class... Inputs>
   JointVectors<n, K> result;
   for (int column = 0; column < K; column += lanes) {
     const int first = std::min(column, K - lanes);
-    const auto load = [&](const JointVectors<n, K>& vectors) __attribute__((always_inline)) {
-      return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
-        return JointArray<Pack, n>{Pack::load(&vectors.coeffRef(I, first))...};
-      }
-      (std::make_integer_sequence<int, n>{});
+    const auto columns = [&](const JointVectors<n, K>& vectors) __attribute__((always_inline)) {
+      return Columns<lanes, K>{vectors.data() + first};
     };
-    const JointArray<Pack, n> packed = evaluate_arrays<Algorithm>(robot, load(q), load(inputs)...);
-    for (int i = 0; i < n; ++i) {
-      packed[static_cast<std::size_t>(i)].store(&result.coeffRef(i, first));
-    }
+    const JointArray<Pack, n> packed =
+        evaluate_numbers<Algorithm>(robot, columns(q), columns(inputs)...);
+    symbolic::detail::for_each_index<std::size_t{n}>([&](std::size_t i) __attribute__((
+        always_inline)) { packed[i].store(result.data() + i * K + first); });
   }
   return result;
 }

@@ -10,8 +10,9 @@
 
 namespace articula::symbolic {
 
-/// Writes the part of a graph that its outputs need as a program, in three stages: what can be
-/// computed before any sine or cosine, the sines and cosines of that, and the rest.
+/// Writes the part of a graph that its outputs need as a program, in three stages: what the angles
+/// need, their sines and cosines, and the rest. What the angles do not need comes after them even if
+/// it could be computed before: there is no register in which it could wait while sines are taken.
 /// @tparam Room  for how long a program
 template <ProgramSize Room>
 class Assembler {
@@ -21,122 +22,142 @@ class Assembler {
   [[nodiscard]] static constexpr Program<Room> assemble(const Graph& graph,
                                                         const GrowingArray<Term>& outputs) {
     Assembler assembler(graph);
-    for (int i = 0; i < outputs.size(); ++i) assembler.mark(outputs[i]);
-    assembler.mark_operands();
-    assembler.append_stages();
+    assembler.find_stages(outputs);
+    assembler.append_nodes();
     for (int i = 0; i < outputs.size(); ++i) assembler.append_output(outputs[i]);
+    assembler.program_.size.instructions = assembler.next_[after_angles];
     return assembler.program_;
   }
 
  private:
-  enum Stage : unsigned char { unused, before_angles, angles, after_angles };
+  /// When a node is computed. What is needed both before the angles and after them is computed before.
+  enum Stage : unsigned char { unused, after_angles, before_angles, angles };
+  static constexpr std::size_t stages = 4;
 
   /// What becomes of a node.
   struct Step {
+    bool of_sines;  // is a sine or cosine, or computed from some
     Stage stage;
-    std::size_t value;  // that it computes
-    std::size_t sine;   // the value of its sine, if it is an angle; 0 if it has none yet
+    bool is_angle;             // its sine or cosine is taken
+    std::size_t sine_number;   // of the instruction that does so; 0 before there is one
+    std::size_t value_number;  // of the instruction that computes the node
   };
 
   constexpr explicit Assembler(const Graph& graph)
       : graph_(graph), steps_(static_cast<std::size_t>(graph.size())) {
-    for (int i = 0; i < graph.size(); ++i) steps_.append({unused, 0, 0});
+    const auto* const nodes = graph.nodes();
+    const Step* const steps = steps_.data();
+    for (int i = 0; i < graph.size(); ++i) {
+      const Node& node = nodes[i];
+      const bool of_sines = is_angle_function(node.operation) ||
+                            (node.left != Node::none && steps[node.left].of_sines) ||
+                            (node.right != Node::none && steps[node.right].of_sines);
+      steps_.append({of_sines, unused, false, 0, 0});
+    }
   }
 
-  constexpr void mark(const Term& output) {
-    if (!output.is_constant()) steps_[output.node].stage = before_angles;
-  }
-
-  /// Marks all nodes that marked ones need.
-  constexpr void mark_operands() {
+  /// Finds out when each node is computed, and how many instructions each stage has. It goes from the
+  /// outputs to the inputs: what a node needs is needed when the node is, or sooner. Sines of what depends
+  /// on no other sine are the angles' stage, what they need comes before it. Nothing of that depends on a
+  /// sine, so no node of the stage is asked for sooner.
+  constexpr void find_stages(const GrowingArray<Term>& outputs) {
+    const auto* const nodes = graph_.nodes();
+    Step* const steps = steps_.data();
+    for (int i = 0; i < outputs.size(); ++i) {
+      if (!outputs[i].is_constant()) steps[outputs[i].node].stage = after_angles;
+    }
+    std::size_t length[stages] = {};
     for (int i = graph_.size(); i-- > 0;) {
-      if (steps_[i].stage == unused) continue;
-      const Node& node = graph_[i];
-      if (!has_left(node.operation)) continue;
-      steps_[node.left].stage = before_angles;
-      if (has_right(node.operation)) steps_[node.right].stage = before_angles;
+      const Node& node = nodes[i];
+      Step& step = steps[i];
+      if (step.stage == unused) continue;
+      Stage operands = step.stage;
+      if (is_angle_function(node.operation)) {
+        Step& angle = steps[node.left];
+        if (!angle.of_sines) {
+          step.stage = angles;
+          operands = before_angles;
+        }
+        if (!angle.is_angle) length[step.stage] += 2;  // a pair, once for each angle
+        angle.is_angle = true;
+      } else {
+        ++length[step.stage];
+      }
+      if (node.left != Node::none && steps[node.left].stage < operands) {
+        steps[node.left].stage = operands;
+      }
+      if (node.right != Node::none && steps[node.right].stage < operands) {
+        steps[node.right].stage = operands;
+      }
     }
+    next_[angles] = program_.angles_begin = length[before_angles];
+    next_[after_angles] = program_.angles_end = program_.angles_begin + length[angles];
   }
 
-  constexpr void append_stages() {
-    const auto nodes = static_cast<std::size_t>(graph_.size());
-    GrowingArray<int> of_angles(nodes), afterwards(nodes);
+  constexpr void append_nodes() {
+    const auto* const nodes = graph_.nodes();
+    Step* const steps = steps_.data();
     for (int i = 0; i < graph_.size(); ++i) {
-      if (steps_[i].stage == unused) continue;
-      const Stage stage = stage_of(graph_[i]);
-      steps_[i].stage = stage;
-      if (stage == before_angles) append(i);
-      if (stage == angles) of_angles.append(i);
-      if (stage == after_angles) afterwards.append(i);
-    }
-    program_.angles_begin = program_.size.instructions;
-    for (int i = 0; i < of_angles.size(); ++i) append(of_angles[i]);
-    program_.angles_end = program_.size.instructions;
-    for (int i = 0; i < afterwards.size(); ++i) append(afterwards[i]);
-  }
-
-  /// The stage in which a node can be computed.
-  [[nodiscard]] constexpr Stage stage_of(const Node& node) const {
-    if (!has_left(node.operation)) return before_angles;
-    if (steps_[node.left].stage != before_angles) return after_angles;
-    if (is_angle_function(node.operation)) return angles;
-    if (!has_right(node.operation)) return before_angles;
-    return steps_[node.right].stage == before_angles ? before_angles : after_angles;
-  }
-
-  constexpr void append(int index) {
-    const Node& node = graph_[index];
-    std::size_t& value = steps_[index].value;
-    switch (node.operation) {
-      case Operation::input:
-        value = append(node.operation, static_cast<std::size_t>(node.left));
-        break;
-      case Operation::constant:
-        value = append_constant(node.value);
-        break;
-      case Operation::sine:
-        value = append_angle(steps_[node.left]);
-        break;
-      case Operation::cosine:
-        value = append_angle(steps_[node.left]) + 1;
-        break;
-      default:
-        value = append(node.operation, steps_[node.left].value, steps_[node.right].value);
+      const Node& node = nodes[i];
+      Step& step = steps[i];
+      if (step.stage == unused) continue;
+      switch (node.operation) {
+        case Operation::input:
+          step.value_number =
+              append(step.stage, node.operation, static_cast<std::size_t>(node.value));
+          break;
+        case Operation::constant:
+          step.value_number = append_constant(step.stage, node.value);
+          break;
+        case Operation::sine:
+        case Operation::cosine:
+          step.value_number = append_angle(step.stage, steps[node.left]);
+          if (node.operation == Operation::cosine) ++step.value_number;
+          break;
+        case Operation::square_root:
+          step.value_number = append(step.stage, node.operation, steps[node.left].value_number);
+          break;
+        default:
+          step.value_number = append(step.stage, node.operation, steps[node.left].value_number,
+                                     steps[node.right].value_number);
+      }
     }
   }
 
   /// The sine and cosine of an angle go side by side, even if only one of them is needed.
   /// @return the number of the sine, which is never 0: its angle comes before it
-  constexpr std::size_t append_angle(Step& angle) {
-    if (angle.sine == 0) {
-      angle.sine = append(Operation::sine, angle.value);
-      append(Operation::cosine, angle.value);
+  constexpr std::size_t append_angle(Stage stage, Step& angle) {
+    if (angle.sine_number == 0) {
+      angle.sine_number = append(stage, Operation::sine, angle.value_number);
+      append(stage, Operation::cosine, angle.value_number);
     }
-    return angle.sine;
+    return angle.sine_number;
+  }
+
+  constexpr std::size_t append_constant(Stage stage, double constant) {
+    const std::size_t number = program_.size.constants++;
+    if (number < Room.constants) program_.constants[number] = constant;
+    return append(stage, Operation::constant, number);
   }
 
   /// @return the number of the value that the instruction computes
-  constexpr std::size_t append(Operation operation, std::size_t left, std::size_t right = 0) {
-    const std::size_t number = program_.size.instructions++;
+  constexpr std::size_t append(Stage stage, Operation operation, std::size_t left,
+                               std::size_t right = 0) {
+    const std::size_t number = next_[stage]++;
     if (number < Room.instructions) program_.instructions[number] = {operation, left, right};
     return number;
   }
 
-  constexpr std::size_t append_constant(double constant) {
-    const std::size_t number = program_.size.constants++;
-    if (number < Room.constants) program_.constants[number] = constant;
-    return append(Operation::constant, number);
-  }
-
   constexpr void append_output(const Term& term) {
-    const std::size_t value =
-        term.is_constant() ? append_constant(term.constant) : steps_[term.node].value;
+    const std::size_t value = term.is_constant() ? append_constant(after_angles, term.constant)
+                                                 : steps_[term.node].value_number;
     const std::size_t number = program_.size.outputs++;
     if (number < Room.outputs) program_.outputs[number] = {value, term.negative};
   }
 
   const Graph& graph_;
-  GrowingArray<Step> steps_;  // one for each node
+  GrowingArray<Step> steps_;       // one for each node
+  std::size_t next_[stages] = {};  // the number of the next instruction
   Program<Room> program_{};
 };
 

@@ -17,17 +17,6 @@ enum class Operation : unsigned char {
   cosine,       ///< of left [rad]
 };
 
-/// True for the operations that have a left operand.
-[[nodiscard]] constexpr bool has_left(Operation operation) noexcept {
-  return operation != Operation::input && operation != Operation::constant;
-}
-
-/// True for the operations that have a right operand as well.
-[[nodiscard]] constexpr bool has_right(Operation operation) noexcept {
-  return operation == Operation::add || operation == Operation::subtract ||
-         operation == Operation::multiply || operation == Operation::divide;
-}
-
 /// True for the operations that compute a sine or a cosine.
 [[nodiscard]] constexpr bool is_angle_function(Operation operation) noexcept {
   return operation == Operation::sine || operation == Operation::cosine;
@@ -35,17 +24,19 @@ enum class Operation : unsigned char {
 
 /// A node of the graph: an operation on nodes that stand before it.
 struct Node {
+  static constexpr int none = -1;
+
   Operation operation;
-  int left;      ///< node of the left operand; for an input, which one it is
-  int right;     ///< node of the right operand
-  double value;  ///< of a constant
+  int left;      ///< node of the left operand, or none
+  int right;     ///< node of the right operand, or none
+  double value;  ///< of a constant; of an input, which one it is
 };
 
 /// A value while an expression is built: a number, or what a node computes, perhaps negated. Signs
 /// live here and not in nodes: a sum of two terms is a node for their sum or difference, and the
 /// sign that is left over is passed on to whatever uses it next.
 struct Term {
-  static constexpr int none = -1;
+  static constexpr int none = Node::none;
 
   double constant = 0;    ///< the value, if there is no node
   int node = none;        ///< index in the graph

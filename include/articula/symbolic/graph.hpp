@@ -35,10 +35,12 @@ class Graph {
   }
 
   [[nodiscard]] constexpr int size() const { return entries_.size(); }
-  [[nodiscard]] constexpr const Node& operator[](int node) const { return entries_[node].node; }
+  /// The nodes, each after those it needs: entries that are more than a Node, so a pointer to them is
+  /// no pointer to Node.
+  [[nodiscard]] constexpr const auto* nodes() const { return entries_.data(); }
 
   /// The function's input number `index`.
-  constexpr Term input(int index) { return {0, intern(Operation::input, index, 0)}; }
+  constexpr Term input(int index) { return {0, intern_leaf(Operation::input, index)}; }
 
   constexpr Term add(Term x, Term y) {
     if (x.is_constant()) std::swap(x, y);
@@ -73,24 +75,20 @@ class Graph {
     if (x.is_constant()) return {constant_math::square_root(x.constant)};
     int radicand = x.node;
     if (x.negative) radicand = intern(Operation::multiply, node_of({-1.0}), x.node);
-    return {0, intern(Operation::square_root, radicand, 0)};
+    return {0, intern(Operation::square_root, radicand)};
   }
 
   constexpr Term sine(Term x) {
     if (x.is_constant()) return {constant_math::sine_cosine(x.constant).sine};
-    return {0, intern(Operation::sine, x.node, 0), x.negative};
+    return {0, intern(Operation::sine, x.node), x.negative};
   }
 
   constexpr Term cosine(Term x) {
     if (x.is_constant()) return {constant_math::sine_cosine(x.constant).cosine};
-    return {0, intern(Operation::cosine, x.node, 0)};
+    return {0, intern(Operation::cosine, x.node)};
   }
 
  private:
-  [[nodiscard]] constexpr bool is_constant(int node) const {
-    return (*this)[node].operation == Operation::constant;
-  }
-
   /// A number times a node.
   struct Multiple {
     double factor;
@@ -100,9 +98,11 @@ class Graph {
   /// A term as a multiple of a node that is no multiple itself.
   [[nodiscard]] constexpr Multiple multiple(const Term& x) const {
     const double sign = x.negative ? -1 : 1;
-    const Node& node = (*this)[x.node];
-    if (node.operation == Operation::multiply && is_constant(node.left)) {
-      return {sign * (*this)[node.left].value, node.right};
+    const Entry* const nodes = entries_.data();
+    const Entry& node = nodes[x.node];
+    if (node.operation == Operation::multiply &&
+        nodes[node.left].operation == Operation::constant) {
+      return {sign * nodes[node.left].value, node.right};
     }
     return {sign, x.node};
   }
@@ -115,21 +115,23 @@ class Graph {
 
   /// A node as another one, which is no such sum itself, plus a number.
   [[nodiscard]] constexpr Shifted shifted(int index) const {
-    const Node& node = (*this)[index];
-    if (node.operation == Operation::add && is_constant(node.right)) {
-      return {node.left, (*this)[node.right].value};
+    const Entry* const nodes = entries_.data();
+    const Entry& node = nodes[index];
+    if (node.operation == Operation::add && nodes[node.right].operation == Operation::constant) {
+      return {node.left, nodes[node.right].value};
     }
     return {index, 0};
   }
 
   /// The two terms whose sum a term is: the operands of a sum or difference, or itself and 0.
   [[nodiscard]] constexpr std::array<Term, 2> summands(const Term& x) const {
-    const Node& node = (*this)[x.node];
+    const Entry* const nodes = entries_.data();
+    const Entry& node = nodes[x.node];
     const bool is_difference = node.operation == Operation::subtract;
     if (node.operation != Operation::add && !is_difference) return {x, Term{}};
     const Term left{0, node.left, x.negative}, right{0, node.right, x.negative != is_difference};
-    if (!is_constant(node.right)) return {left, right};
-    const double constant = (*this)[node.right].value;
+    if (nodes[node.right].operation != Operation::constant) return {left, right};
+    const double constant = nodes[node.right].value;
     return {left, Term{right.negative ? -constant : constant}};
   }
 
@@ -145,6 +147,10 @@ class Graph {
 
   /// (x + u) + (y - w) = (x + y) + c where u - w is the number c.
   constexpr std::optional<Term> add_opposite_terms(const Term& x, const Term& y) {
+    const Operation first = entries_[x.node].operation, second = entries_[y.node].operation;
+    const bool is_any_sum = first == Operation::add || first == Operation::subtract ||
+                            second == Operation::add || second == Operation::subtract;
+    if (!is_any_sum) return {};
     const std::array<Term, 2> p = summands(x), q = summands(y);
     for (const std::size_t i : {0U, 1U}) {
       for (const std::size_t j : {0U, 1U}) {
@@ -178,38 +184,41 @@ class Graph {
 
   /// The node of a term without its sign.
   constexpr int node_of(const Term& x) {
-    return x.is_constant() ? intern(Operation::constant, 0, 0, x.constant) : x.node;
+    return x.is_constant() ? intern_leaf(Operation::constant, x.constant) : x.node;
   }
 
-  /// The node that does this; a new one if there is none. It is looked for among the nodes that have
-  /// the same last operand, of which there are few; inputs and constants, which have no operands,
-  /// among those that their number or value is likely to tell apart.
-  constexpr int intern(Operation operation, int left, int right, double value = 0) {
-    int* newest = nullptr;
-    if (has_left(operation)) {
-      newest = &entries_[has_right(operation) ? right : left].newest_user;
-    } else {
-      const std::uint64_t bits = std::bit_cast<std::uint64_t>(value) + static_cast<unsigned>(left);
-      newest = &newest_leaf_[(bits * golden) >> (64U - leaf_bits)];
+  /// The node that does this; a new one if there is none. It is looked for among those that have the
+  /// same last operand, of which there are few.
+  constexpr int intern(Operation operation, int left, int right = Node::none) {
+    Entry* const nodes = entries_.data();
+    int& newest = nodes[right == Node::none ? left : right].newest_user;
+    for (int i = newest; i != Node::none; i = nodes[i].next) {
+      const Entry& node = nodes[i];
+      if (node.left == left && node.right == right && node.operation == operation) return i;
     }
-    for (int i = *newest; i != Term::none; i = entries_[i].next) {
-      const Node& node = entries_[i].node;
-      if (node.left == left && node.right == right && node.operation == operation &&
-          node.value == value) {
-        return i;
-      }
+    const int next = newest;
+    newest = entries_.size();
+    return entries_.append({{operation, left, right, 0}, Node::none, next});
+  }
+
+  /// The same for a node that has no operands: it is looked for among those that its number or value is
+  /// likely to tell apart from others.
+  constexpr int intern_leaf(Operation operation, double value) {
+    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
+    int& newest = newest_leaf_[(bits * golden) >> (64U - leaf_bits)];
+    for (int i = newest; i != Node::none; i = entries_[i].next) {
+      if (entries_[i].value == value && entries_[i].operation == operation) return i;
     }
-    const int next = *newest;
-    *newest = entries_.size();
-    return entries_.append({{operation, left, right, value}, Term::none, next});
+    const int next = newest;
+    newest = entries_.size();
+    return entries_.append({{operation, Node::none, Node::none, value}, Node::none, next});
   }
 
   static constexpr std::uint64_t golden = 0x9E3779B97F4A7C15U;  // 2^64 over the golden ratio
   static constexpr unsigned leaf_bits = 8;
 
   /// A node and its place in the lists that intern searches.
-  struct Entry {
-    Node node;
+  struct Entry : Node {
     int newest_user;  // of the nodes that have this one as their last operand
     int next;         // in the list that this node is in, an older one
   };

@@ -19,6 +19,8 @@ class GrowingArray {
   GrowingArray& operator=(const GrowingArray&) = delete;
 
   [[nodiscard]] constexpr int size() const { return size_; }
+  [[nodiscard]] constexpr T* data() { return elements_; }
+  [[nodiscard]] constexpr const T* data() const { return elements_; }
   [[nodiscard]] constexpr T& operator[](int i) { return elements_[i]; }
   [[nodiscard]] constexpr const T& operator[](int i) const { return elements_[i]; }
 

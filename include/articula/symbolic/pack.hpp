@@ -93,7 +93,11 @@ requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_registe
     if (sum <= detail::largest_reduced_square) [[likely]] {
       sincos_of_small<0>(angle, sine, cosine);
     } else {
-      sincos_of_large(angle, sine, cosine);
+      // With arrays of its own: those that a call gets the addresses of would go through memory.
+      std::array<Pack, K> s, c;
+      sincos_of_large(std::array<Pack, K>(angle), s, c);
+      sine = s;
+      cosine = c;
     }
   }
 

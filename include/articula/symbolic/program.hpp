@@ -53,7 +53,7 @@ struct ProgramSize {
 template <ProgramSize Room>
 struct Program {
   Instruction instructions[Room.instructions];  // NOLINT
-  double constants[Room.constants];             // NOLINT
+  double constants[Room.constants + 1];         // NOLINT: there may be none, but no empty array
   Output outputs[Room.outputs];                 // NOLINT
   ProgramSize size;                             ///< how much there is, or would be
   std::size_t angles_begin;                     ///< where those sines and cosines begin

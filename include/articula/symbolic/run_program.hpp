@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <utility>
 
 namespace articula::symbolic {
@@ -15,76 +16,81 @@ namespace articula::symbolic {
 namespace detail {
 
 /// Computes what one step of a program says. The numbers of the operands are constants to the
-/// optimiser, which keeps the values in registers.
-template <Operation operation, class S>
-[[gnu::always_inline]] inline S execute(const S* value, const S* input, const double* constant,
-                                        std::size_t left, std::size_t right) noexcept {
+/// optimiser, which keeps the values in registers. (Compilers take their time for each argument, to be
+/// deduced or passed, a thousand times: so there are few, and those of the template are given.)
+/// @param value   those before this step; not const, because the others have no value yet
+/// @param number  of the step
+template <const auto& program, Operation operation, class S, class Input>
+[[gnu::always_inline]] inline S execute(S* value, const Input& input, std::size_t number) noexcept {
   using std::cos, std::sin, std::sqrt;
-  if constexpr (operation == Operation::input) return input[left];
-  if constexpr (operation == Operation::constant) return S(constant[left]);
-  if constexpr (operation == Operation::add) return value[left] + value[right];
-  if constexpr (operation == Operation::subtract) return value[left] - value[right];
-  if constexpr (operation == Operation::multiply) return value[left] * value[right];
-  if constexpr (operation == Operation::divide) return value[left] / value[right];
-  if constexpr (operation == Operation::square_root) return sqrt(value[left]);
-  if constexpr (operation == Operation::sine) return sin(value[left]);
-  if constexpr (operation == Operation::cosine) return cos(value[left]);
-}
-
-/// Executes the steps from Begin on. In a list of initialisers, which are executed in order as well,
-/// because compilers limit how many operands they fold; and in one function, because they optimise
-/// what is inlined once more in each function that it passes through.
-template <const auto& program, std::size_t Begin, class S, std::size_t... I>
-[[gnu::always_inline]] inline void execute_steps([[maybe_unused]] S* value,
-                                                 [[maybe_unused]] const S* input,
-                                                 std::index_sequence<I...>) noexcept {
-  constexpr const auto& steps = program.instructions;
-  [[maybe_unused]] const bool done[] = {
-      true, (value[Begin + I] = execute<steps[Begin + I].operation>(
-                 value, input, program.constants, steps[Begin + I].left, steps[Begin + I].right),
-             true)...};
+  const Instruction& step = program.instructions[number];
+  if constexpr (operation == Operation::input) return input[step.left];
+  if constexpr (operation == Operation::constant) return S(program.constants[step.left]);
+  if constexpr (operation == Operation::add) return value[step.left] + value[step.right];
+  if constexpr (operation == Operation::subtract) return value[step.left] - value[step.right];
+  if constexpr (operation == Operation::multiply) return value[step.left] * value[step.right];
+  if constexpr (operation == Operation::divide) return value[step.left] / value[step.right];
+  if constexpr (operation == Operation::square_root) return sqrt(value[step.left]);
+  if constexpr (operation == Operation::sine) return sin(value[step.left]);
+  if constexpr (operation == Operation::cosine) return cos(value[step.left]);
 }
 
 /// Takes the sines and cosines that stand together.
-template <const auto& program, class S, std::size_t... K>
-[[gnu::always_inline]] inline void take_sines_and_cosines(S* value,
-                                                          std::index_sequence<K...>) noexcept {
-  if constexpr (sizeof...(K) > 0) {
-    constexpr std::size_t begin = program.angles_begin;
-    const std::array<S, sizeof...(K)> angle{value[program.instructions[begin + 2 * K].left]...};
-    std::array<S, sizeof...(K)> sine, cosine;
-    sine_cosine(angle, sine, cosine);
-    ((value[begin + 2 * K] = sine[K], value[begin + 2 * K + 1] = cosine[K]), ...);
-  }
+/// @param value  those before them
+/// @param taken  receives sines and cosines by turns
+/// @return       the first sine
+template <const auto& program, class S, std::size_t... Pair>
+[[gnu::always_inline]] inline S take_angles(S* value, S* taken,
+                                            std::index_sequence<Pair...>) noexcept {
+  constexpr std::size_t begin = program.angles_begin;
+  const std::array<S, sizeof...(Pair)> angle{value[program.instructions[begin + 2 * Pair].left]...};
+  std::array<S, sizeof...(Pair)> sine, cosine;
+  sine_cosine(angle, sine, cosine);
+  ((taken[2 * Pair] = sine[Pair], taken[2 * Pair + 1] = cosine[Pair]), ...);
+  return taken[0];
 }
 
-/// The results of a program whose steps have been executed.
-template <const auto& program, class S, std::size_t... I>
-[[gnu::always_inline]] inline std::array<S, sizeof...(I)> results(
-    const S* value, std::index_sequence<I...>) noexcept {
-  return {(program.outputs[I].negative ? -value[program.outputs[I].value]
-                                       : value[program.outputs[I].value])...};
+/// Executes the steps before the angles, the angles, and the steps after them. Each value is computed
+/// from those before it in the same list of initialisers, which are executed in order: compilers take
+/// twice as long for a fold of assignments, and limit its length. The first sine takes all sines and
+/// cosines; those that follow in the list find theirs taken.
+template <const auto& program, class S, class Input, std::size_t... Before, std::size_t... Angle,
+          std::size_t... After, std::size_t... Result>
+[[gnu::always_inline]] inline std::array<S, sizeof...(Result)> execute_steps(
+    [[maybe_unused]] const Input& input, std::index_sequence<Before...>,
+    std::index_sequence<Angle...>, std::index_sequence<After...>,
+    std::index_sequence<Result...>) noexcept {
+  constexpr const auto& steps = program.instructions;
+  constexpr std::size_t end = program.angles_end;
+  [[maybe_unused]] constexpr std::make_index_sequence<sizeof...(Angle) / 2> pairs;
+  [[maybe_unused]] S taken[sizeof...(Angle) + 1];  // NOLINT: one more, as no array may be empty
+  // NOLINTNEXTLINE: compilers read plain arrays faster than std::array
+  S value[] = {
+      execute<program, steps[Before].operation, S, Input>(value, input, Before)...,
+      (Angle == 0 ? take_angles<program, S>(value, taken, pairs) : taken[Angle])...,
+      execute<program, steps[end + After].operation, S, Input>(value, input, end + After)...};
+  return {(program.outputs[Result].negative ? -value[program.outputs[Result].value]
+                                            : value[program.outputs[Result].value])...};
 }
 
 }  // namespace detail
 
 /// Runs a program.
 /// @tparam program  a constexpr variable
-/// @tparam S        double, float, a pack of them or another type with their operators
-/// @param input     as many as the program was made for
+/// @param input     input[i] is input number i, read when it is needed: a double, float, a pack of them
+///                  or another type that has their operators and can be made without a value
 /// @return          the results
-/// Real-time: yes, if the operations of S are.
-template <const auto& program, class S, std::size_t Inputs>
-[[nodiscard, gnu::always_inline]] inline auto run_program(
-    const std::array<S, Inputs>& input) noexcept {
+/// Real-time: yes, if the operations of that type are.
+template <const auto& program, class Input>
+[[nodiscard, gnu::always_inline]] inline auto run_program(const Input& input) noexcept {
+  using S = std::remove_cvref_t<decltype(input[0])>;
   static_assert(program.is_whole());
-  constexpr std::size_t begin = program.angles_begin, end = program.angles_end,
-                        count = program.size.instructions;
-  S value[count];  // NOLINT
-  detail::execute_steps<program, 0>(value, input.data(), std::make_index_sequence<begin>{});
-  detail::take_sines_and_cosines<program>(value, std::make_index_sequence<(end - begin) / 2>{});
-  detail::execute_steps<program, end>(value, input.data(), std::make_index_sequence<count - end>{});
-  return detail::results<program>(value, std::make_index_sequence<program.size.outputs>{});
+  static_assert(program.size.outputs > 0, "articula: this program has no results");
+  constexpr std::size_t begin = program.angles_begin, end = program.angles_end;
+  return detail::execute_steps<program, S>(
+      input, std::make_index_sequence<begin>{}, std::make_index_sequence<end - begin>{},
+      std::make_index_sequence<program.size.instructions - end>{},
+      std::make_index_sequence<program.size.outputs>{});
 }
 
 }  // namespace articula::symbolic

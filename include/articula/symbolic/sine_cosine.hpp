@@ -104,7 +104,10 @@ template <class S, std::size_t K>
         cosine[detail::in_order<K>(i)] = c[i];
       });
     } else {
-      detail::sine_cosine_of_large(angle, sine, cosine);
+      std::array<double, K> s, c;
+      detail::sine_cosine_of_large(std::array<double, K>(angle), s, c);
+      sine = s;
+      cosine = c;
     }
   } else if constexpr (requires { sincos(angle, sine, cosine); }) {
     sincos(angle, sine, cosine);

@@ -12,28 +12,39 @@ namespace articula::symbolic {
 /// them.
 class Symbol {
  public:
+  /// Operations with zeros and ones vanish.
+  static constexpr bool simplifies = true;
+
   constexpr Symbol() = default;  ///< zero
   constexpr explicit Symbol(double constant) : term_{constant} {}
   constexpr Symbol(Graph& graph, const Term& term) : graph_(&graph), term_(term) {}
 
   [[nodiscard]] constexpr const Term& term() const noexcept { return term_; }
 
+  // With few calls: compilers take their time for each.
   friend constexpr Symbol operator-(const Symbol& x) { return {x.graph_, -x.term_}; }
   friend constexpr Symbol operator+(const Symbol& x, const Symbol& y) {
-    if (x.term_.is(0)) return y;
-    if (y.term_.is(0)) return x;
-    if (both_constant(x, y)) return Symbol(x.term_.constant + y.term_.constant);
-    return {graph_of(x, y), graph_of(x, y)->add(x.term_, y.term_)};
+    const bool x_constant = x.term_.node == Term::none, y_constant = y.term_.node == Term::none;
+    if (x_constant && x.term_.constant == 0) return y;
+    if (y_constant && y.term_.constant == 0) return x;
+    if (x_constant && y_constant) return Symbol(x.term_.constant + y.term_.constant);
+    Graph* const graph = x.graph_ ? x.graph_ : y.graph_;
+    return {graph, graph->add(x.term_, y.term_)};
   }
   friend constexpr Symbol operator-(const Symbol& x, const Symbol& y) { return x + -y; }
   friend constexpr Symbol operator*(const Symbol& x, const Symbol& y) {
-    if (x.term_.is(0) || y.term_.is(0)) return Symbol();
-    if (both_constant(x, y)) return Symbol(x.term_.constant * y.term_.constant);
-    return {graph_of(x, y), graph_of(x, y)->multiply(x.term_, y.term_)};
+    const bool x_constant = x.term_.node == Term::none, y_constant = y.term_.node == Term::none;
+    if (x_constant && x.term_.constant == 0) return Symbol();
+    if (y_constant && y.term_.constant == 0) return Symbol();
+    if (x_constant && y_constant) return Symbol(x.term_.constant * y.term_.constant);
+    Graph* const graph = x.graph_ ? x.graph_ : y.graph_;
+    return {graph, graph->multiply(x.term_, y.term_)};
   }
   friend constexpr Symbol operator/(const Symbol& x, const Symbol& y) {
-    if (both_constant(x, y)) return Symbol(x.term_.constant / y.term_.constant);
-    return {graph_of(x, y), graph_of(x, y)->divide(x.term_, y.term_)};
+    const bool x_constant = x.term_.node == Term::none, y_constant = y.term_.node == Term::none;
+    if (x_constant && y_constant) return Symbol(x.term_.constant / y.term_.constant);
+    Graph* const graph = x.graph_ ? x.graph_ : y.graph_;
+    return {graph, graph->divide(x.term_, y.term_)};
   }
   friend constexpr Symbol sqrt(const Symbol& x) {
     if (!x.graph_) return Symbol(constant_math::square_root(x.term_.constant));
@@ -50,13 +61,6 @@ class Symbol {
 
  private:
   constexpr Symbol(Graph* graph, const Term& term) : graph_(graph), term_(term) {}
-
-  static constexpr bool both_constant(const Symbol& x, const Symbol& y) {
-    return x.term_.is_constant() && y.term_.is_constant();
-  }
-  static constexpr Graph* graph_of(const Symbol& x, const Symbol& y) {
-    return x.graph_ ? x.graph_ : y.graph_;
-  }
 
   Graph* graph_ = nullptr;
   Term term_;

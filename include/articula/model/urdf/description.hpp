@@ -166,8 +166,20 @@ class UrdfReader {
                                               result_.joints, options_.allow_unphysical);
     if (fault.rule == Rule::none) return;
     std::string text = fault_text(fault, result_.links, result_.joints);
-    if (concerns_inertia(fault.rule)) text += "; allow_unphysical accepts it";
+    if (concerns_inertia(fault.rule)) {
+      text += "; allow_unphysical accepts it" + others_like(fault.element);
+    }
     fail(text);
+  }
+
+  /// The other links with inertias that cannot be: whoever accepts one of a file accepts them all.
+  [[nodiscard]] std::string others_like(const Name& first) const {
+    std::string names;
+    for (const Link& link : result_.links) {
+      if (link.name == first || !concerns_inertia(broken_rule(link))) continue;
+      names += (names.empty() ? ", as it does '" : ", '") + std::string(link.name.view()) + "'";
+    }
+    return names;
   }
 
   const UrdfDocument& document_;

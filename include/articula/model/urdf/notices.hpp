@@ -7,6 +7,8 @@
 #include "articula/model/urdf/fault_text.hpp"
 #include "articula/model/validation.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -93,9 +95,18 @@ class UrdfNotices {
     }
   }
 
-  /// Limits of 0, as programs write them that do not know the figures. No reason to refuse a file:
-  /// dynamics have no use for them.
+  /// Limits of 0, as programs write them that do not know the figures, and limits of many turns, which
+  /// often are degrees. No reason to refuse a file: dynamics have no use for them, and a winch turns often.
   void add_limits(const Joint& joint) {
+    constexpr double four_turns = 8 * std::numbers::pi;
+    const auto is_far = [](double limit) {
+      return is_finite(limit) && std::abs(limit) > four_turns;
+    };
+    if (joint.type == JointType::revolute &&
+        (is_far(joint.limits.lower) || is_far(joint.limits.upper))) {
+      add(joint, "its limits, " + range_text(joint.limits) +
+                     " rad, reach farther than four turns; are they degrees?");
+    }
     if (joint.limits.lower == joint.limits.upper) {
       add(joint,
           "it has no room to move, lower and upper limit are " + rounded_text(joint.limits.lower));
