@@ -55,11 +55,13 @@ template <class S, int N>
   }
   for (std::size_t k = 0; k < b.size(); ++k) {
     b[k] = b[k] * factors.inverse_pivot[k];
-    for (int i = parents[k]; i >= 0;) {
-      const auto row = static_cast<std::size_t>(i);
-      b[k] = b[k] - factors.unit_lower[k][row] * b[row];
-      i = parents[row];
+    // From the root outwards: what has just been computed comes last, so that little waits for it.
+    JointArray<std::size_t, N> rows{};
+    std::size_t count = 0;
+    for (int i = parents[k]; i >= 0; i = parents[rows[count++]]) {
+      rows[count] = static_cast<std::size_t>(i);
     }
+    while (count-- > 0) b[k] = b[k] - factors.unit_lower[k][rows[count]] * b[rows[count]];
   }
   return b;
 }
