@@ -177,7 +177,8 @@ BENCHMARK(cycle_over_socketcan)->UseManualTime();
 
 }  // namespace
 
-// The program's own take precedence over those of the C library: all that the driver calls is counted.
+// The program's own take precedence over those of the C library: all that the driver calls is
+// counted.
 extern "C" int recvmmsg(int socket, mmsghdr* messages, unsigned count, int flags,
                         timespec* timeout) {
   ++system_calls;

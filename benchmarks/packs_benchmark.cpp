@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sixteen robots side by side, <operation>/<robot>/together, and one after the other, /one_by_one: the
-// ratio of the two is what packs gain per robot. `lanes` is how many doubles fit into a register. A single
-// robot's sines already are taken in its lanes; /plain is one by one with those of <cmath>.
+// Sixteen robots side by side, <operation>/<robot>/together, and one after the other, /one_by_one:
+// the ratio of the two is what packs gain per robot. `lanes` is how many doubles fit into a
+// register. A single robot's sines already are taken in its lanes; /plain is one by one with those
+// of <cmath>.
 #include <articula/dynamics/forward_dynamics.hpp>
 #include <articula/dynamics/inverse_dynamics.hpp>
 #include <articula/robots/panda.hpp>

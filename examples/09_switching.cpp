@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Switching under load: a constant torque moves the Q2D, then two controllers keep it moving, and then
-// none does. The effort makes no step.
+// Switching under load: a constant torque moves the Q2D, then two controllers keep it moving, and
+// then none does. The effort makes no step.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives that count at the motors: the Q2D's two joints behind a differential of two motors. Here the
-// motors are simulated, by the same differential turned round; on a real arm `Motors` is the driver.
+// Drives that count at the motors: the Q2D's two joints behind a differential of two motors. Here
+// the motors are simulated, by the same differential turned round; on a real arm `Motors` is the
+// driver.
 #include <articula/articula.hpp>
 #include <articula/hardware/differential_transmission.hpp>
 #include <articula/hardware/reversed_transmission.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits between controller and drives: a step that is far too large, and a position beyond the arm's
-// range. What was limited is told, and whether the limits held is checked.
+// Limits between controller and drives: a step that is far too large, and a position beyond the
+// arm's range. What was limited is told, and whether the limits held is checked.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -48,7 +48,8 @@ int main() {
   std::printf("at most (%.4f, %.4f) rad, (%.3f, %.3f) rad/s, (%.2f, %.2f) rad/s^2\n", furthest[0],
               furthest[1], fastest[0], fastest[1], hardest[0], hardest[1]);
   plot.save();
-  // The motion is foreseen at the beginning of each cycle: within it the other joint pulls a little.
+  // The motion is foreseen at the beginning of each cycle: within it the other joint pulls a
+  // little.
   const bool held = (furthest.array() <= limits.upper.array() + 1e-3).all() &&
                     (fastest.array() <= 1.01 * limits.velocity.array()).all() &&
                     (hardest.array() <= 1.05 * limits.acceleration.array()).all();

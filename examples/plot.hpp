@@ -12,7 +12,8 @@
 #include <utility>
 #include <vector>
 
-/// Collects what an example did and draws it with gnuplot: one curve per column, one panel per unit.
+/// Collects what an example did and draws it with gnuplot: one curve per column, one panel per
+/// unit.
 ///
 ///     Plot plot("waves", {"shoulder [rad]", "elbow [rad]", "elbow effort [N m]"});
 ///     plot.add(loop.time(), {state.position[0], state.position[1], state.effort[1]});

@@ -29,9 +29,9 @@ KDL::RigidBodyInertia inertia_with(const KDL::SegmentMap::const_iterator& segmen
   return inertia;
 }
 
-/// The chain with the most segments that holds all moving joints, if there is one. What is fixed beside
-/// it (the other finger of a gripper) is added to the segment that carries it: a chain of KDL would
-/// leave it out.
+/// The chain with the most segments that holds all moving joints, if there is one. What is fixed
+/// beside it (the other finger of a gripper) is added to the segment that carries it: a chain of
+/// KDL would leave it out.
 std::optional<KDL::Chain> whole_chain(const KDL::Tree& tree) {
   KDL::Chain longest;
   for (const auto& [tip, element] : tree.getSegments()) {

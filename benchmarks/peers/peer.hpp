@@ -40,14 +40,14 @@ class Peer {
   [[nodiscard]] virtual bool offers(Operation operation) const = 0;
   /// Does the work on one of the states.
   virtual void run(Operation operation, std::size_t state) = 0;
-  /// What the last run of an operation gave, in the order of articula's joints: efforts, rows of the
-  /// mass matrix, accelerations, or positions and velocities after a step.
+  /// What the last run of an operation gave, in the order of articula's joints: efforts, rows of
+  /// the mass matrix, accelerations, or positions and velocities after a step.
   [[nodiscard]] virtual Numbers result(Operation operation) const = 0;
 };
 
-/// Orocos KDL: the robot as kdl_parser makes it of a URDF, a segment for each link, fixed joints included.
-/// Its solvers for chains where the robot is one, else its solver for trees, which has inverse
-/// dynamics only.
+/// Orocos KDL: the robot as kdl_parser makes it of a URDF, a segment for each link, fixed joints
+/// included. Its solvers for chains where the robot is one, else its solver for trees, which has
+/// inverse dynamics only.
 /// @param joints  names of those that move, in articula's order
 [[nodiscard]] std::unique_ptr<Peer> kdl(const support::Blueprint& robot,
                                         const std::vector<std::string>& joints,

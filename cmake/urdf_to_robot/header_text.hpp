@@ -14,8 +14,8 @@ struct HeaderNames {
   std::string name_space{};  ///< where it goes, such as "lab::robots"; empty: the global namespace
 };
 
-/// A header that defines a struct with the description as a constexpr RobotDescription. Every number
-/// reads back as the same double.
+/// A header that defines a struct with the description as a constexpr RobotDescription. Every
+/// number reads back as the same double.
 /// @throws std::invalid_argument if a name is none that C++ accepts
 [[nodiscard]] std::string header_text(const UrdfDescription& description, const HeaderNames& names);
 

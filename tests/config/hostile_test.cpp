@@ -61,7 +61,8 @@ struct Field {
   std::string blamed{};  ///< what messages name, if not the key
 };
 
-/// Every hostile value in a field is taken where it is good, and else refused with its line and key.
+/// Every hostile value in a field is taken where it is good, and else refused with its line and
+/// key.
 void check_field(const Load& load, const Field& field) {
   for (const std::string& value : hostile) {
     INFO(field.key << ": " << value);

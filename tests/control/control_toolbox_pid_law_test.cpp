@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The laws of control_toolbox: figures computed elsewhere, from the same formulas in another language.
+// The laws of control_toolbox: figures computed elsewhere, from the same formulas in another
+// language.
 #include <articula/control/control_toolbox_pid_law.hpp>
 #include <articula/control/pid_law.hpp>
 

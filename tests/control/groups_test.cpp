@@ -206,7 +206,8 @@ TEST_CASE("the joints of a group that fails are braked, within limits around the
     }
     return std::abs(state.velocity[1]);
   };
-  // Three time constants leave 5 %; as much again for what the shoulder, which is free, takes along.
+  // Three time constants leave 5 %; as much again for what the shoulder, which is free, takes
+  // along.
   CHECK(speed_after(groups, groups.member<1>()) < 0.1);
   CHECK(speed_after(limited, limited.controller().member<1>()) < 0.1);
 }

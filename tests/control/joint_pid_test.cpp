@@ -55,8 +55,8 @@ TEST_CASE("back-calculation leads the integral to where the output is at its cla
     CHECK(pid.update(g, error_of(error), dt) == 1);
     REQUIRE(pid.integral() == Approx(expected).epsilon(1e-12));
   }
-  // In the end i e = (u - u')/T_t: the integral rests i e T_t above where the output is cut off, less
-  // what one cycle adds.
+  // In the end i e = (u - u')/T_t: the integral rests i e T_t above where the output is cut off,
+  // less what one cycle adds.
   CHECK(pid.integral() == Approx(1 - error + 10 * error * (0.1 - dt)).epsilon(1e-9));
 }
 

@@ -119,8 +119,8 @@ void check_wild_runs(unsigned seed, int robots) {
     CAPTURE(seed, N, k);
     const Case<N> c = random_case<N>(random);
     const Worst worst = wild_run(c, random, 4000);
-    // The acceleration that is foreseen for a cycle is that at its beginning: what Coriolis efforts and
-    // the posture change within it is a few percent of A, and of second order in the period.
+    // The acceleration that is foreseen for a cycle is that at its beginning: what Coriolis efforts
+    // and the posture change within it is a few percent of A, and of second order in the period.
     CHECK(worst.position < 0.5);
     CHECK(worst.velocity < 1e-2);
     CHECK(worst.acceleration < 0.05);
@@ -312,7 +312,8 @@ TEST_CASE("where efforts change slowly, a jerk that they can follow lets joints 
       static_cast<void>(simulator.write(controller.update(state, reference, dt)));
     }
     CAPTURE(jerk, furthest);
-    // The effort's rate is the jerk, but comes last: it cuts off what the stop in hand counts on by rounding.
+    // The effort's rate is the jerk, but comes last: it cuts off what the stop in hand counts on by
+    // rounding.
     if (jerk) CHECK(furthest <= 1 + 1e-6);
     if (!jerk) CHECK(furthest > 1.001);  // as stated
     CHECK(state.position[0] > 0.99);
@@ -466,7 +467,8 @@ TEST_CASE("multi-mode: what the drives' springs and dampers do within a cycle is
     last = state.velocity[0];
   }
   CHECK(state.position[0] == Approx(0.5).epsilon(1e-3));
-  // The acceleration is not quite constant within a cycle: (D dt/m)^2/12 is 0.005; it would be 0.13 more.
+  // The acceleration is not quite constant within a cycle: (D dt/m)^2/12 is 0.005; it would be 0.13
+  // more.
   CHECK(hardest <= 1.02);
 }
 

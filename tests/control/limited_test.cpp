@@ -493,8 +493,8 @@ TEST_CASE("a joint that moves when control begins follows from the first cycle o
 TEST_CASE("a position that jumps ahead of a joint that follows it is not crossed") {
   PositionRun run(smooth(2, 10, infinity), 0, 1);
   for (int k = 1; k < 100; ++k) REQUIRE(run.next(k * dt) == k * dt);
-  // From 1 m/s the way to rest is 1/(2 * 10) m, and half a cycle's way more on the grid; one cycle's
-  // acceleration more, and it would be too long.
+  // From 1 m/s the way to rest is 1/(2 * 10) m, and half a cycle's way more on the grid; one
+  // cycle's acceleration more, and it would be too long.
   const double goal = run.q + 0.0512;
   for (int k = 0; k < 1000; ++k) REQUIRE(run.next(goal) <= goal + 1e-12);  // rounding
   CHECK(run.q == goal);

@@ -8,7 +8,8 @@
 using namespace articula;
 
 TEST_CASE("where gravity's effort at a finite position overflows, the safe effort is zero") {
-  // A mass of 2 kg slides along a beam that turns: far out, the beam feels more than a number holds.
+  // A mass of 2 kg slides along a beam that turns: far out, the beam feels more than a number
+  // holds.
   const auto robot = support::Blueprint{
       .name = "beam",
       .links = {{.name = "stand"},

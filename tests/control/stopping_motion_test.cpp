@@ -70,7 +70,8 @@ TEST_CASE(
       const CommandMotion& m = stop.motion();
       seen_q = {std::min(seen_q.lowest, m.position), std::max(seen_q.highest, m.position)};
       seen_v = {std::min(seen_v.lowest, m.velocity), std::max(seen_v.highest, m.velocity)};
-      // Up to rounding: of sums of thousands of cycles, and what is not worth a cycle (1e-9 of a step).
+      // Up to rounding: of sums of thousands of cycles, and what is not worth a cycle (1e-9 of a
+      // step).
       const double a = c.deceleration;
       kept =
           kept &&
@@ -127,7 +128,8 @@ TEST_CASE("who brakes too hard takes that back step by step, and then brakes as 
       CHECK(stop.motion().acceleration - before <= jerk * dt * (1 + 1e-9));
     }
     CHECK(stop.motion().acceleration == Approx(-2));
-    // The way back takes B^2/(2 J) of the velocity, and what is left by whole cycles less than B dt.
+    // The way back takes B^2/(2 J) of the velocity, and what is left by whole cycles less than B
+    // dt.
     while (stop.motion().velocity > 2 * 2 / (2 * jerk) + 2 * 2 * dt) {
       stop.advance();
       REQUIRE(stop.motion().acceleration == Approx(-2));
@@ -144,7 +146,8 @@ TEST_CASE("what is on any way to rest has a stop, whose highest velocity is no h
     const double most = random.number(1, 50), jerk = most * std::pow(10, random.number(0, 3));
     const double step = jerk * dt;
     CAPTURE(k, most, jerk);
-    // Backwards from rest: the acceleration wanders, in steps that often are as large as they may be.
+    // Backwards from rest: the acceleration wanders, in steps that often are as large as they may
+    // be.
     CommandMotion m;
     double highest = 0;  // speed on the rest of the way
     for (int cycle = 0; cycle < 300; ++cycle) {

@@ -78,3 +78,9 @@ TEST_CASE("a name owns its text") {
   CHECK(copy.view().data() != name.view().data());
   CHECK(copy == name);
 }
+
+TEST_CASE("a name refuses a NUL, which C strings would end at") {
+  const std::string hidden("elbow\0_2", 8);
+  CHECK_THROWS_AS(Name(hidden), std::invalid_argument);
+  CHECK_THROWS_WITH(Name(hidden), "a name has no NUL in it: elbow\\0...");
+}

@@ -14,8 +14,9 @@ using namespace articula;
 
 namespace {
 
-/// The same operations, of which compilers fuse some here and others there: some hundred roundings of
-/// 1.1e-16 of the largest terms. For accelerations times the condition of the mass matrix, up to 1e4.
+/// The same operations, of which compilers fuse some here and others there: some hundred roundings
+/// of 1.1e-16 of the largest terms. For accelerations times the condition of the mass matrix, up to
+/// 1e4.
 constexpr double rounding = 1e-12;
 
 template <int K, Robot R>
@@ -75,8 +76,8 @@ TEST_CASE("Models move side by side as they do alone") {
   CAPTURE(seed);
   support::Random random(seed);
   for (int trial = 0; trial < 20; ++trial) {
-    // Not large: what mimics another joint turns by a multiple of its position, which is rounded, and
-    // prismatic joints would slide as far.
+    // Not large: what mimics another joint turns by a multiple of its position, which is rounded,
+    // and prismatic joints would slide as far.
     check_all(support::random_robot(random, 1).model<1>(), random, {0.0, 3.0});
     check_all(support::random_robot(random, 4, support::Shape::tree, 1).model<3, 4>(), random,
               {0.0, 3.0});

@@ -36,8 +36,8 @@ struct LevelGearedQ2d {
   }();
 };
 
-/// The Q2D behind a four-bar transmission of 50 and 40 with rotors of 4e-5 and 2e-5 kg m^2: A^T diag(J) A
-/// with A = {50, 0; 40, 40}.
+/// The Q2D behind a four-bar transmission of 50 and 40 with rotors of 4e-5 and 2e-5 kg m^2: A^T
+/// diag(J) A with A = {50, 0; 40, 40}.
 struct FourBarQ2d {
   static constexpr auto description = [] {
     auto driven = Q2d::description;
@@ -49,8 +49,8 @@ struct FourBarQ2d {
   }();
 };
 
-/// 2 kg on a massless rod of 0.5 m, which hangs from a horizontal axis behind a gear of 40 : 1 with a
-/// rotor of 1e-3 kg m^2.
+/// 2 kg on a massless rod of 0.5 m, which hangs from a horizontal axis behind a gear of 40 : 1 with
+/// a rotor of 1e-3 kg m^2.
 support::Blueprint pendulum() {
   return {.gravity = {0, 0, -10},
           .links = {{.name = "stand"},

@@ -103,8 +103,8 @@ std::ptrdiff_t count(const std::vector<Status>& statuses, Status status) {
 
 }  // namespace
 
-// The same bounds as for the loop that sends SYNC, see cia402_arm_test.cpp: it is the same loop, since
-// a command is put into force by the SYNC after the feedback that it answers, either way.
+// The same bounds as for the loop that sends SYNC, see cia402_arm_test.cpp: it is the same loop,
+// since a command is put into force by the SYNC after the feedback that it answers, either way.
 TEST_CASE("the loop that the bus paces follows the loop in one process") {
   Bench bench;
   Loop<Q2dSim, PidPlusGravity> in_process;

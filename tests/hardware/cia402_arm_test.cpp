@@ -63,10 +63,10 @@ struct Bench {
 }  // namespace
 
 TEST_CASE("the loop over CiA 402 drives follows the loop in one process") {
-  // The coarsest step of the wire is 1e-3 of the rated effort: 0.03 and 0.015 N m, half of it wrong.
-  // Under control that hardly matters. But while the shoulder's effort is at its limit, 27.94 N m
-  // being 931 1/3 per mille, 0.01 N m are missing, and it creeps behind with that over its damping of
-  // 29.8 N m s/rad: 3.4e-4 rad in the second between two steps of the reference.
+  // The coarsest step of the wire is 1e-3 of the rated effort: 0.03 and 0.015 N m, half of it
+  // wrong. Under control that hardly matters. But while the shoulder's effort is at its limit,
+  // 27.94 N m being 931 1/3 per mille, 0.01 N m are missing, and it creeps behind with that over
+  // its damping of 29.8 N m s/rad: 3.4e-4 rad in the second between two steps of the reference.
   // Velocity: 0.015 N m over the damping of 2.6 N m s/rad is 6e-3 rad/s.
   const double position_bound = 4e-4, velocity_bound = 6e-3;
   Loop<Arm, PidPlusGravity> over_can(make_arm(make_bus()));

@@ -62,10 +62,10 @@ bool is_feedback_of(const CanFrame& frame, std::uint8_t node) {
 }  // namespace
 
 TEST_CASE("the loop over CAN follows the loop in one process") {
-  // What differs is the wire: positions in counts (1.5e-5 and 1.9e-5 rad), velocities in 1e-3 rad/s,
-  // efforts in 1e-3 N m. The loops are stable and well damped, so this is not amplified: 2 counts.
-  // Velocity: a count's worth of effort, 2310 N m/rad times 1.5e-5 rad, over the damping of 30 N m
-  // s/rad, is 1.2e-3 rad/s, for the elbow 2.5e-3; and 1e-3 of the wire.
+  // What differs is the wire: positions in counts (1.5e-5 and 1.9e-5 rad), velocities in 1e-3
+  // rad/s, efforts in 1e-3 N m. The loops are stable and well damped, so this is not amplified: 2
+  // counts. Velocity: a count's worth of effort, 2310 N m/rad times 1.5e-5 rad, over the damping of
+  // 30 N m s/rad, is 1.2e-3 rad/s, for the elbow 2.5e-3; and 1e-3 of the wire.
   const double position_bound = 4e-5, velocity_bound = 5e-3;
   const auto bus = make_bus();
   Loop<Arm, PidPlusGravity> over_can(make_arm(bus));

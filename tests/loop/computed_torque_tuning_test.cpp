@@ -15,8 +15,8 @@ using namespace articula;
 namespace {
 
 constexpr double height = 0.05, duration = 1;  // rad; s
-// Damping is compensated by an effort that is held for a period. The elbow's acts within 3 ms, so at
-// 1 kHz that shows (in 4 % more overshoot); here what is left of it, some 0.4 %.
+// Damping is compensated by an effort that is held for a period. The elbow's acts within 3 ms, so
+// at 1 kHz that shows (in 4 % more overshoot); here what is left of it, some 0.4 %.
 constexpr double period = 1e-4;  // s
 const LoopTarget target{.crossover = 40, .phase_margin = 1.05, .delay = period / 2};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a thread asks of the system. Which of it the system grants depends on who runs the test: both
-// answers are tested, each where it is given.
+// What a thread asks of the system. Which of it the system grants depends on who runs the test:
+// both answers are tested, each where it is given.
 #include <articula/articula.hpp>
 #include <articula/loop/run_realtime.hpp>
 #include <articula/loop/stop_on_signal.hpp>

@@ -166,7 +166,8 @@ TEST_CASE("Right angles written with few digits are recognised within the tolera
 }
 
 TEST_CASE("An angle beyond the tolerance is not taken for a right one in part") {
-  // Turned on, as by a joint that is locked, one small element is within the tolerance, another is not.
+  // Turned on, as by a joint that is locked, one small element is within the tolerance, another is
+  // not.
   const Matrix3<double> turned = rotation_from_rpy({1.5708, 0, 0}) * rotation_from_rpy({0, 0, 0.2});
   REQUIRE(std::abs(turned.rows[1].x) < 1e-6);
   REQUIRE(std::abs(turned.rows[1].y) > 1e-6);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is true of every robot, tried on random ones: trees of revolute, continuous, prismatic, fixed
-// and mimic joints.
+// What is true of every robot, tried on random ones: trees of revolute, continuous, prismatic,
+// fixed and mimic joints.
 #include "random_robots.hpp"
 #include "any_robot.hpp"
 #include "catch.hpp"

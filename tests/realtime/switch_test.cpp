@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Controllers that are switched, in groups, limited, primed and failing, under the allocation guard.
+// Controllers that are switched, in groups, limited, primed and failing, under the allocation
+// guard.
 #include <articula/articula.hpp>
 #include <articula/hardware/mock_hardware.hpp>
 #include <articula/robots/q2d.hpp>

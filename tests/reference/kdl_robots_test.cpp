@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A ready robot, ARTICULA_ROBOT, in the Orocos Kinematics and Dynamics Library. KDL reads the
-// description as its author wrote it; what becomes of it here (welding, axes on z, couplings, canonical
-// form, straight-line programs) has no part in its results.
+// description as its author wrote it; what becomes of it here (welding, axes on z, couplings,
+// canonical form, straight-line programs) has no part in its results.
 #include "agreement.hpp"
 #include "kdl_robot.hpp"
 
@@ -12,8 +12,8 @@ using namespace articula;
 TEST_CASE("KDL has the same dynamics of a ready robot") {
   const support::Blueprint blueprint = support::blueprint_of(ARTICULA_ROBOT::description);
   support::KdlRobot peer(blueprint, joint_names(ARTICULA_ROBOT{}));
-  // Some thousand products, each off by 1.1e-16 of the largest terms, which cancel in part; solving for
-  // accelerations multiplies that by the condition of the mass matrix, up to 1e6 where a torso
+  // Some thousand products, each off by 1.1e-16 of the largest terms, which cancel in part; solving
+  // for accelerations multiplies that by the condition of the mass matrix, up to 1e6 where a torso
   // carries fingers.
   const support::Tolerance tolerance{.effort = 1e-12, .acceleration = 1e-10};
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ready robots in MuJoCo, as models; kdl_robots_test.cpp shows that robots known at compile time
-// have the same dynamics.
+// The ready robots in MuJoCo, as models; kdl_robots_test.cpp shows that robots known at compile
+// time have the same dynamics.
 #include "mujoco.hpp"
 #include "agreement.hpp"
 #include "blueprint.hpp"

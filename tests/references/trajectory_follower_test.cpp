@@ -495,8 +495,8 @@ TEST_CASE("a stop that would lead beyond the joint's limits is harder, and ends 
   }
 }
 
-// Straight lines may have a velocity up to the very limit, and there is no stop then: the velocity ends
-// where the line does. What else there is, is slower the nearer it comes.
+// Straight lines may have a velocity up to the very limit, and there is no stop then: the velocity
+// ends where the line does. What else there is, is slower the nearer it comes.
 TEST_CASE("whatever is done to it at random, no limit of a position is passed") {
   constexpr unsigned seed = 21;
   CAPTURE(seed);
@@ -568,8 +568,8 @@ TEST_CASE("whatever is done to it at random, no limit of a position is passed") 
   CHECK(violated > 200);
 }
 
-// The trajectory accelerates with 6 rad/s^2 and the speed rises with 100/s, while stops have 10 rad/s^3:
-// to let these accelerations fade would take up to hundreds of rad/s.
+// The trajectory accelerates with 6 rad/s^2 and the speed rises with 100/s, while stops have 10
+// rad/s^3: to let these accelerations fade would take up to hundreds of rad/s.
 TEST_CASE("a stop from a high acceleration does not run away") {
   const MotionLimits<2> soft{{2, 10}, {10, 10}, {10, 10}};
   const Points fast({{.time_from_start = 1, .position = {-1, 1}, .velocity = zero}});

@@ -30,8 +30,8 @@ struct Problem {
   EffortBounds<N> bounds{};
 };
 
-/// A tree with a matrix that has its shape, L^T D L, and bounds of all kinds: none, friction, a stop,
-/// a stop with friction, a weld.
+/// A tree with a matrix that has its shape, L^T D L, and bounds of all kinds: none, friction, a
+/// stop, a stop with friction, a weld.
 template <int N>
 Problem<N> random_problem(support::Random& random) {
   Problem<N> p;

@@ -83,8 +83,8 @@ TEST_CASE("ideal drives take efforts as any, and refuse what is no number") {
 }
 
 TEST_CASE("a drive with a spring makes an oscillator of its joint") {
-  // 2 kg and 50 N/m: 5 rad/s, whatever the period. In steps of h the method lags by (5 h)^4/120 of the
-  // angle: 3e-7 rad after a second in steps of 10 ms.
+  // 2 kg and 50 N/m: 5 rad/s, whatever the period. In steps of h the method lags by (5 h)^4/120 of
+  // the angle: 3e-7 rad after a second in steps of 10 ms.
   for (const double period : {1e-3, 0.01}) {
     SimulatorOptions<1> options{.period = period};
     options.initial_position = One(1.5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random robots with stops, damping and dry friction, thrown about: whatever happens, limits hold to
-// the last bit, numbers stay finite and energy comes from the drives alone.
+// Random robots with stops, damping and dry friction, thrown about: whatever happens, limits hold
+// to the last bit, numbers stay finite and energy comes from the drives alone.
 #include <articula/sim/simulator.hpp>
 
 #include <Eigen/Dense>

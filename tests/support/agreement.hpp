@@ -18,8 +18,8 @@ struct Tolerance {
   double acceleration;
 };
 
-/// Compares inverse dynamics, gravity, mass matrix and forward dynamics in random states. The peer's
-/// forward dynamics are its mass matrix and bias efforts, solved by Eigen.
+/// Compares inverse dynamics, gravity, mass matrix and forward dynamics in random states. The
+/// peer's forward dynamics are its mass matrix and bias efforts, solved by Eigen.
 /// @param peer  has inverse_dynamics(q, v, a) and mass_matrix(q)
 template <class R, class Peer>
 void check_agreement(const R& robot, Peer& peer, int states, unsigned seed,

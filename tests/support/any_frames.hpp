@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Frames made of any bytes, for both ends of the bus: what random tests and the fuzzer share.
+/// @file Frames made of any bytes, for both ends of the bus: what random tests and the fuzzer
+/// share.
 #pragma once
 
 #include <articula/hardware/can_error_frame.hpp>

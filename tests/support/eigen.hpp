@@ -41,8 +41,8 @@ namespace support {
       .toRotationMatrix();
 }
 
-/// How far apart two vectors, matrices or isometries are: the root of the sum of squares. It is NaN,
-/// which fails every comparison, where an element is.
+/// How far apart two vectors, matrices or isometries are: the root of the sum of squares. It is
+/// NaN, which fails every comparison, where an element is.
 [[nodiscard]] inline double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return (a - b).norm();
 }

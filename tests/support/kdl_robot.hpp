@@ -24,8 +24,8 @@ namespace support {
   throw std::logic_error("a tree has a root");
 }
 
-/// A robot in KDL, which knows nothing of mimic joints: q_all = C q + offset is worked out here, from
-/// the description.
+/// A robot in KDL, which knows nothing of mimic joints: q_all = C q + offset is worked out here,
+/// from the description.
 class KdlRobot {
  public:
   /// @param names  of the joints that can be commanded, in the order of all vectors

@@ -60,8 +60,8 @@ inline void write_body(std::ostream& out, std::span<const articula::Body> bodies
 
 }  // namespace mjcf
 
-/// Bodies of a mechanism in MuJoCo, each on a joint of its own: without contacts, limits, damping and
-/// couplings. Steps are taken by its Runge-Kutta integrator.
+/// Bodies of a mechanism in MuJoCo, each on a joint of its own: without contacts, limits, damping
+/// and couplings. Steps are taken by its Runge-Kutta integrator.
 /// @param gravity  [m/s^2]
 /// @param step     [s]
 /// @throws std::runtime_error with MuJoCo's reason if it refuses
@@ -89,7 +89,8 @@ inline void write_body(std::ostream& out, std::span<const articula::Body> bodies
   return robot;
 }
 
-/// A robot in MuJoCo, where couplings are soft constraints: q_all = C q + offset is worked out here.
+/// A robot in MuJoCo, where couplings are soft constraints: q_all = C q + offset is worked out
+/// here.
 class MujocoRobot {
  public:
   template <int N, int B>

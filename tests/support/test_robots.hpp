@@ -8,7 +8,8 @@
 
 namespace support {
 
-/// The Q2D on a base that leans, so that gravity matters: its axes stand 0.6 : 0.8 off the vertical.
+/// The Q2D on a base that leans, so that gravity matters: its axes stand 0.6 : 0.8 off the
+/// vertical.
 struct TiltedQ2d {
   static constexpr auto description = [] {
     auto tilted = articula::Q2d::description;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A robot by the textbook: poses link by link and the mass matrix by Jacobians, straight from
-/// the description. It shares no code with articula beyond the description's types.
+/// @file A robot by the textbook: poses link by link and the mass matrix by Jacobians, straight
+/// from the description. It shares no code with articula beyond the description's types.
 #pragma once
 
 #include "blueprint.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file examples/robots/*.urdf, read at run time, and the robots of articula/robots: the same models.
+/// @file examples/robots/*.urdf, read at run time, and the robots of articula/robots: the same
+/// models.
 #include <articula/model/urdf.hpp>
 #include <articula/robots/gripper_arm.hpp>
 #include <articula/robots/panda.hpp>

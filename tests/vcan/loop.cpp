@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole path: controller, codec, SocketCAN, kernel, can_drives with the simulated arm, and back.
-// Cycles follow each other as the drives answer, since no clock of a virtual machine keeps 1 kHz; where
-// the bus paces the loop by a clock, it is a slow one.
+// The whole path: controller, codec, SocketCAN, kernel, can_drives with the simulated arm, and
+// back. Cycles follow each other as the drives answer, since no clock of a virtual machine keeps 1
+// kHz; where the bus paces the loop by a clock, it is a slow one.
 #include <articula/articula.hpp>
 #include <articula/hardware/cia402_codec.hpp>
 #include <articula/loop/hardware_clock.hpp>

@@ -13,8 +13,8 @@
 
 namespace articula::detail {
 
-/// The text with a line feed in place of each carriage return that stands alone: to YAML that ends a
-/// line, to yaml-cpp it does not.
+/// The text with a line feed in place of each carriage return that stands alone: to YAML that ends
+/// a line, to yaml-cpp it does not.
 [[nodiscard]] inline std::string with_line_feeds(std::string text) {
   for (std::size_t k = 0; k < text.size(); ++k) {
     if (text[k] == '\r' && (k + 1 == text.size() || text[k + 1] != '\n')) text[k] = '\n';
@@ -32,7 +32,8 @@ namespace articula::detail {
   return true;
 }
 
-/// A line that begins with % is an instruction to YAML, which passes over those that it does not know.
+/// A line that begins with % is an instruction to YAML, which passes over those that it does not
+/// know.
 inline void check_directive(const std::string& file, int line, std::string_view text) {
   if (text.starts_with("%YAML ") || text.starts_with("%TAG ")) return;
   const std::string_view here = text.substr(0, text.find_first_of("\r\n"));

@@ -22,8 +22,8 @@ namespace articula::detail {
          digits.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-/// True if a list is written in pairs, with no blank in a pair and some between pairs: [1,5, 2,5]. (A
-/// matrix has a line for each row.)
+/// True if a list is written in pairs, with no blank in a pair and some between pairs: [1,5, 2,5].
+/// (A matrix has a line for each row.)
 [[nodiscard]] inline bool is_in_pairs(const std::vector<ConfigNode>& items) {
   for (std::size_t k = 1; k < items.size(); ++k) {
     const int end = items[k - 1].mark.column + static_cast<int>(items[k - 1].text.size());
@@ -42,9 +42,9 @@ namespace articula::detail {
   return items.size() == n * n;
 }
 
-/// Refuses lists that are neither n numbers nor an n x n matrix by rows. What seem to be decimal commas
-/// are named; two joints' may look like a matrix, [1,0, 0,5], which a blank behind every comma makes
-/// sure.
+/// Refuses lists that are neither n numbers nor an n x n matrix by rows. What seem to be decimal
+/// commas are named; two joints' may look like a matrix, [1,0, 0,5], which a blank behind every
+/// comma makes sure.
 /// @throws ConfigError with the numbers that were probably meant
 inline void refuse_length(const ConfigValue& value, std::size_t n) {
   const std::vector<ConfigNode>& items = value.node().items;

@@ -16,8 +16,8 @@ struct ConfigPlace {
   std::string key{};   ///< the keys from the top, such as "arm.ros__parameters.gravity.z"
 };
 
-/// A configuration that is broken, incomplete or out of range. `what()` is one line with file, line,
-/// column, key, what is wrong and what was expected, such as
+/// A configuration that is broken, incomplete or out of range. `what()` is one line with file,
+/// line, column, key, what is wrong and what was expected, such as
 /// `pid.yaml:9:10: arm.elbow.p: the word 'many', expected a number`.
 class ConfigError : public std::runtime_error {
  public:

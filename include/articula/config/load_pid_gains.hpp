@@ -73,8 +73,10 @@ template <Robot R>
 ///
 /// A controller of some joints, such as those of an arm without its gripper:
 ///
-///     const auto arm = load_pid_gains(GripperArm(), "controllers.yaml", "arm", GainsOf::some_joints);
-///     Groups<R, Pid<R>, Bypass<R>> parts({{{"arm", arm.group}, {"gripper", ...}}}, arm.gains, ...);
+///     const auto arm =
+///         load_pid_gains(GripperArm(), "controllers.yaml", "arm", GainsOf::some_joints);
+///     Groups<R, Pid<R>, Bypass<R>> parts({{{"arm", arm.group}, {"gripper", ...}}}, arm.gains,
+///                                        ...);
 ///
 /// Layouts, keys and their meaning: docs/configuration.md.
 /// @param robot   whose joints they are
@@ -82,7 +84,8 @@ template <Robot R>
 /// @param name    of the controller, of a namespace, or the type of the controllers that are meant;
 ///                need not be given where there is but one with gains
 /// @param whose   gains there must be
-/// @throws ConfigError with file, line, key and what was expected, see load_controller and pid_gains
+/// @throws ConfigError with file, line, key and what was expected, see load_controller and
+/// pid_gains
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] PidConfig<joint_count<R>> load_pid_gains(const R& robot, const ConfigSource& source,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Reads waveforms for joints from a file. Needs the CMake target articula::config (yaml-cpp).
+/// @file Reads waveforms for joints from a file. Needs the CMake target articula::config
+/// (yaml-cpp).
 #pragma once
 
 #include "articula/config/chosen_sections.hpp"

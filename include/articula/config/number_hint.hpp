@@ -29,8 +29,8 @@ struct NumberReadings {
   }
 };
 
-/// The text without marks between its thousands, if it has such: 1,234.5 or 1.234,5 or 1'234 or 1_234
-/// or 1 234; empty otherwise. A single point is no mark.
+/// The text without marks between its thousands, if it has such: 1,234.5 or 1.234,5 or 1'234 or
+/// 1_234 or 1 234; empty otherwise. A single point is no mark.
 [[nodiscard]] inline std::string without_marks(std::string_view text) {
   constexpr std::string_view digits = "0123456789";
   std::string result;

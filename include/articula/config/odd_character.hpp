@@ -35,8 +35,8 @@ struct TextCharacter {
   return {text.substr(0, size), code};
 }
 
-/// What a blank that YAML takes for a letter, or a character without any shape, is called; empty for
-/// others. They come with what is copied from web pages, chats and word processors.
+/// What a blank that YAML takes for a letter, or a character without any shape, is called; empty
+/// for others. They come with what is copied from web pages, chats and word processors.
 [[nodiscard]] inline std::string_view odd_name(char32_t code) {
   struct Range {
     char32_t first, last;

@@ -19,8 +19,8 @@ namespace articula::detail {
 }
 
 /// The first part of a text in whose place something else was to be put: by launch files and xacro
-/// (${kp}, $(var kp)), Jinja ({{ kp }}, {% if %}), CMake and autoconf (@kp@), shells ($kp, %kp%), ERB
-/// (<%= kp %>) or by hand (<kp>); empty if there is none.
+/// (${kp}, $(var kp)), Jinja ({{ kp }}, {% if %}), CMake and autoconf (@kp@), shells ($kp, %kp%),
+/// ERB (<%= kp %>) or by hand (<kp>); empty if there is none.
 [[nodiscard]] inline std::string_view placeholder_in(std::string_view text) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 5> brackets = {
       {{"{{", "}}"}, {"{%", "%}"}, {"<%", "%>"}, {"${", "}"}, {"$(", ")"}}};

@@ -15,7 +15,8 @@
 
 namespace articula::detail {
 
-/// A pair of clamps: `name`_min and `name`_max. Without 0 between them a joint would be pushed at rest.
+/// A pair of clamps: `name`_min and `name`_max. Without 0 between them a joint would be pushed at
+/// rest.
 inline void read_clamps(ConfigMap& map, const std::string& name, double& low, double& high) {
   if (const auto value = map.find(name + "_min")) {
     low = value->number_or_infinity();
@@ -47,7 +48,8 @@ inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
   }
 }
 
-/// Whether the error of a turning joint is that of the short way round. Here the joint's type says it.
+/// Whether the error of a turning joint is that of the short way round. Here the joint's type says
+/// it.
 inline void read_short_way(ConfigMap& map, ConfiguredJoint& joint) {
   for (const std::string_view key : {"angle_wraparound", "normalize_error"}) {
     const auto value = map.find(key);

@@ -18,8 +18,8 @@ struct SignalBounds {
   double high = 0;
 };
 
-/// Steps and ramps are added up as they come one after the other, so that those that take each other
-/// back are no more than they are; waves as if their peaks met.
+/// Steps and ramps are added up as they come one after the other, so that those that take each
+/// other back are no more than they are; waves as if their peaks met.
 [[nodiscard]] inline SignalBounds bounds_of(const std::vector<Signal>& signals) {
   SignalBounds waves, lines;
   std::vector<double> corners;

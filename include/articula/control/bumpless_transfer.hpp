@@ -29,9 +29,9 @@ namespace articula {
 /// All within what the robot's description allows. A clamp takes from c alone, never from u; a
 /// command without a difference to carry passes unchanged.
 ///
-/// The number that counts is the effort, velocity or position; of a MultiModeCommand the whole effort
-/// that it makes at the measured state, and the difference is added to its effort. Beyond the drives'
-/// limit, the drive's references are drawn towards the state as far as needed.
+/// The number that counts is the effort, velocity or position; of a MultiModeCommand the whole
+/// effort that it makes at the measured state, and the difference is added to its effort. Beyond
+/// the drives' limit, the drive's references are drawn towards the state as far as needed.
 /// @tparam R  the robot
 /// @tparam C  the command
 template <Robot R, JointCommand<joint_count<R>> C>
@@ -56,9 +56,9 @@ class BumplessTransfer {
     highest_ = range.highest.cwiseMin(huge);
   }
 
-  /// The default slew: from 0 to the drive's limit within 0.1 s, for efforts and velocities; a quarter
-  /// of the velocity limit for positions. It is infinite for a joint without such a limit, whose slew
-  /// must be given.
+  /// The default slew: from 0 to the drive's limit within 0.1 s, for efforts and velocities; a
+  /// quarter of the velocity limit for positions. It is infinite for a joint without such a limit,
+  /// whose slew must be given.
   /// Real-time: yes.
   [[nodiscard]] static Vector default_slew(const R& robot) noexcept {
     if constexpr (std::same_as<C, PositionCommand<joint_count>>) {

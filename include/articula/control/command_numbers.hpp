@@ -8,8 +8,9 @@
 
 namespace articula {
 
-/// The numbers that must not jump when one command follows another: efforts, velocities or positions;
-/// of a MultiModeCommand the whole effort that it makes at the measured state. N x 1. Real-time: yes.
+/// The numbers that must not jump when one command follows another: efforts, velocities or
+/// positions; of a MultiModeCommand the whole effort that it makes at the measured state. N x 1.
+/// Real-time: yes.
 template <int N, JointCommand<N> Command>
 [[nodiscard]] JointVector<N> numbers_of(const Command& command,
                                         const JointState<N>& state) noexcept {

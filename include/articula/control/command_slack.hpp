@@ -6,9 +6,10 @@
 
 namespace articula {
 
-/// By how much differences of positions may pass limits of velocity, acceleration and jerk and still be
-/// taken for within them: positions are rounded, by up to 1.1e-16 of their size, and then divided by the
-/// period once, twice and three times. (Twice as much is allowed for who computed them, by the same limits.)
+/// By how much differences of positions may pass limits of velocity, acceleration and jerk and
+/// still be taken for within them: positions are rounded, by up to 1.1e-16 of their size, and then
+/// divided by the period once, twice and three times. (Twice as much is allowed for who computed
+/// them, by the same limits.)
 struct CommandSlack {
   double velocity = 0;      ///< [rad/s or m/s]
   double acceleration = 0;  ///< [rad/s^2 or m/s^2]

@@ -58,13 +58,14 @@ class ComputedTorqueLaw {
   }
 
   /// Keeps the integrals from winding up. The feedback asks for accelerations, so it is told the
-  /// acceleration that was lost, M(q)^-1 excess: through the coupling of the joints an effort may be
-  /// cut off on the side that its own joint is not asked to go to.
+  /// acceleration that was lost, M(q)^-1 excess: through the coupling of the joints an effort may
+  /// be cut off on the side that its own joint is not asked to go to.
   /// @param excess  effort minus what was left of it [N m or N], N x 1
   /// Real-time: yes.
   void limited(const JointVector<joint_count>& excess) noexcept {
     if ((excess.array() == 0).all()) return;
-    // M^-1 excess is the acceleration from rest that the excess causes beyond what carries the robot.
+    // M^-1 excess is the acceleration from rest that the excess causes beyond what carries the
+    // robot.
     const JointVector<joint_count> rest = JointVector<joint_count>::Zero();
     feedback_.limited(
         forward_dynamics(robot_, position_, rest, excess + gravity(robot_, position_)));

@@ -24,9 +24,9 @@ enum class ControlToolbox : unsigned char {
   noetic_antiwindup,  ///< ROS 1 Noetic, antiwindup true
 };
 
-/// The PID of each of N joints as control_toolbox computes it, to the last bit where it matters: for
-/// comparing with, or moving from, a robot under ros_control or ros2_control. For new work see PidLaw.
-/// With e = q_ref - q, e' = v_ref - v or (e - e_last)/dt, as `derivative_of` says:
+/// The PID of each of N joints as control_toolbox computes it, to the last bit where it matters:
+/// for comparing with, or moving from, a robot under ros_control or ros2_control. For new work see
+/// PidLaw. With e = q_ref - q, e' = v_ref - v or (e - e_last)/dt, as `derivative_of` says:
 ///
 ///     current:  u  = p e + I + d e',   u' = clamp(u, output_clamp_min, output_clamp_max)
 ///               unless |e| <= error_deadband:
@@ -35,14 +35,15 @@ enum class ControlToolbox : unsigned char {
 ///                 conditional_integration  I <- I + dt i e, unless u' != u and e u > 0
 ///               I <- clamp(I, integral_clamp_min, integral_clamp_max)
 ///               u' is returned; the integral is used first and advanced then
-///     humble,   E <- E + dt e,   u = p e + clamp(i E, integral_clamp_min, integral_clamp_max) + d e'
-///     noetic:   with antiwindup, i E itself is kept between the clamps, else it goes on
+///     humble,   E <- E + dt e
+///     noetic:   u = p e + clamp(i E, integral_clamp_min, integral_clamp_max) + d e'
+///               with antiwindup, i E itself is kept between the clamps, else it goes on
 ///
 /// e_last is 0 at the start, so that the first e' kicks; noetic alone leaves the first one out. A
-/// period of 0 gives the last output again (current) or 0. An error or e' that is not finite gives NaN
-/// (current) or 0, and the integral stays. The other gains are not used. It is not told what is cut off
-/// from the total. Negative gains are taken, as control_toolbox takes them; only the T_t that follows
-/// from gains is that of their sizes, where theirs would be negative or none.
+/// period of 0 gives the last output again (current) or 0. An error or e' that is not finite gives
+/// NaN (current) or 0, and the integral stays. The other gains are not used. It is not told what is
+/// cut off from the total. Negative gains are taken, as control_toolbox takes them; only the T_t
+/// that follows from gains is that of their sizes, where theirs would be negative or none.
 /// Source: control_toolbox, pid.cpp of the branches named.
 /// @tparam N  number of joints
 template <int N>

@@ -19,8 +19,8 @@ template <int N>
 }
 
 /// Changes what one drive is asked for so that spring, damper and effort make a given total at the
-/// measured state. The references are drawn towards the state until they pull no more than is left for
-/// them beside the effort; the rest is in the effort, which thereby keeps its limit.
+/// measured state. The references are drawn towards the state until they pull no more than is left
+/// for them beside the effort; the rest is in the effort, which thereby keeps its limit.
 /// @param command  its stiffness and damping stay
 /// @param state    what is measured, finite
 /// @param joint    which drive

@@ -14,8 +14,8 @@ namespace articula {
 /// velocity or position drives the same part is a summand of the velocity or position.
 ///
 /// - `start(state)` forgets the past.
-/// - `effort(state, reference, period)` is the part's share for the coming period, in the unit of the
-///   command [N m or N; rad/s or m/s; rad or m].
+/// - `effort(state, reference, period)` is the part's share for the coming period, in the unit of
+///   the command [N m or N; rad/s or m/s; rad or m].
 /// @tparam L  the part
 /// @tparam N  number of joints
 template <class L, int N>
@@ -37,8 +37,8 @@ concept LimitAware = requires(L law, const JointVector<N>& excess) {
   noexcept;
 };
 
-/// What goes on from the command that was given in the end: after `update`, `given(command)` tells the
-/// numbers of that command, N x 1 (see numbers_of), whatever became of the controller's own.
+/// What goes on from the command that was given in the end: after `update`, `given(command)` tells
+/// the numbers of that command, N x 1 (see numbers_of), whatever became of the controller's own.
 template <class L, int N>
 concept TakesGiven = requires(L law, const JointVector<N>& command) {
   { law.given(command) }
@@ -46,9 +46,10 @@ concept TakesGiven = requires(L law, const JointVector<N>& command) {
 };
 
 /// What can take over from another controller without a jump: after `start` and before the first
-/// `effort` (or a controller's `update`), `prime(state, reference, period, effort)` tells which effort
-/// (or command) was given last, so that what the part remembers can begin there: an integral takes it
-/// for the load that it has to carry. The part answers with its share of that effort, N x 1.
+/// `effort` (or a controller's `update`), `prime(state, reference, period, effort)` tells which
+/// effort (or command) was given last, so that what the part remembers can begin there: an integral
+/// takes it for the load that it has to carry. The part answers with its share of that effort, N x
+/// 1.
 template <class L, int N>
 concept Primable = requires(L law, const JointState<N>& state, const JointReference<N>& reference,
                             double period, const JointVector<N>& effort) {
@@ -56,8 +57,8 @@ concept Primable = requires(L law, const JointState<N>& state, const JointRefere
   noexcept->std::convertible_to<JointVector<N>>;
 };
 
-/// What is known of the command that a Primable part begins with. A part that minds takes it as a last
-/// argument of `prime`; where there is none it is `any`.
+/// What is known of the command that a Primable part begins with. A part that minds takes it as a
+/// last argument of `prime`; where there is none it is `any`.
 enum class LastCommand {
   any,   ///< It may have been a passing push of another controller.
   load,  ///< It has held the joints.

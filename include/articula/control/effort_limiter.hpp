@@ -23,15 +23,16 @@ namespace articula {
 ///
 ///     effort = m a + bias,   m = M(q) + D dt/2,   bias = h(q, v) + D v + f sign(v),
 ///
-/// where damping acts at the velocity in the middle of the cycle. A joint whose acceleration a breaks
-/// a limit is given one that does not, a' (JointLimiter), and the effort for it; the others keep their
-/// efforts. That is Gauss's principle of least constraint: limits act like stops, on their joint and
-/// on no other. As one joint held back changes what the others do, the joint that breaks its limit most,
-/// by m_jj (a_j - a'_j)^2, is held back first, and the rest is looked at again.
+/// where damping acts at the velocity in the middle of the cycle. A joint whose acceleration a
+/// breaks a limit is given one that does not, a' (JointLimiter), and the effort for it; the others
+/// keep their efforts. That is Gauss's principle of least constraint: limits act like stops, on
+/// their joint and on no other. As one joint held back changes what the others do, the joint that
+/// breaks its limit most, by m_jj (a_j - a'_j)^2, is held back first, and the rest is looked at
+/// again.
 ///
 /// The limits of effort come last: what a drive cannot give cannot brake either. So A and B must be
-/// what the drives can do in every posture, gravity included. No model is exact, so B should leave a
-/// reserve; it is 0.8 A where it is not given.
+/// what the drives can do in every posture, gravity included. No model is exact, so B should leave
+/// a reserve; it is 0.8 A where it is not given.
 /// @tparam R  the robot
 template <Robot R>
 class EffortLimiter {
@@ -71,8 +72,8 @@ class EffortLimiter {
     acceleration_.setZero();
   }
 
-  /// Goes on from an effort that was given in place of the last one, or by others, N x 1; not from one
-  /// that is not finite. Real-time: yes.
+  /// Goes on from an effort that was given in place of the last one, or by others, N x 1; not from
+  /// one that is not finite. Real-time: yes.
   void given(const Vector& effort) noexcept {
     if (is_finite(effort)) effort_ = effort.cwiseMax(-limits_.effort).cwiseMin(limits_.effort);
   }
@@ -83,13 +84,13 @@ class EffortLimiter {
     period_ = period;
   }
 
-  /// The effort for the coming cycle. Without a good state it is zero; without a good wish the joints
-  /// brake.
+  /// The effort for the coming cycle. Without a good state it is zero; without a good wish the
+  /// joints brake.
   /// @param state   measured joints
   /// @param asked   the wish [N m or N], N x 1
   /// @param report  what changed it is added here
-  /// @param stiffness, damping  K and D of springs and dampers in the drives, which change the effort
-  ///                within the cycle [N m/rad or N/m; N m s/rad or N s/m], N x 1
+  /// @param stiffness, damping  K and D of springs and dampers in the drives, which change the
+  ///                effort within the cycle [N m/rad or N/m; N m s/rad or N s/m], N x 1
   /// Real-time: yes. O(N^3), O(N^4) at most where many joints meet their limits.
   [[nodiscard]] Vector limit(const JointState<joint_count>& state, const Vector& asked,
                              LimitReport<joint_count>& report,

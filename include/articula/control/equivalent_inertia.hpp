@@ -51,8 +51,8 @@ void check_joint_and_positions(const R& robot, const JointVector<joint_count<R>>
 /// @param others  what the other joints do
 /// @return        I [kg m^2 or kg]
 /// @throws std::invalid_argument if there is no such joint, a position is not finite, or M(q) is
-///         singular, which leaves nothing to compute where the others are free; the message names the
-///         joint
+///         singular, which leaves nothing to compute where the others are free; the message names
+///         the joint
 /// Real-time: no (set-up).
 template <Robot R>
 [[nodiscard]] double equivalent_inertia(const R& robot, const JointVector<joint_count<R>>& q,

@@ -7,7 +7,8 @@
 
 namespace articula {
 
-/// Passes on one member of the reference: alone it is open-loop control, in a sum it is feed-forward.
+/// Passes on one member of the reference: alone it is open-loop control, in a sum it is
+/// feed-forward.
 /// @tparam N       number of joints
 /// @tparam Member  which one, in the unit of the command
 template <int N, JointVector<N> JointReference<N>::*Member>

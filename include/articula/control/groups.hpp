@@ -26,7 +26,8 @@
 
 namespace articula {
 
-/// Controllers for groups of a robot's joints, each at its own rate. Together they are one controller:
+/// Controllers for groups of a robot's joints, each at its own rate. Together they are one
+/// controller:
 ///
 ///     template <class R>
 ///     using Parts = Groups<R, Switch<R, PidPlusGravity<R>, ComputedTorque<R>>, JointImpedance<R>>;
@@ -41,9 +42,9 @@ namespace articula {
 ///   then on, with the period k dt. In between its command is held.
 /// - A group has failed if its command is not finite although state and reference are, or if its
 ///   controller says so (TellsFailure). Its joints, and no others, get the safe command (see
-///   safe_command), or the controller's own if that is safe. Efforts brake them as those of Standby do.
-///   `failed` and `status_of` tell; Loop reports it. The controller is asked again in the next cycle,
-///   with the time since the last one.
+///   safe_command), or the controller's own if that is safe. Efforts brake them as those of Standby
+///   do. `failed` and `status_of` tell; Loop reports it. The controller is asked again in the next
+///   cycle, with the time since the last one.
 /// - Controllers in a Switch, or a Limited one, go by the group's name and theirs, "arm/pid".
 ///   A strict request may be about several groups.
 /// @tparam R            the robot
@@ -272,8 +273,8 @@ class Groups {
     return all;
   }
 
-  /// The safe command for a group that has failed. Others go on moving, so it is not enough to carry
-  /// its weight: the motion of its own joints, and no others', decays as in Standby.
+  /// The safe command for a group that has failed. Others go on moving, so it is not enough to
+  /// carry its weight: the motion of its own joints, and no others', decays as in Standby.
   [[nodiscard]] Command safe(const Part& part, const State& state, double period) const noexcept {
     Command command = safe_command(robot_, state.position, command_);
     if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {

@@ -22,8 +22,8 @@ struct JointGroup {
 /// The place of each joint's group in the list.
 /// @param groups  of which each joint is in one
 /// @param robot   whose joints these are
-/// @throws std::invalid_argument naming the joint that the robot does not have, that is in two groups
-///         or in none, the divisor below 1, the name that is empty or there twice
+/// @throws std::invalid_argument naming the joint that the robot does not have, that is in two
+///         groups or in none, the divisor below 1, the name that is empty or there twice
 /// Real-time: no (allocates).
 template <std::size_t GroupCount, Robot R>
 [[nodiscard]] std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> group_of_each_joint(

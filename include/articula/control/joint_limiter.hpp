@@ -12,18 +12,18 @@
 
 namespace articula {
 
-/// Keeps one joint within its limits, cycle by cycle. It always has a stop in hand: a way to rest that
-/// keeps all limits (StoppingMotion). A wish is granted if the joint, having followed it for one
-/// cycle, still has such a stop, which is then the one in hand. Otherwise the joint follows the stop
-/// in hand for one cycle, or goes as far towards the wish as a stop remains (by bisection).
+/// Keeps one joint within its limits, cycle by cycle. It always has a stop in hand: a way to rest
+/// that keeps all limits (StoppingMotion). A wish is granted if the joint, having followed it for
+/// one cycle, still has such a stop, which is then the one in hand. Otherwise the joint follows the
+/// stop in hand for one cycle, or goes as far towards the wish as a stop remains (by bisection).
 ///
 /// The stop keeps the soft limits of position, too; they differ in that the reserve is not used for
 /// them, and that the way towards them is slow where `soft_rate` is given.
 ///
-/// So limits hold for ever, however wild the wishes, and the way back is always open: at a limit the
-/// wish to leave it has a stop. A joint that is beyond a limit, because it was when control began or
-/// was pushed there, may not go further and may come back: what the stop in hand cannot avoid is
-/// allowed, and nothing beyond.
+/// So limits hold for ever, however wild the wishes, and the way back is always open: at a limit
+/// the wish to leave it has a stop. A joint that is beyond a limit, because it was when control
+/// began or was pushed there, may not go further and may come back: what the stop in hand cannot
+/// avoid is allowed, and nothing beyond.
 class JointLimiter {
  public:
   /// No limits.
@@ -50,8 +50,9 @@ class JointLimiter {
     stop_ = stop_from(motion);
   }
 
-  /// Goes on with cycles of another length [s]. What differences make of the change itself, and of a
-  /// jerk that is large for the new length, may pass the limits of acceleration and jerk for some cycles.
+  /// Goes on with cycles of another length [s]. What differences make of the change itself, and of
+  /// a jerk that is large for the new length, may pass the limits of acceleration and jerk for some
+  /// cycles.
   /// Real-time: yes.
   void set_period(double period) noexcept { start(motion(), period); }
 
@@ -157,8 +158,8 @@ class JointLimiter {
     return std::max({0.0, lower_ - places.lowest, places.highest - upper_});
   }
 
-  /// Brakes harder than planned, with as much of the reserve as it takes: v^2/(2 x) for what is left
-  /// of the way.
+  /// Brakes harder than planned, with as much of the reserve as it takes: v^2/(2 x) for what is
+  /// left of the way.
   void better_stop(const CommandMotion& motion) noexcept {
     if (!(deceleration_ < acceleration_)) return;
     const double v = motion.velocity;

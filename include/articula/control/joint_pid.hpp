@@ -21,7 +21,8 @@ struct PidInput {
   double acceleration_reference = 0;  ///< a_ref, for the feed-forward
 };
 
-/// The PID law of one joint, with all that its gains can ask for. In cycle k, dt after the last one,
+/// The PID law of one joint, with all that its gains can ask for. In cycle k, dt after the last
+/// one,
 ///
 ///     I   <- clamp(I + i e dt, integral_clamp_min, integral_clamp_max)   unless |e| <= dead-band
 ///     s    = c r' - y' as measured, or (c (r - r_last) - (y - y_last))/dt;
@@ -31,10 +32,11 @@ struct PidInput {
 ///     u'   = clamp(u, output_clamp_min, output_clamp_max)
 ///
 /// I is in units of the output and is integrated before use (backward Euler), D is the low-pass
-/// T_f D' + D = s in backward Euler. For weights b < 1 and c < 1, r and y are counted from where y was
-/// at the start, so that a joint that is asked to stay gets no output. In a period of 0 differences
-/// tell nothing: I stays, and so does a D that is made of them or filtered. New clamps take force with
-/// the next cycle; if i becomes 0, I stays as it is and is left as a constant until the next start.
+/// T_f D' + D = s in backward Euler. For weights b < 1 and c < 1, r and y are counted from where y
+/// was at the start, so that a joint that is asked to stay gets no output. In a period of 0
+/// differences tell nothing: I stays, and so does a D that is made of them or filtered. New clamps
+/// take force with the next cycle; if i becomes 0, I stays as it is and is left as a constant until
+/// the next start.
 ///
 /// By what the output is cut off, u - u', and what the caller cuts off later, the integral is kept
 /// from winding up in one of three ways (AntiWindup): none; back-calculation,
@@ -55,10 +57,10 @@ class JointPid {
   static constexpr double slowest_primed = 10;
 
   /// Lets the integral begin with an output that was given last, as far as its clamps allow. After
-  /// `start`. If the output was no load but a passing push, the error is off by I/p, and goes as the
-  /// integral takes that back, with the time constant p/i. So it does nothing where p/i is more than
-  /// ten seconds and the output may have been one; nor without an integral gain, nor with an output
-  /// that is not finite. Real-time: yes.
+  /// `start`. If the output was no load but a passing push, the error is off by I/p, and goes as
+  /// the integral takes that back, with the time constant p/i. So it does nothing where p/i is more
+  /// than ten seconds and the output may have been one; nor without an integral gain, nor with an
+  /// output that is not finite. Real-time: yes.
   void prime(const PidGains& g, double output, LastCommand is = LastCommand::any) noexcept {
     const bool soon = g.proportional <= slowest_primed * g.integral;
     if (g.integral == 0 || (is == LastCommand::any && !soon) || !is_finite(output)) return;
@@ -70,7 +72,8 @@ class JointPid {
   /// @param g       that validate() accepts
   /// @param in      this cycle's input
   /// @param period  dt [s]
-  /// @param turn    what the error is counted modulo: 2 pi for a joint that turns for ever, 0: nothing
+  /// @param turn    what the error is counted modulo: 2 pi for a joint that turns for ever, 0:
+  ///                nothing
   /// Real-time: yes.
   [[nodiscard]] double update(const PidGains& g, const PidInput& in, double period,
                               double turn = 0) noexcept {

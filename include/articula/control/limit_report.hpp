@@ -7,8 +7,8 @@
 
 namespace articula {
 
-/// Which limits changed one joint's command in a cycle, and by how much. What was asked and given is
-/// the position, the velocity or the effort, as the command is; of a MultiModeCommand the whole
+/// Which limits changed one joint's command in a cycle, and by how much. What was asked and given
+/// is the position, the velocity or the effort, as the command is; of a MultiModeCommand the whole
 /// effort that it makes at the measured state.
 struct JointLimitReport {
   bool position = false;       ///< it would not have stopped before its position limit

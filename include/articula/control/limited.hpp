@@ -32,13 +32,13 @@ namespace articula {
 /// - Position commands: limits hold for the commands, which begin where the joint is measured.
 /// - Velocity commands: likewise, at the measured position; a drive that lags needs some room.
 /// - Effort commands: limits hold for the motion that the model foresees (see EffortLimiter).
-/// - Multi-mode commands: likewise, for the total effort at the measured state. Where it is too much,
-///   the drive's references are drawn towards the state.
+/// - Multi-mode commands: likewise, for the total effort at the measured state. Where it is too
+///   much, the drive's references are drawn towards the state.
 ///
-/// What is within the limits passes unchanged. A command that is not finite, or does not count because
-/// the controller says that it has failed (TellsFailure), brakes all joints, and `failed` tells. (Groups
-/// brake the joints of a failed group themselves.) The controller is told what was cut off, and what was
-/// given, if it wants to know (LimitAware, TakesGiven).
+/// What is within the limits passes unchanged. A command that is not finite, or does not count
+/// because the controller says that it has failed (TellsFailure), brakes all joints, and `failed`
+/// tells. (Groups brake the joints of a failed group themselves.) The controller is told what was
+/// cut off, and what was given, if it wants to know (LimitAware, TakesGiven).
 /// @tparam R                   the robot
 /// @tparam ControllerTemplate  makes the controller of a robot
 template <Robot R, template <class> class ControllerTemplate>
@@ -63,8 +63,8 @@ class Limited {
   /// @param limits      to keep
   /// @param controller  whose commands are limited
   /// @param robot       whose joints these are
-  /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is beyond
-  ///         what the description says, or is missing (see EffortLimiter)
+  /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is
+  ///         beyond what the description says, or is missing (see EffortLimiter)
   explicit Limited(const CommandLimits<joint_count>& limits,
                    ControllerType controller = ControllerType(), const R& robot = described<R>())
       : controller_(std::move(controller)),
@@ -77,8 +77,8 @@ class Limited {
     started_ = failed_ = goes_on_ = false;
   }
 
-  /// The controller's command, limited. Before any position is known a position command is NaN, which
-  /// no loop writes.
+  /// The controller's command, limited. Before any position is known a position command is NaN,
+  /// which no loop writes.
   /// Real-time: yes, if the controller's is.
   [[nodiscard]] Command update(const State& state, const Reference& reference,
                                double period) noexcept {
@@ -99,8 +99,8 @@ class Limited {
     }
   }
 
-  /// Lets limits of `effort_rate` go on from what was given last, and the controller begin with it, if
-  /// it can. Real-time: yes.
+  /// Lets limits of `effort_rate` go on from what was given last, and the controller begin with it,
+  /// if it can. Real-time: yes.
   /// @return  what the controller begins with of it, N x 1
   JointVector<joint_count> prime(const State& state, const Reference& reference, double period,
                                  const JointVector<joint_count>& command,
@@ -113,8 +113,8 @@ class Limited {
     }
   }
 
-  /// Hears what was given in the end, or by others since the start: N x 1, see numbers_of. Limits of
-  /// `effort_rate` go on from there. (Drives that measure no effort would have them begin at 0.)
+  /// Hears what was given in the end, or by others since the start: N x 1, see numbers_of. Limits
+  /// of `effort_rate` go on from there. (Drives that measure no effort would have them begin at 0.)
   /// Real-time: yes.
   void given(const JointVector<joint_count>& command) noexcept {
     go_on_from(command);
@@ -192,8 +192,8 @@ class Limited {
   [[nodiscard]] const Vector& told(const Vector& asked, const Vector& given) noexcept {
     for (int j = 0; j < joint_count; ++j) {
       JointLimitReport& report = report_[index(j)];
-      // What only rounding has changed is not worth a report. What is no number always is, and so is
-      // a stiffness or damping that has changed, though it may pull nothing at this state.
+      // What only rounding has changed is not worth a report. What is no number always is, and so
+      // is a stiffness or damping that has changed, though it may pull nothing at this state.
       if (std::abs(asked[j] - given[j]) <= 1e-12 * (1 + std::abs(given[j]))) {
         report = {.stiffness = report.stiffness,
                   .damping = report.damping,

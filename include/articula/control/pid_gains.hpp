@@ -66,8 +66,8 @@ template <int N>
 using ValidPidGains = ValidGains<PidGains, N>;
 
 /// Refuses gains that make no controller: a gain that is not finite or negative, clamps that do not
-/// contain 0 (the joint would be pushed at rest), a time or dead-band below 0, a weight outside 0 .. 1,
-/// back-calculation whose T_t nothing tells.
+/// contain 0 (the joint would be pushed at rest), a time or dead-band below 0, a weight outside 0
+/// .. 1, back-calculation whose T_t nothing tells.
 /// @param gains  of all joints
 /// @param names  of the same joints, for the message
 /// @param signs  which p, i and d may have

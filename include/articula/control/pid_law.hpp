@@ -20,17 +20,18 @@ enum class PidOf : unsigned char {
              ///< or of the error where that is asked for
 };
 
-/// A PID for each of N joints, see JointPid. With the default gains beyond p, i, d and the integral's
-/// clamps it is, for e = q_ref - q and the period dt,
+/// A PID for each of N joints, see JointPid. With the default gains beyond p, i, d and the
+/// integral's clamps it is, for e = q_ref - q and the period dt,
 ///
 ///     I <- clamp(I + i e dt, integral_clamp_min, integral_clamp_max)
 ///     u  = p e + I + d (v_ref - v)
 ///
-/// The derivative acts on measured velocity, so that a step of the reference position gives no kick.
-/// While the total output is cut off by a limit, I does not grow in the direction that pushes
+/// The derivative acts on measured velocity, so that a step of the reference position gives no
+/// kick. While the total output is cut off by a limit, I does not grow in the direction that pushes
 /// further.
 /// @tparam N         number of joints
-/// @tparam Variable  what is controlled; gains are per rad/s instead of rad where it is the velocity
+/// @tparam Variable  what is controlled; gains are per rad/s instead of rad where it is the
+///                   velocity
 template <int N, PidOf Variable = PidOf::position>
 class PidLaw {
  public:
@@ -86,9 +87,9 @@ class PidLaw {
     return output;
   }
 
-  /// Lets the integrals begin with the effort that was given last: the load that it has carried. What
-  /// p and d ask for comes on top of it. If it may have been a push, joints whose integral could not
-  /// take that back soon begin with 0, see JointPid::prime.
+  /// Lets the integrals begin with the effort that was given last: the load that it has carried.
+  /// What p and d ask for comes on top of it. If it may have been a push, joints whose integral
+  /// could not take that back soon begin with 0, see JointPid::prime.
   /// @return  the integral terms and feed-forwards, N x 1
   /// Real-time: yes. O(N).
   JointVector<N> prime(const JointState<N>&, const JointReference<N>& reference, double,

@@ -12,17 +12,18 @@
 
 namespace articula {
 
-/// How one joint gets to the position that is asked for, without crossing it: it goes there as fast as
-/// its limits allow, as long as it can still come to rest there (StoppingMotion). Its limits of
+/// How one joint gets to the position that is asked for, without crossing it: it goes there as fast
+/// as its limits allow, as long as it can still come to rest there (StoppingMotion). Its limits of
 /// position are not looked at here; what comes of this is a wish for a JointLimiter.
 ///
 /// A position that moves within the limits of velocity and acceleration is met in its own motion:
-/// what must come to rest is the difference, as if the position asked for went on with the velocity and
-/// acceleration of its last three values. (Jerks are not asked about: of rounded numbers they are huge.)
-/// Where the joint is on it already it follows, whatever comes next. (A step of less than some 2 J dt^3
-/// cannot be told from that, and is crossed by as much at most.) One that jumps is taken for one that rests, and so is one that changes
-/// every other cycle only, which the joint therefore follows late by its way to brake. A crossing that
-/// the limits enforce, since what is asked for comes towards the joint or turns round, is kept small.
+/// what must come to rest is the difference, as if the position asked for went on with the velocity
+/// and acceleration of its last three values. (Jerks are not asked about: of rounded numbers they
+/// are huge.) Where the joint is on it already it follows, whatever comes next. (A step of less
+/// than some 2 J dt^3 cannot be told from that, and is crossed by as much at most.) One that jumps
+/// is taken for one that rests, and so is one that changes every other cycle only, which the joint
+/// therefore follows late by its way to brake. A crossing that the limits enforce, since what is
+/// asked for comes towards the joint or turns round, is kept small.
 class PositionApproach {
  public:
   /// No limits.

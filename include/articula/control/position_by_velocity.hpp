@@ -10,8 +10,8 @@
 
 namespace articula {
 
-/// Position control through velocity drives: velocity = clamp(PID + v_ref), see PidLaw, whose output
-/// is a velocity here. Uses the reference's position and velocity.
+/// Position control through velocity drives: velocity = clamp(PID + v_ref), see PidLaw, whose
+/// output is a velocity here. Uses the reference's position and velocity.
 /// @tparam R  the robot
 template <Robot R>
 class PositionByVelocity

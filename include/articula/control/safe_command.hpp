@@ -12,8 +12,8 @@
 
 namespace articula {
 
-/// Keeps a command's effort within the limits of the robot's drives. Positions, velocities and gains
-/// pass: what drives make of them is theirs to limit (or see Limited). Real-time: yes.
+/// Keeps a command's effort within the limits of the robot's drives. Positions, velocities and
+/// gains pass: what drives make of them is theirs to limit (or see Limited). Real-time: yes.
 template <Robot R, JointCommand<joint_count<R>> Command>
 [[nodiscard]] Command limited(const R& robot, Command command) noexcept {
   if constexpr (requires { command.effort; }) {
@@ -26,8 +26,8 @@ template <Robot R, JointCommand<joint_count<R>> Command>
 }
 
 /// The command for a cycle in which something is wrong. Where the position is known, it holds: by
-/// the gravity effort, the position itself, or zero velocity; drives with a spring of their own hold
-/// it by the last stiffness and damping, and the gravity effort. Where it is not, efforts,
+/// the gravity effort, the position itself, or zero velocity; drives with a spring of their own
+/// hold it by the last stiffness and damping, and the gravity effort. Where it is not, efforts,
 /// velocities and stiffnesses are zero, and the last damping stays. There is no safe position
 /// without a measured one, so the position command is `last` then.
 /// @param robot     whose joints these are

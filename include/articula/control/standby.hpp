@@ -18,7 +18,7 @@ namespace articula {
 
 /// The controller that wants nothing but safety, whatever the reference says:
 ///
-///     efforts      g(q) - M(q) v / T: the weight is carried, the motion decays (see damping_effort)
+///     efforts      g(q) - M(q) v / T: the weight is carried, motion decays (see damping_effort)
 ///     velocities   zero
 ///     positions    that at which it was started
 ///     multi-mode   no spring, no damper, the effort as above

@@ -24,15 +24,16 @@ struct ValueRange {
   double highest = 0;
 };
 
-/// A way from any motion to rest within limits B of acceleration and J of jerk, about as fast as whole
-/// cycles allow: the deceleration, at first its present value d, grows in steps of s = J dt to a level
-/// p <= B, stays there, and goes in such steps back to 0. A larger d first goes back to B.
+/// A way from any motion to rest within limits B of acceleration and J of jerk, about as fast as
+/// whole cycles allow: the deceleration, at first its present value d, grows in steps of s = J dt
+/// to a level p <= B, stays there, and goes in such steps back to 0. A larger d first goes back to
+/// B.
 ///
-/// n steps lead to p = d + n s and take n d + s n (n + 1)/2 of what is to be lost, v/dt. The way back
-/// takes (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which that
-/// is not too much; in continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri 2008, section 3.4],
-/// of which sums over cycles make J v + d (d + s)/2. What is left to lose is taken by a smaller step to
-/// one more level, p + s at most, or p - s at least.
+/// n steps lead to p = d + n s and take n d + s n (n + 1)/2 of what is to be lost, v/dt. The way
+/// back takes (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for
+/// which that is not too much; in continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri
+/// 2008, section 3.4], of which sums over cycles make J v + d (d + s)/2. What is left to lose is
+/// taken by a smaller step to one more level, p + s at most, or p - s at least.
 ///
 /// There is such a way from every motion whose acceleration is within B. And as it begins with the
 /// largest steps, no other way to rest within the limits has a lower highest velocity.
@@ -42,7 +43,8 @@ class StoppingMotion {
   StoppingMotion() = default;
 
   /// @param from          where it begins
-  /// @param deceleration  B > 0 [rad/s^2 or m/s^2]; a joint that brakes harder already takes that back
+  /// @param deceleration  B > 0 [rad/s^2 or m/s^2]; a joint that brakes harder already takes that
+  ///                      back
   /// @param jerk          J > 0 [rad/s^3 or m/s^3]
   /// @param period        dt > 0 [s]
   /// Real-time: yes. O(1), however long it takes.

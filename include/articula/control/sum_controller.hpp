@@ -83,8 +83,8 @@ class SumController {
     return {command};
   }
 
-  /// Lets the parts that can, such as a PID's integral, begin with what the last command holds beyond
-  /// the other parts. After `start`. Real-time: yes.
+  /// Lets the parts that can, such as a PID's integral, begin with what the last command holds
+  /// beyond the other parts. After `start`. Real-time: yes.
   /// @param state      measured joints
   /// @param reference  what they shall do
   /// @param period     time until the next update [s]

@@ -31,18 +31,19 @@ namespace articula {
 ///     loop.controller().request({.start = {"computed_torque"}, .replace = true});
 ///
 /// - A request takes effect in the next update; from another thread it comes by a SwitchExchange.
-/// - A controller that becomes active is started anew. If it was asked for, its integrals are primed
-///   with the last command (Primable). So is the active one by `prime`.
+/// - A controller that becomes active is started anew. If it was asked for, its integrals are
+///   primed with the last command (Primable). So is the active one by `prime`.
 /// - The command goes on from the last one: a difference is carried over and decays at the slew
-///   (see BumplessTransfer), so that a switch changes no joint's command by more than slew * period in
-///   a cycle. It holds for switches during the decay, for start, stop and fallback alike.
+///   (see BumplessTransfer), so that a switch changes no joint's command by more than slew * period
+///   in a cycle. It holds for switches during the decay, for start, stop and fallback alike.
 /// - Without an active controller the command is that of Standby.
-/// - An active controller has failed if its command is not finite, although state and reference are,
-///   or if it says so (TellsFailure). The first of its fallbacks that does not fail takes over, within
-///   the same cycle. If none does, the command is not finite, so that whoever runs the Switch acts on
-///   it: Loop writes the safe command, Limited brakes. The controller stays active; a command that
-///   is good again goes on from that safe command, or from the one that is `given`. The command of a
-///   controller that is safe in failure (SafeInFailure) passes, and `failed` tells.
+/// - An active controller has failed if its command is not finite, although state and reference
+///   are, or if it says so (TellsFailure). The first of its fallbacks that does not fail takes
+///   over, within the same cycle. If none does, the command is not finite, so that whoever runs the
+///   Switch acts on it: Loop writes the safe command, Limited brakes. The controller stays active;
+///   a command that is good again goes on from that safe command, or from the one that is `given`.
+///   The command of a controller that is safe in failure (SafeInFailure) passes, and `failed`
+///   tells.
 ///
 /// One cycle asks one controller, with the fallbacks after a failure as many more. All commands
 /// are within what the robot's description allows, as SumController's are.
@@ -104,8 +105,8 @@ class Switch {
     begun_ = false;
   }
 
-  /// Goes on from a command that was given by others: the active controller's integrals begin with it,
-  /// and what they do not take is carried over and decays. After `start`. Real-time: yes.
+  /// Goes on from a command that was given by others: the active controller's integrals begin with
+  /// it, and what they do not take is carried over and decays. After `start`. Real-time: yes.
   /// @param state      measured joints
   /// @param reference  what they shall do
   /// @param period     time until the next update [s]
@@ -201,8 +202,8 @@ class Switch {
   }
 
   /// Hears what was given in the end, which the next switch, or command after a failure, goes on
-  /// from: N x 1, see numbers_of. After `limited`. Before the first update the active controller hears
-  /// it, too. Real-time: yes.
+  /// from: N x 1, see numbers_of. After `limited`. Before the first update the active controller
+  /// hears it, too. Real-time: yes.
   void given(const Vector& command) noexcept {
     transfer_.set_given(command);
     if (begun_) return;  // what is carried over is not the controller's own

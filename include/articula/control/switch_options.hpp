@@ -20,8 +20,8 @@ struct Fallback {
 /// @tparam N  number of joints
 template <int N>
 struct SwitchOptions {
-  /// Of all controllers, in their order; if empty, each has its own `name`, or "controller_1" and so
-  /// on by its place. Of two that would be called "pid" the second is "pid_2".
+  /// Of all controllers, in their order; if empty, each has its own `name`, or "controller_1" and
+  /// so on by its place. Of two that would be called "pid" the second is "pid_2".
   std::vector<Name> names{};
   std::vector<Fallback> fallbacks{};
   /// The controller that is active at first; an empty name: none. If not given, the first.

@@ -41,7 +41,8 @@ class ControllerNames {
 
 /// What shall start and stop, all of it in one cycle. First the controllers in `stop` stop, then
 /// those in `start` start: one that is in both begins anew. Each list has at most 16 names
-/// (ControllerNames::capacity); beyond that, several requests between two cycles have effect together.
+/// (ControllerNames::capacity); beyond that, several requests between two cycles have effect
+/// together.
 struct SwitchRequest {
   ControllerNames stop{};
   ControllerNames start{};

@@ -18,8 +18,8 @@ concept TellsFailure = requires(const C& controller) {
 };
 
 /// One whose command, if it is finite, counts even then, because it is a safe one: a member
-/// `safe_in_failure` says so. Such are Limited, which brakes, Groups, of which the other groups go on,
-/// and a Switch of these.
+/// `safe_in_failure` says so. Such are Limited, which brakes, Groups, of which the other groups go
+/// on, and a Switch of these.
 template <class C>
 concept SafeInFailure = TellsFailure<C> && C::safe_in_failure;
 

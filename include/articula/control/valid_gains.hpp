@@ -12,8 +12,8 @@ namespace articula {
 template <int N>
 using JointNames = std::array<std::string_view, static_cast<std::size_t>(N)>;
 
-/// The gains of N joints, checked as a whole. To have one is to have good gains, so that a controller
-/// can take it over in mid-run without a look.
+/// The gains of N joints, checked as a whole. To have one is to have good gains, so that a
+/// controller can take it over in mid-run without a look.
 /// @tparam G  the gains of one joint; `validate(gains, names)` refuses bad ones
 /// @tparam N  number of joints
 template <class G, int N>

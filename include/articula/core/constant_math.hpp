@@ -37,10 +37,10 @@ struct SineCosine {
 inline constexpr double largest_angle = 1e9;
 
 /// Sine and cosine of an angle [rad], within one unit in the last place for |angle| <= 1e4, NaN for
-/// |angle| > largest_angle. The angle is reduced to [-pi/4, pi/4] with pi/2 in three parts, of which the
-/// first two have so few bits that their products with the number of right angles are exact [Cody,
-/// Waite 1980, chapter 8]; then the Taylor series is summed in extended precision (21 terms reach
-/// below its last place).
+/// |angle| > largest_angle. The angle is reduced to [-pi/4, pi/4] with pi/2 in three parts, of
+/// which the first two have so few bits that their products with the number of right angles are
+/// exact [Cody, Waite 1980, chapter 8]; then the Taylor series is summed in extended precision (21
+/// terms reach below its last place).
 /// Real-time: yes, though meant for compile time.
 [[nodiscard]] constexpr SineCosine sine_cosine(double angle) noexcept {
   constexpr long double head = 0x1.921fb544p0L, middle = 0x1.0b4611a6p-34L,

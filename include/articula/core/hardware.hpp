@@ -42,8 +42,8 @@ concept Hardware = requires(H hardware, const H& constant, JointState<H::joint_c
 }
 &&JointCommand<Command, H::joint_count>;
 
-/// Hardware whose own cycle can pace the loop: `wait_for_cycle(timeout)` blocks until that cycle begins, and
-/// answers with another status than Status::ok if it does not begin in time.
+/// Hardware whose own cycle can pace the loop: `wait_for_cycle(timeout)` blocks until that cycle
+/// begins, and answers with another status than Status::ok if it does not begin in time.
 template <class H>
 concept PacingHardware = requires(H hardware, std::chrono::nanoseconds timeout) {
   { hardware.wait_for_cycle(timeout) }

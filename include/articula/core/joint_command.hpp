@@ -35,8 +35,8 @@ struct VelocityCommand {
   JointVector<N> velocity = JointVector<N>::Zero();  ///< [rad/s or m/s], N x 1
 };
 
-/// A spring, a damper and an effort for each of N drives that close this loop of their own, known as
-/// MIT mode: effort = stiffness (position - q) + damping (velocity - v) + effort.
+/// A spring, a damper and an effort for each of N drives that close this loop of their own, known
+/// as MIT mode: effort = stiffness (position - q) + damping (velocity - v) + effort.
 /// @tparam N  number of joints
 template <int N>
 struct MultiModeCommand {

@@ -18,8 +18,8 @@ using JointVector = Eigen::Matrix<double, N, 1>;
 template <int N>
 using JointMatrix = Eigen::Matrix<double, N, N>;
 
-/// Joint vectors of K robots of one kind, a column each. A joint's numbers lie side by side in memory,
-/// so that processors take several robots at once.
+/// Joint vectors of K robots of one kind, a column each. A joint's numbers lie side by side in
+/// memory, so that processors take several robots at once.
 /// @tparam N  number of joints (>= 1)
 /// @tparam K  number of robots (>= 2)
 template <int N, int K>

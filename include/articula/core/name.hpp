@@ -21,12 +21,18 @@ class Name {
   constexpr Name() = default;
 
   /// @param text  at most `capacity` characters, none of them NUL
-  /// @throws std::length_error if the text is longer (at compile time: does not compile)
+  /// @throws std::length_error if the text is longer, std::invalid_argument if there is a NUL in it
+  ///         (at compile time: does not compile)
   constexpr Name(std::string_view text) {  // NOLINT: a text is a name
     if (text.size() > capacity) {
       throw std::length_error("a name has at most 63 characters: " + std::string(text));
     }
-    for (char c : text) characters[size++] = c;
+    for (char c : text) {
+      if (c == '\0') {
+        throw std::invalid_argument("a name has no NUL in it: " + std::string(view()) + "\\0...");
+      }
+      characters[size++] = c;
+    }
   }
   constexpr Name(const char* text) : Name(std::string_view(text)) {}         // NOLINT: likewise
   constexpr Name(const std::string& text) : Name(std::string_view(text)) {}  // NOLINT: likewise
@@ -37,8 +43,8 @@ class Name {
 
   [[nodiscard]] constexpr bool empty() const noexcept { return size == 0; }
 
-  // Loops of their own, because compilers take their time for each function that std::string_view calls
-  // for each character; the last one first, because names of one robot differ there.
+  // Loops of their own, because compilers take their time for each function that std::string_view
+  // calls for each character; the last one first, because names of one robot differ there.
   friend constexpr bool operator==(const Name& a, const Name& b) noexcept {
     if (a.size != b.size) return false;
     for (std::size_t i = a.size; i-- > 0;) {

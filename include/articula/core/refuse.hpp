@@ -16,8 +16,8 @@ namespace articula::detail {
 
 /// A part of a message: a text, or a number as streams write it unless told otherwise (six digits,
 /// whatever the locale). A text is referred to, so a part lasts for the length of a call.
-/// Where messages are made there is then a list of one type, and no template for each combination of
-/// parts.
+/// Where messages are made there is then a list of one type, and no template for each combination
+/// of parts.
 class MessagePart {
  public:
   MessagePart(std::string_view text) noexcept : text_(text) {}    // NOLINT: a text is a part

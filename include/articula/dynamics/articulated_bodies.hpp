@@ -11,8 +11,8 @@ namespace articula {
 
 namespace detail {
 
-/// What a body with all that it carries opposes to an acceleration when the joints beyond it are free to
-/// give way, about the origin of its frame: n = I alpha + H a, f = H^T alpha + M a.
+/// What a body with all that it carries opposes to an acceleration when the joints beyond it are
+/// free to give way, about the origin of its frame: n = I alpha + H a, f = H^T alpha + M a.
 template <class S>
 struct ArticulatedInertia {
   Symmetric3<S> moment;  ///< I [kg m^2], 3 x 3
@@ -78,14 +78,14 @@ template <class S>
 
 }  // namespace detail
 
-/// Forward dynamics once more, without a mass matrix: each body with those that it carries is replaced by
-/// what it opposes to an acceleration, from the leaves to the base; from the base to the leaves the
-/// accelerations follow. Velocities and gravity come in by the bias efforts. For long chains that takes fewer
-/// operations than factors of the mass matrix.
+/// Forward dynamics once more, without a mass matrix: each body with those that it carries is
+/// replaced by what it opposes to an acceleration, from the leaves to the base; from the base to
+/// the leaves the accelerations follow. Velocities and gravity come in by the bias efforts. For
+/// long chains that takes fewer operations than factors of the mass matrix.
 /// Source: [Featherstone 2008, chapter 7].
 struct ArticulatedBodies {
-  /// Up to this length of a chain factors of the mass matrix have been seen to take fewer operations, on
-  /// trees even beyond it.
+  /// Up to this length of a chain factors of the mass matrix have been seen to take fewer
+  /// operations, on trees even beyond it.
   static constexpr int short_chain = 10;
 
   /// True for long chains, unless joints are tied otherwise than by the tree, which is beyond it.

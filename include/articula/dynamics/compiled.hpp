@@ -105,8 +105,9 @@ template <class Algorithm, DescribedRobot R, Frames frames>
 inline constexpr auto program_in = compile<Algorithm, R, frames>();
 
 /// The frames that make the cheaper programs. Trying them on each algorithm would take the compiler
-/// longer than all the rest. The gravity efforts are tried, for all algorithms: their program is short
-/// and consists of what the frames make cheaper or dearer, the way of vectors to the leaves and back.
+/// longer than all the rest. The gravity efforts are tried, for all algorithms: their program is
+/// short and consists of what the frames make cheaper or dearer, the way of vectors to the leaves
+/// and back.
 template <DescribedRobot R>
 [[nodiscard]] consteval Frames best_frames() {
   constexpr int moving = program_in<Gravity, R, Frames::moving>.operations().cost();
@@ -123,8 +124,8 @@ template <class Algorithm, DescribedRobot R>
   }
 }
 
-/// Whether an algorithm has an `Alternative`, another one with the same inputs and results, that makes
-/// the cheaper program. It is tried only where it says that it `may_pay`.
+/// Whether an algorithm has an `Alternative`, another one with the same inputs and results, that
+/// makes the cheaper program. It is tried only where it says that it `may_pay`.
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval bool has_cheaper_alternative() {
   if constexpr (requires { typename Algorithm::Alternative; }) {
@@ -170,8 +171,8 @@ inline constexpr const auto& program = detail::cheapest_program<Algorithm, R>();
 
 /// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
 /// but for rounding.
-/// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack; an array, or
-///                what else can be read so, as a pointer to N numbers
+/// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack; an
+///                array, or what else can be read so, as a pointer to N numbers
 /// @param inputs  the algorithm's other inputs, of the same type
 /// Real-time: yes.
 template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>... Inputs>

@@ -62,9 +62,10 @@ struct AxialTurn {
   }
 };
 
-/// Where one body stands relative to its parent, and how its mass lies in its frame. For scalars that
-/// know zeros, turning by the joint and turning by the body's fixed placement are kept apart: a turn
-/// about z costs four multiplications, and a fixed one often none. For numbers they are one matrix.
+/// Where one body stands relative to its parent, and how its mass lies in its frame. For scalars
+/// that know zeros, turning by the joint and turning by the body's fixed placement are kept apart:
+/// a turn about z costs four multiplications, and a fixed one often none. For numbers they are one
+/// matrix.
 template <class S>
 struct JointPlacement {
   static constexpr bool turns_are_apart = requires { requires S::simplifies; };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Mimic joints: between the joints that are commanded and the bodies that move.
 ///
-/// q_bodies = G q + offset, with one multiplier in each row of G. Velocities and accelerations go by
-/// G, efforts come back by its transpose (equal power), the mass matrix is G^T M G. Without mimic
-/// joints G is the identity and nothing is done.
+/// q_bodies = G q + offset, with one multiplier in each row of G. Velocities and accelerations go
+/// by G, efforts come back by its transpose (equal power), the mass matrix is G^T M G. Without
+/// mimic joints G is the identity and nothing is done.
 #pragma once
 
 #include "articula/model/mechanism.hpp"
@@ -89,10 +89,11 @@ template <class S, int N, int B>
   }
 }
 
-/// For each joint the one before it on the way to the base, -1 if there is none: elements of the mass
-/// matrix and of its factors between joints that are not on one such way are zero. Mimic joints tie
-/// branches together, and so do rotors that two joints share: two joints are on one way if one of them
-/// moves a body that carries a body of the other, or if both are on that of a third joint further out.
+/// For each joint the one before it on the way to the base, -1 if there is none: elements of the
+/// mass matrix and of its factors between joints that are not on one such way are zero. Mimic
+/// joints tie branches together, and so do rotors that two joints share: two joints are on one way
+/// if one of them moves a body that carries a body of the other, or if both are on that of a third
+/// joint further out.
 template <int N, int B>
 [[nodiscard]] constexpr JointArray<int, N> branches(const Mechanism<N, B>& mechanism) noexcept {
   JointRows<bool, N> tied{};

@@ -19,8 +19,8 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<Gravity>(robot, q));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by one, as
-/// many at a time as the processor that is compiled for has lanes (-march=native).
+/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
+/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
 /// Real-time: yes.
 template <Robot R, int K>
 [[nodiscard]] JointVectors<joint_count<R>, K> gravity(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The algorithm behind gravity. It stands apart because the frames in which a robot's programs
-/// calculate are chosen by it, see compiled.hpp.
+/// @file The algorithm behind gravity. It stands apart because the frames in which a robot's
+/// programs calculate are chosen by it, see compiled.hpp.
 #pragma once
 
 #include "articula/dynamics/newton_euler.hpp"

@@ -52,15 +52,15 @@ template <class S, int N, int B>
 
 /// The geometric Jacobian of a link: J(q) v are the velocity of the origin of the link's frame
 /// (rows 0 to 2) and the angular velocity of the link (rows 3 to 5), both in the frame of the
-/// robot's root link. J(q)^T (f, n) are the joint efforts that do the work of a force f at that origin
-/// and a moment n. Joints that do not move the link have columns of zeros.
+/// robot's root link. J(q)^T (f, n) are the joint efforts that do the work of a force f at that
+/// origin and a moment n. Joints that do not move the link have columns of zeros.
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @param link   the link, from link_index of the same robot
-/// @return       J, 6 x N; rows 0 to 2 in m/rad (1 for a prismatic joint), rows 3 to 5 in rad/rad (0 for
-///               a prismatic joint)
-/// Real-time: yes. O(N). It takes operations<BodyPlacements, R>() and 9 multiplications for each joint
-/// before the link.
+/// @return       J, 6 x N; rows 0 to 2 in m/rad (1 for a prismatic joint), rows 3 to 5 in rad/rad
+///               (0 for a prismatic joint)
+/// Real-time: yes. O(N). It takes operations<BodyPlacements, R>() and 9 multiplications for each
+/// joint before the link.
 template <Robot R>
 [[nodiscard]] LinkJacobian<joint_count<R>> jacobian(const R& robot,
                                                     const JointVector<joint_count<R>>& q,

@@ -47,8 +47,10 @@ constexpr Matrix3<S> acceleration_gradient(const VelocityProducts<S>& w,
 /// Force and moment that give a body its motion: f = m a + U h and n = h x a + the vector of the
 /// antisymmetric part of U J, in which (Jxx + Jyy) is written for the part of z.
 template <class S>
-constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion, const VelocityProducts<S>& w,
-                               const Matrix3<S>& u, const MassMoments<S>& moments) noexcept {
+[[gnu::always_inline]] constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion,
+                                                      const VelocityProducts<S>& w,
+                                                      const Matrix3<S>& u,
+                                                      const MassMoments<S>& moments) noexcept {
   const Vector3<S>& h = moments.first;
   const Symmetric3<S>& j = moments.second;
   const auto& [ux, uy, uz] = u.rows;
@@ -68,11 +70,11 @@ constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion, const VelocityProduc
 /// base. Source: [Luh, Walker, Paul 1980]; with the matrix U of [Balafoutis, Patel, Misra 1988]; in
 /// link frames as [Khalil, Dombre 2002, section 9.5].
 ///
-/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M, and what two joints
-/// share of them beside it. That takes a
-/// rotor to have no more than its own spin, n v, about its axis: what it feels of the motion of the
-/// link that carries it, gyroscopic moments included, is smaller by a factor n and left out [Spong
-/// 1987]; [Featherstone 2008, section 9.6]. The rotor's mass is part of that link.
+/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M, and what two
+/// joints share of them beside it. That takes a rotor to have no more than its own spin, n v, about
+/// its axis: what it feels of the motion of the link that carries it, gyroscopic moments included,
+/// is smaller by a factor n and left out [Spong 1987]; [Featherstone 2008, section 9.6]. The
+/// rotor's mass is part of that link.
 /// @param mechanism      the robot's bodies
 /// @param configuration  where they stand
 /// @param v              joint velocities [rad/s or m/s]

@@ -32,8 +32,8 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<NonlinearEffects>(robot, q, v));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by one, as
-/// many at a time as the processor that is compiled for has lanes (-march=native).
+/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
+/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
 /// Real-time: yes.
 template <Robot R, int K>
 [[nodiscard]] JointVectors<joint_count<R>, K> nonlinear_effects(

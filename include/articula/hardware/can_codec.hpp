@@ -92,8 +92,8 @@ concept CanCodec = JointCommand<typename C::Command, C::joint_count> &&
 /// A codec whose drives' cycles are begun by a frame of another node, which can pace a loop:
 /// `heard_cycles()` tells how many have begun.
 ///
-/// `encode` and `encode_stop` begin no cycle then. But where none has begun since the last time, the
-/// reports grow older by one all the same, so that a bus that falls silent is found.
+/// `encode` and `encode_stop` begin no cycle then. But where none has begun since the last time,
+/// the reports grow older by one all the same, so that a bus that falls silent is found.
 template <class C>
 concept PacedCanCodec = CanCodec<C> && requires(const C& constant) {
   { constant.heard_cycles() }

@@ -17,8 +17,8 @@ struct CanErrorReport {
   bool no_answer = false;  ///< nobody acknowledges what it sends, or it could not send in time
 };
 
-/// Reads an error frame of SocketCAN [Linux, include/uapi/linux/can/error.h]. Total: bits that are not
-/// known are ignored.
+/// Reads an error frame of SocketCAN [Linux, include/uapi/linux/can/error.h]. Total: bits that are
+/// not known are ignored.
 /// @param classes  identifier of the frame without its flags: the classes of errors
 /// @param data     payload
 /// Real-time: yes.

@@ -24,11 +24,11 @@ namespace articula {
 ///
 /// `write` sends the commands of a cycle and the frame that puts them into force; the drives answer
 /// with feedback, which the next `read` takes in. Where another node begins the cycles of the bus
-/// (see PacedCanCodec), it can pace the loop, and this is PacingHardware. Where the feedback of some
-/// joint is missing, its last one is used until it is too old. When something is wrong for good (see
-/// CanCause) while the drives are active, they are told to let go, in every cycle from then on, until
-/// `activate` succeeds again: nothing starts to move by itself. docs/hardware.md has a table of all
-/// faults.
+/// (see PacedCanCodec), it can pace the loop, and this is PacingHardware. Where the feedback of
+/// some joint is missing, its last one is used until it is too old. When something is wrong for
+/// good (see CanCause) while the drives are active, they are told to let go, in every cycle from
+/// then on, until `activate` succeeds again: nothing starts to move by itself. docs/hardware.md has
+/// a table of all faults.
 /// @tparam R          the robot
 /// @tparam Codec      the language of its drives
 /// @tparam Transport  the way to the bus
@@ -113,8 +113,8 @@ class CanHardware {
     return Status::hardware_fault;
   }
 
-  /// Tells the drives to let go and waits until they have; over a new way to the bus, if the old one
-  /// is gone.
+  /// Tells the drives to let go and waits until they have; over a new way to the bus, if the old
+  /// one is gone.
   /// @return Status::ok when all drives have reported it, else Status::hardware_fault
   /// Real-time: no (waits for the drives).
   [[nodiscard]] Status deactivate() noexcept {
@@ -164,8 +164,8 @@ class CanHardware {
   /// @param command  per joint; if it is not finite, the drives get zero effort, zero velocity or
   ///                 the measured position instead
   /// @return         Status::ok, also while the bus is too busy for a cycle or two, whose commands
-  ///                 are dropped; Status::non_finite_command; Status::hardware_fault if the bus takes
-  ///                 nothing for as long as feedback may be missing, or after a fault
+  ///                 are dropped; Status::non_finite_command; Status::hardware_fault if the bus
+  ///                 takes nothing for as long as feedback may be missing, or after a fault
   /// Real-time: yes, but for the bus.
   [[nodiscard]] Status write(const Command& command) noexcept {
     ++statistics_.cycles;
@@ -227,7 +227,8 @@ class CanHardware {
   /// Why the drives were told to let go, or why activate failed; CanCause::none if all is well.
   /// Real-time: yes.
   [[nodiscard]] const CanFault& fault() const noexcept { return fault_; }
-  /// When the newest frame that was taken in arrived, by the transport's time stamps. Real-time: yes.
+  /// When the newest frame that was taken in arrived, by the transport's time stamps. Real-time:
+  /// yes.
   [[nodiscard]] std::chrono::nanoseconds feedback_time() const noexcept { return feedback_time_; }
   [[nodiscard]] const CanStatistics& statistics() const noexcept { return statistics_; }
   [[nodiscard]] auto reports() const noexcept { return codec_.reports(); }

@@ -12,8 +12,8 @@ namespace articula {
 /// How patient the CAN driver is.
 struct CanHardwareOptions {
   /// Age from which a joint's figures are not used: in cycles since the one they belong to. The
-  /// feedback of the last cycle has age 0. Likewise, how many cycles in a row the bus may be too busy
-  /// to take before writing is no longer ok.
+  /// feedback of the last cycle has age 0. Likewise, how many cycles in a row the bus may be too
+  /// busy to take before writing is no longer ok.
   std::uint32_t stale_after = 3;
   /// Age from which the drive counts as silent, which is a fault [cycles].
   std::uint32_t silent_after = 20;

@@ -38,10 +38,10 @@ enum class [[nodiscard]] CanSending : unsigned char{
 
 /// The way to a CAN bus.
 ///
-/// - `open(subscription)` makes it ready to receive these frames; called again, it starts anew, also
-///   after the interface was gone. Belongs to set-up and may take its time.
-/// - `receive(frames)` fetches frames that have arrived, and never waits. Fewer than asked for means
-///   that there are no more.
+/// - `open(subscription)` makes it ready to receive these frames; called again, it starts anew,
+///   also after the interface was gone. Belongs to set-up and may take its time.
+/// - `receive(frames)` fetches frames that have arrived, and never waits. Fewer than asked for
+///   means that there are no more.
 /// - `send(batch)` hands over the frames of a cycle, and never waits. A frame that is not taken is
 ///   dropped.
 /// - `wait(time)` waits until a frame arrives, at most that long. For set-up, and for loops that

@@ -8,8 +8,8 @@
 #include <optional>
 
 /// Network management, SYNC, heartbeat, emergency, and expedited access to the object dictionary
-/// [CiA 301]. Encoding gives the frame; decoding takes any frame and gives a value, or nothing if it
-/// is not such a frame. All functions are real-time.
+/// [CiA 301]. Encoding gives the frame; decoding takes any frame and gives a value, or nothing if
+/// it is not such a frame. All functions are real-time.
 namespace articula::canopen {
 
 // Identifiers of the predefined connection set; those of a node n = 1 .. 127 are the base plus n.

@@ -30,8 +30,8 @@ namespace articula {
 /// | TPDO 1 | sent | statusword, position, torque |
 /// | TPDO 2 | sent | velocity, error code |
 ///
-/// Who sends SYNC is an option of the type. With SyncProducer::another_node the codec sends none: one
-/// that is received begins the cycle and puts into force what was written before. It comes from
+/// Who sends SYNC is an option of the type. With SyncProducer::another_node the codec sends none:
+/// one that is received begins the cycle and puts into force what was written before. It comes from
 /// another device, one of the drives or a master (objects 1005h, 1006h), at the loop's period. The
 /// drives are stopped by access to their objects as well then, since without SYNC no RPDO counts.
 ///

@@ -15,11 +15,11 @@
 namespace articula {
 
 /// Brings one drive to operation enabled by access to its objects, one request at a time: checks
-/// that it is a CiA 402 drive, maps the process data, sets the mode, starts the node, resets a fault
-/// and walks the state machine. Nothing moves meanwhile: the target is zero, or the position where
-/// the drive stands, before it is enabled; and a command of the past that may still wait for SYNC in
-/// the drive is dropped, since the node leaves the operational state first. All objects are accessed
-/// by expedited transfers; none of them is longer than four bytes.
+/// that it is a CiA 402 drive, maps the process data, sets the mode, starts the node, resets a
+/// fault and walks the state machine. Nothing moves meanwhile: the target is zero, or the position
+/// where the drive stands, before it is enabled; and a command of the past that may still wait for
+/// SYNC in the drive is dropped, since the node leaves the operational state first. All objects are
+/// accessed by expedited transfers; none of them is longer than four bytes.
 class Cia402SetUp {
  public:
   /// @param node      1 .. 127

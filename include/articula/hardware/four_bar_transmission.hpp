@@ -8,8 +8,9 @@
 
 namespace articula {
 
-/// A four-bar linkage: the second actuator drives the second joint past the first, so that the second
-/// joint also moves when the first one does. With the reductions n of actuators and m of joints,
+/// A four-bar linkage: the second actuator drives the second joint past the first, so that the
+/// second joint also moves when the first one does. With the reductions n of actuators and m of
+/// joints,
 ///
 ///     q_1 = q_a1/(m_1 n_1) + offset_1
 ///     q_2 = (q_a2/n_2 - q_a1/(m_1 n_1))/m_2 + offset_2

@@ -20,9 +20,9 @@ namespace articula {
 /// fail by a script. For trying out everything around a robot.
 ///
 /// A position command is where the joints are from then on, and their velocity is the step over the
-/// period; a velocity command moves them by one period; an effort command shows as measured effort. A
-/// multi-mode command does each of these: joints with a spring go where it pulls them, those with a
-/// damper alone move with its velocity, and all show the effort.
+/// period; a velocity command moves them by one period; an effort command shows as measured effort.
+/// A multi-mode command does each of these: joints with a spring go where it pulls them, those with
+/// a damper alone move with its velocity, and all show the effort.
 /// Commands move joints while the hardware is active; a command that is not finite is refused.
 /// @tparam R            the robot
 /// @tparam CommandType  what the drives take

@@ -171,8 +171,8 @@ class QuanserCodec {
     return age < 128 && age < cycle_ ? cycle_ - age : 0;
   }
 
-  /// A frame of no cycle, of one that is known already, or of an older one than its like has come for;
-  /// that one must not displace what is newer.
+  /// A frame of no cycle, of one that is known already, or of an older one than its like has come
+  /// for; that one must not displace what is newer.
   [[nodiscard]] bool is_outdated(std::size_t j, std::uint64_t cycle,
                                  std::uint64_t newest) const noexcept {
     return cycle == 0 || cycle <= halves_[j].taken_cycle || cycle < newest;

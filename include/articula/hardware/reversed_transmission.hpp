@@ -8,9 +8,9 @@
 
 namespace articula {
 
-/// A transmission with actuators and joints exchanged: what it calls joints are the actuators of the one
-/// inside. It makes the motors' side of a simulated robot, for drives that count at the motor:
-/// `TransmittedHardware<Simulator<Arm>, Arm, Reversed<SimpleTransmission>, ...>`.
+/// A transmission with actuators and joints exchanged: what it calls joints are the actuators of
+/// the one inside. It makes the motors' side of a simulated robot, for drives that count at the
+/// motor: `TransmittedHardware<Simulator<Arm>, Arm, Reversed<SimpleTransmission>, ...>`.
 template <Transmission T>
 struct Reversed {
   static constexpr int size = T::size;

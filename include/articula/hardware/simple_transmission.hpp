@@ -10,8 +10,8 @@ namespace articula {
 ///
 ///     q = q_a/n + offset,   v = v_a/n,   effort = n effort_a.
 ///
-/// Signs and offset are those of ROS's transmission_interface::SimpleTransmission. A negative reduction
-/// turns the joint the other way. All functions of this type are real-time: yes.
+/// Signs and offset are those of ROS's transmission_interface::SimpleTransmission. A negative
+/// reduction turns the joint the other way. All functions of this type are real-time: yes.
 struct SimpleTransmission {
   static constexpr int size = 1;
   using Vector = JointVector<1>;  ///< 1 x 1

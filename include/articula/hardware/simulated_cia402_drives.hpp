@@ -18,8 +18,8 @@
 
 namespace articula {
 
-/// CiA 402 drives in the cyclic synchronous modes with a simulated arm behind them. Frames go in and
-/// out; there is no bus in it. Its time is the host's: each SYNC lets one period pass, and the
+/// CiA 402 drives in the cyclic synchronous modes with a simulated arm behind them. Frames go in
+/// and out; there is no bus in it. Its time is the host's: each SYNC lets one period pass, and the
 /// feedback shows the arm at the end of that period.
 ///
 /// In position and velocity mode the drives close their own loop: a stiffness and a damping that

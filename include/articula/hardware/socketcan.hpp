@@ -58,8 +58,8 @@ struct SocketCanStatistics {
 class SocketCan {
  public:
   /// @param interface          name of the interface, such as "can0"
-  /// @param confirmation_time  longest time that a cycle may take to get onto the bus before it counts
-  ///                           as lost; a few periods of the loop
+  /// @param confirmation_time  longest time that a cycle may take to get onto the bus before it
+  ///                           counts as lost; a few periods of the loop
   /// @throws std::invalid_argument if there can be no interface of that name, or the time is not
   ///         positive
   /// @throws std::runtime_error if there is none now, or the kernel has no CAN
@@ -99,8 +99,8 @@ class SocketCan {
   ~SocketCan() { close(); }
 
   /// Opens the socket anew, so that nothing of the past is left in it: binds it to the interface as
-  /// it is now and asks the kernel for the subscribed frames, the end of each own cycle, and reports
-  /// of errors.
+  /// it is now and asks the kernel for the subscribed frames, the end of each own cycle, and
+  /// reports of errors.
   /// @return Status::hardware_fault if that fails, and error() tells what
   /// Real-time: no (system calls, allocates).
   [[nodiscard]] Status open(const CanSubscription& subscription) noexcept try {
@@ -126,8 +126,8 @@ class SocketCan {
     }
     const can_err_mask_t errors = CAN_ERR_MASK;
     const int on = 1;
-    // What is queued is charged to the socket, about 1 KiB a frame: little more than one cycle fits.
-    // The kernel doubles the number and does not go below some five frames.
+    // What is queued is charged to the socket, about 1 KiB a frame: little more than one cycle
+    // fits. The kernel doubles the number and does not go below some five frames.
     const int queue =
         static_cast<int>(std::max<std::size_t>(subscription.frames_per_cycle, 4) * 512);
     if (!set(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors)) return refuse("CAN_RAW_ERR_FILTER");
@@ -150,8 +150,8 @@ class SocketCan {
     return refuse("out of memory");
   }
 
-  /// Fetches frames that have arrived, by one system call, or a few where there are many. Reports of the
-  /// controller and own frames are dealt with here. Real-time: yes, but for the bus.
+  /// Fetches frames that have arrived, by one system call, or a few where there are many. Reports
+  /// of the controller and own frames are dealt with here. Real-time: yes, but for the bus.
   [[nodiscard]] std::size_t receive(std::span<ReceivedCanFrame> frames) noexcept {
     constexpr std::size_t most = 32;
     constexpr std::size_t control_size =

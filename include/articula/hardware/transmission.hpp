@@ -19,12 +19,14 @@ namespace articula {
 /// actuator_effort . actuator_velocity = joint_effort . joint_velocity.
 ///
 /// - `size` is the number of joints, and of actuators;
-/// - `joint_position(q_a)`, `joint_velocity(v_a)`, `joint_effort(effort_a)` go from actuators to joints;
+/// - `joint_position(q_a)`, `joint_velocity(v_a)`, `joint_effort(effort_a)` go from actuators to
+///   joints;
 /// - `actuator_position(q)`, `actuator_velocity(v)`, `actuator_effort(effort)` go back;
-/// - `validate(transmission, where)` throws std::invalid_argument that begins with `where` and names the
-///   figure, its value and its limit.
+/// - `validate(transmission, where)` throws std::invalid_argument that begins with `where` and
+///   names the figure, its value and its limit.
 ///
-/// All vectors are size x 1, in rad, rad/s, N m or m, m/s, N. The maps take any value and are noexcept.
+/// All vectors are size x 1, in rad, rad/s, N m or m, m/s, N. The maps take any value and are
+/// noexcept.
 template <class T>
 concept Transmission = requires(const T& transmission, const JointVector<T::size>& x,
                                 std::string_view where) {
@@ -79,8 +81,8 @@ template <Transmission T>
   return rates.transpose() * rotors.asDiagonal() * rates;
 }
 
-/// The limits within which actuators must work so that the joints can be anywhere, as fast and as strong
-/// as their own limits allow, all at once.
+/// The limits within which actuators must work so that the joints can be anywhere, as fast and as
+/// strong as their own limits allow, all at once.
 /// @param transmission  between actuators and joints
 /// @param joints        limits of the joints
 /// @return              of the actuators, in the order of the transmission

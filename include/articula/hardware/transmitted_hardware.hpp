@@ -37,9 +37,10 @@ struct Gearing {
       limits{};  ///< of the actuators; commands are cut off there, see write
 };
 
-/// The joints of a robot, made of the hardware of its actuators and the transmissions between them, put
-/// together by the compiler. It is hardware for commands of effort, position and velocity, as far as
-/// the actuators' hardware is; and for springs and dampers where each joint has its own actuator.
+/// The joints of a robot, made of the hardware of its actuators and the transmissions between them,
+/// put together by the compiler. It is hardware for commands of effort, position and velocity, as
+/// far as the actuators' hardware is; and for springs and dampers where each joint has its own
+/// actuator.
 ///
 ///     TransmittedHardware<Drives, Arm, SimpleTransmission, DifferentialTransmission> arm(
 ///         Drives(),
@@ -48,7 +49,8 @@ struct Gearing {
 ///
 /// What goes wrong below is passed on: a figure that is no number reaches all joints of its
 /// transmission.
-/// @tparam ActuatorHardware  hardware with as many joints as the robot; its joints are the actuators
+/// @tparam ActuatorHardware  hardware with as many joints as the robot; its joints are the
+///                           actuators
 /// @tparam R                 the robot
 /// @tparam Transmissions     which together have as many joints as the robot
 template <class ActuatorHardware, Robot R, Transmission... Transmissions>
@@ -64,8 +66,8 @@ class TransmittedHardware {
   /// For a robot known at compile time.
   /// @param hardware  of the actuators
   /// @param gearings  one for each of the transmissions
-  /// @throws std::invalid_argument naming the joint or actuator and the value, if a name is unknown or
-  ///         there twice, or a figure is out of range
+  /// @throws std::invalid_argument naming the joint or actuator and the value, if a name is unknown
+  ///         or there twice, or a figure is out of range
   explicit TransmittedHardware(ActuatorHardware hardware,
                                const Gearing<Transmissions>&... gearings) requires DescribedRobot<R>
       : TransmittedHardware(R(), std::move(hardware), gearings...) {}
@@ -100,9 +102,9 @@ class TransmittedHardware {
     return status;
   }
 
-  /// Hands over what the actuators have to do for the joints' command. Beyond an actuator's limit, the
-  /// limit. Of springs and dampers the total effort at the actuators' last state keeps it, too: their
-  /// references are drawn towards that state.
+  /// Hands over what the actuators have to do for the joints' command. Beyond an actuator's limit,
+  /// the limit. Of springs and dampers the total effort at the actuators' last state keeps it, too:
+  /// their references are drawn towards that state.
   /// @param command  for the joints
   /// @return         as the actuators' hardware, which also sees what is not finite
   /// Real-time: yes, if the actuators' write is.

@@ -33,10 +33,11 @@ inline constexpr std::string_view urdf_transmission<FourBarTransmission> =
 
 }  // namespace detail
 
-/// A transmission as a URDF's <transmission> has it. Joints and actuators stand by their roles ("joint1",
-/// "actuator2"), or where none of them has one as in the file. The reduction of a simple transmission is
-/// that of its actuator, as ROS 1 writes it, times that of its joint, as ros2_control does. The type
-/// that the file names may be unknown here, but not another one of these three.
+/// A transmission as a URDF's <transmission> has it. Joints and actuators stand by their roles
+/// ("joint1", "actuator2"), or where none of them has one as in the file. The reduction of a simple
+/// transmission is that of its actuator, as ROS 1 writes it, times that of its joint, as
+/// ros2_control does. The type that the file names may be unknown here, but not another one of
+/// these three.
 ///
 ///     TransmittedHardware<Drives, Arm, SimpleTransmission, ...> arm(
 ///         Drives(), gearing_of<SimpleTransmission>(urdf, "shoulder_transmission"), ...);
@@ -45,7 +46,8 @@ inline constexpr std::string_view urdf_transmission<FourBarTransmission> =
 /// @param description  what was read
 /// @param name         of the <transmission>
 /// @throws std::invalid_argument if there is none of that name, it is of another type, has another
-///         number of joints or actuators, or their roles do not tell which is which; naming it and them
+///         number of joints or actuators, or their roles do not tell which is which; naming it and
+///         them
 /// Real-time: no (searches by name, throws).
 template <Transmission T>
 requires(!detail::urdf_transmission<T>.empty())

@@ -13,9 +13,9 @@
 
 namespace articula {
 
-/// Durations counted in buckets: 16 for each octave, and one for each nanosecond below 32 ns. Count,
-/// minimum, mean and maximum are exact; a percentile is at most 1/16 too high. Negative durations
-/// count as 0.
+/// Durations counted in buckets: 16 for each octave, and one for each nanosecond below 32 ns.
+/// Count, minimum, mean and maximum are exact; a percentile is at most 1/16 too high. Negative
+/// durations count as 0.
 class DurationHistogram {
  public:
   using Duration = std::chrono::nanoseconds;

@@ -10,8 +10,8 @@
 
 namespace articula {
 
-/// Hands every value from one writing to one reading thread, in order: records, events. Neither side
-/// ever waits for the other. What finds the ring full is dropped, and counted.
+/// Hands every value from one writing to one reading thread, in order: records, events. Neither
+/// side ever waits for the other. What finds the ring full is dropped, and counted.
 /// Source: [Lamport 1977], the ring buffer of one producer and one consumer.
 /// @tparam T         what is handed over; its assignment must be fit for real time
 /// @tparam Capacity  how many values the ring holds, a power of two

@@ -15,8 +15,8 @@
 namespace articula {
 
 /// Hands new gains from any one thread to a controller that runs in another. A set is checked as a
-/// whole before it is handed over, so the controller has the old set or the new one, never a mixture
-/// or a bad one; if several are offered between two cycles, the last one counts.
+/// whole before it is handed over, so the controller has the old set or the new one, never a
+/// mixture or a bad one; if several are offered between two cycles, the last one counts.
 ///
 ///     GainsExchange<PidGains, 2> exchange(Q2d{});
 ///     exchange.offer(gains);               // another thread: throws if the gains are bad
@@ -37,8 +37,8 @@ class GainsExchange {
   }
 
   /// Checks gains and hands them over. For the one thread that sets gains; it does not wait.
-  /// @throws std::invalid_argument with the reason, naming joint, gain and value; the controller then
-  ///         keeps what it has
+  /// @throws std::invalid_argument with the reason, naming joint, gain and value; the controller
+  ///         then keeps what it has
   /// Real-time: no (throws).
   void offer(const Gains& gains) {
     JointNames<N> names;

@@ -12,9 +12,9 @@ namespace articula {
 
 /// A clock that lets hardware pace the loop: cycles begin when the bus's own cycle does. Where that
 /// stays away for half a period, the loop's cycle begins without it, late by that much, so that the
-/// loop can notice and be safe; one period later it is waited for again. Any beginning within half a
-/// period of when it was due is taken, so the loop finds the bus's pace again wherever that resumes;
-/// but none sooner than half a period after the last, however often they come.
+/// loop can notice and be safe; one period later it is waited for again. Any beginning within half
+/// a period of when it was due is taken, so the loop finds the bus's pace again wherever that
+/// resumes; but none sooner than half a period after the last, however often they come.
 /// @tparam HardwareType  satisfies PacingHardware
 /// @tparam Base          tells the time and waits where the hardware fails to
 template <PacingHardware HardwareType, LoopClock Base>

@@ -34,12 +34,12 @@ namespace articula {
 /// says it has failed (TellsFailure) is treated as one whose command is not finite; what Limited or
 /// Groups make of a failure is written (SafeInFailure), and only the Status tells.
 ///
-/// After up to `borne_cycles` bad cycles in a row the controller goes on as if nothing had been: a lost
-/// frame costs no integral. After more, or after one in which the hardware could not be read or
-/// written, it starts anew with the first good one, since what it remembers is of a motion that is over.
-/// Where reference or command were to blame and the joints were held meanwhile, it begins with the
-/// command that held them, if it can (see Primable). In any case it hears what was given last, if it
-/// wants to know (TakesGiven).
+/// After up to `borne_cycles` bad cycles in a row the controller goes on as if nothing had been: a
+/// lost frame costs no integral. After more, or after one in which the hardware could not be read
+/// or written, it starts anew with the first good one, since what it remembers is of a motion that
+/// is over. Where reference or command were to blame and the joints were held meanwhile, it begins
+/// with the command that held them, if it can (see Primable). In any case it hears what was given
+/// last, if it wants to know (TakesGiven).
 /// @tparam HardwareType        satisfies Hardware
 /// @tparam ControllerTemplate  makes a Controller of the hardware's robot
 template <class HardwareType, template <class> class ControllerTemplate>

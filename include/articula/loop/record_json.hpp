@@ -40,7 +40,8 @@ template <Robot R>
   return {{"timestamp", time}, {std::string(model_of(robot).name.view()), joints}};
 }
 
-/// A whole record: the above, and with each joint its reference and command, then status and timing.
+/// A whole record: the above, and with each joint its reference and command, then status and
+/// timing.
 /// @param robot   whose joints these are
 /// @param record  of one cycle
 /// Real-time: no (allocates).

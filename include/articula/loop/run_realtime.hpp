@@ -27,9 +27,9 @@ concept PacedLoop = requires(L loop) {
   requires PacingHardware<std::remove_cvref_t<decltype(loop.hardware())>>;
 };
 
-/// Makes the calling thread fit for real time and runs the loop on it; see make_realtime and the other
-/// `run`. The pace is that of the loop's hardware where it can give one (see HardwareClock), else
-/// CLOCK_MONOTONIC.
+/// Makes the calling thread fit for real time and runs the loop on it; see make_realtime and the
+/// other `run`. The pace is that of the loop's hardware where it can give one (see HardwareClock),
+/// else CLOCK_MONOTONIC.
 /// @throws std::invalid_argument if an option or the loop's period makes no sense
 /// @throws std::system_error if the system refuses, unless options.thread.warn takes the refusal
 /// Real-time: all cycles, if update and each are.

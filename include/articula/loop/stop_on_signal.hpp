@@ -43,7 +43,8 @@ class StopOnSignal {
   StopOnSignal& operator=(const StopOnSignal&) = delete;
 
  private:
-  /// A signal handler can be given nothing but a global. Constant initialisation: no guard, no lock.
+  /// A signal handler can be given nothing but a global. Constant initialisation: no guard, no
+  /// lock.
   [[nodiscard]] static std::atomic<StopFlag*>& target() noexcept {
     static constinit std::atomic<StopFlag*> flag{nullptr};
     return flag;

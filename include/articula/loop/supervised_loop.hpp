@@ -101,8 +101,8 @@ class SupervisedLoop {
   /// Lets a loop in fault go inactive with the next update. From any thread. Real-time: yes.
   void acknowledge_fault() noexcept { request_.store(Request::acknowledgement); }
 
-  /// Posts what the joints shall do from the next update on. From one thread, any one; or by several
-  /// that take turns.
+  /// Posts what the joints shall do from the next update on. From one thread, any one; or by
+  /// several that take turns.
   /// Real-time: yes. Wait-free.
   void post(const Reference& reference) noexcept { posted_.write(reference); }
 

@@ -30,12 +30,12 @@ struct SwitchEvent {
   ControllerStatus after = ControllerStatus::inactive;
 };
 
-/// Carries requests from any one thread to the Switch, or Groups, of a loop that runs in another, and
-/// brings back what became of them, who is active and what has happened:
+/// Carries requests from any one thread to the Switch, or Groups, of a loop that runs in another,
+/// and brings back what became of them, who is active and what has happened:
 ///
 ///     SwitchExchange exchange(loop.controller());
 ///     auto outcome = exchange.ask({.stop = {"pid"}, .start = {"bypass"}});  // another thread
-///     for (const ControllerInfo& controller : exchange.list()) ...                   // that thread
+///     for (const ControllerInfo& controller : exchange.list()) ...          // that thread
 ///     exchange.apply(loop.controller());            // the control thread, between two cycles
 ///
 /// Neither thread waits for the other, unless it asks to by `ask`.
@@ -105,9 +105,9 @@ class SwitchExchange {
   // For the control thread:
 
   /// Passes requests on to the controller and publishes what it has done. Between two cycles. An
-  /// outcome is handed over by the next call, so that `list` and `event` know of the cycle in between.
-  /// What shall start or stop in a group with a divisor does so when that is asked next; they know of
-  /// it then.
+  /// outcome is handed over by the next call, so that `list` and `event` know of the cycle in
+  /// between. What shall start or stop in a group with a divisor does so when that is asked next;
+  /// they know of it then.
   /// @return  whether a controller started, stopped or failed since the last call
   /// Real-time: yes. Wait-free.
   template <class C>
@@ -122,7 +122,8 @@ class SwitchExchange {
     }
     if (changed) published_.write(now);
     statuses_ = now;
-    // The outcomes of the last call's requests, now that the list shows what that cycle made of them.
+    // The outcomes of the last call's requests, now that the list shows what that cycle made of
+    // them.
     for (std::size_t k = 0; k < decided_count_; ++k) outcomes_.push(decided_[k]);
     decided_count_ = 0;
     NumberedRequest next;

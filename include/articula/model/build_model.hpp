@@ -82,7 +82,8 @@ struct ModelBuilder {
     add_link(joint.child, body, {turn.transposed(), {}}, joint.name);
   }
 
-  /// Couples the bodies on mimic joints to the joints that they follow, and those that share rotors.
+  /// Couples the bodies on mimic joints to the joints that they follow, and those that share
+  /// rotors.
   constexpr void couple() {
     for (std::size_t body = 0; body < carriers.size(); ++body) {
       share_rotors(body);

@@ -18,8 +18,8 @@
 namespace articula {
 
 /// What is taken for a right angle unless something else is asked for: the sine of the difference.
-/// 1.5707963, a right angle written with eight digits, is off by 3e-8. One with fewer is taken as it is
-/// written: other libraries would differ from what is made of it in the seventh digit.
+/// 1.5707963, a right angle written with eight digits, is off by 3e-8. One with fewer is taken as
+/// it is written: other libraries would differ from what is made of it in the seventh digit.
 inline constexpr double default_right_angle_tolerance = 1e-7;
 
 /// A mechanism in canonical form, and how to come back from it.
@@ -66,9 +66,9 @@ namespace detail {
 }
 
 /// The rotation with all elements up to the tolerance in size taken as zero, made orthonormal
-/// again: the z axis keeps its direction, x is turned until it is perpendicular to it. Small elements that
-/// are larger say that the angle is what it is; to take the smallest of them for zero alone would be
-/// neither the one nor the other. Then no more than rounding is taken away.
+/// again: the z axis keeps its direction, x is turned until it is perpendicular to it. Small
+/// elements that are larger say that the angle is what it is; to take the smallest of them for zero
+/// alone would be neither the one nor the other. Then no more than rounding is taken away.
 [[nodiscard]] constexpr Matrix3<double> with_right_angles(Matrix3<double> rotation,
                                                           double tolerance) {
   const double small = std::min(100 * tolerance, 1e-3);
@@ -155,9 +155,9 @@ constexpr void move_frame(CanonicalMechanism<N, Bodies>& canonical, std::size_t 
 /// The canonical form of a mechanism.
 ///
 /// 1. Right angles that were written with few digits become exact: elements of rotation matrices
-///    up to `right_angle_tolerance` in size become 0, unless some are only little larger, and the matrices
-///    are made orthonormal again. This changes efforts by as much as the angles were off, and
-///    accelerations by that times the condition of the mass matrix; 0 turns it off.
+///    up to `right_angle_tolerance` in size become 0, unless some are only little larger, and the
+///    matrices are made orthonormal again. This changes efforts by as much as the angles were off,
+///    and accelerations by that times the condition of the mass matrix; 0 turns it off.
 /// 2. Frames are turned about their z axes so that rotations have more zeros, and axes that are
 ///    parallel have the same frame.
 /// 3. Origins slide along their joints' axes to where the parent's origin is nearest.

@@ -37,7 +37,8 @@ struct Mimic {
 };
 
 /// What a joint feels of drives whose rotors turn with another joint as well, as in a four-bar
-/// transmission: an element of the mass matrix off its diagonal. It is named by one of the two joints.
+/// transmission: an element of the mass matrix off its diagonal. It is named by one of the two
+/// joints.
 struct SharedRotors {
   Name joint{};  ///< name of the other joint; empty: none
   double inertia =
@@ -56,8 +57,8 @@ struct Joint {
   JointLimits limits{};
   double damping = 0;   ///< viscous friction [N m s/rad or N s/m]
   double friction = 0;  ///< Coulomb friction [N m or N]
-  /// Of what turns in the drive, as the joint feels it: n^2 J for a rotor with the inertia J that turns
-  /// n times as fast as the joint [kg m^2 or kg]
+  /// Of what turns in the drive, as the joint feels it: n^2 J for a rotor with the inertia J that
+  /// turns n times as fast as the joint [kg m^2 or kg]
   double reflected_inertia = 0;
   Mimic mimic{};
   SharedRotors shared_rotors{};  ///< see reflected_inertia of a transmission

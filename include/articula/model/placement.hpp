@@ -22,8 +22,8 @@ struct Placement {
 /// The rotation of fixed-axis roll, pitch, yaw angles, as URDF defines them: R = Rz(yaw) Ry(pitch)
 /// Rx(roll). Sines and cosines within 1e-15 of 0, 1 and -1 are taken as such, so that a right angle
 /// written as the double nearest to pi/2 gives exact zeros and ones.
-/// @param rpy  roll, pitch, yaw [rad], 3 x 1; by value, because g++ 12 mistakes a reference to a part
-///             of a constant that a function has filled member by member
+/// @param rpy  roll, pitch, yaw [rad], 3 x 1; by value, because g++ 12 mistakes a reference to a
+///             part of a constant that a function has filled member by member
 [[nodiscard]] constexpr Matrix3<double> rotation_from_rpy(Vector3<double> rpy) noexcept {
   const auto sine_cosine = [](double angle) {
     auto [s, c] = constant_math::sine_cosine(angle);

@@ -89,8 +89,8 @@ template <Robot R>
 requires(!DescribedRobot<R>) auto joint_names(const R&& robot) = delete;
 
 /// The index of one of these joints by name.
-/// @throws std::invalid_argument if it is none of them, saying why: it is fixed, mimics another one,
-///         or the robot has no such joint
+/// @throws std::invalid_argument if it is none of them, saying why: it is fixed, mimics another
+///         one, or the robot has no such joint
 /// Real-time: no (throws).
 template <Robot R>
 [[nodiscard]] constexpr int joint_index(const R& robot, std::string_view name) {

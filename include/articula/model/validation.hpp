@@ -191,8 +191,9 @@ constexpr Rule broken_mimic_rule(std::span<const Joint> joints, const Joint& joi
   return free ? Rule::none : Rule::mimicked_joint_is_not_free;
 }
 
-/// No combination of two joints' velocities may give rotors negative energy: with a and b the reflected
-/// inertias of the two, c^2 <= a b. One drive for both joints lies on the edge, so rounding is forgiven.
+/// No combination of two joints' velocities may give rotors negative energy: with a and b the
+/// reflected inertias of the two, c^2 <= a b. One drive for both joints lies on the edge, so
+/// rounding is forgiven.
 constexpr Rule broken_rotor_rule(std::span<const Joint> joints, const Joint& joint) {
   const auto& [name, inertia] = joint.shared_rotors;
   if (name.empty()) {

@@ -26,8 +26,8 @@ namespace articula {
 /// From rest to rest, each joint would take the least time that its limits allow (rest_to_rest);
 /// all take as long as the slowest. The others' motion is stretched in time by a factor s, which
 /// divides their velocities by s, accelerations by s^2 and jerks by s^3. A stop is the fastest of
-/// each joint alone (fastest_stop). Every sample keeps the limits to the last bit; only a stop that is
-/// to stay within a range may be harder.
+/// each joint alone (fastest_stop). Every sample keeps the limits to the last bit; only a stop that
+/// is to stay within a range may be harder.
 /// @tparam R  the robot
 template <Robot R>
 class JerkLimitedProfile {
@@ -82,9 +82,9 @@ class JerkLimitedProfile {
   }
 
   /// The fastest stop, wherever that is, or within a range (stop_within). What the reference asked
-  /// for is where it begins: position and velocity go on without a jump, and so does an acceleration
-  /// that can fade without leading beyond V. The reference's effort stays as it is, for it may be
-  /// what carries the robot. A velocity beyond V only falls.
+  /// for is where it begins: position and velocity go on without a jump, and so does an
+  /// acceleration that can fade without leading beyond V. The reference's effort stays as it is,
+  /// for it may be what carries the robot. A velocity beyond V only falls.
   /// @param from    what the joints were last asked for
   /// @param limits  that validate() accepts
   /// @param lower   where the joints can be [rad or m], N x 1; for a joint whose fastest stop leads

@@ -49,8 +49,8 @@ class JointSignals {
   /// @param signals  in any order; those of one joint add up
   /// @param around   what they are added to
   /// @throws std::invalid_argument if there are too many signals, a joint is unknown, a signal
-  ///         cannot be evaluated, their sum overflows, or `around` is not finite or beyond a joint's
-  ///         limits; the message names joint and signal
+  ///         cannot be evaluated, their sum overflows, or `around` is not finite or beyond a
+  ///         joint's limits; the message names joint and signal
   explicit JointSignals(std::span<const JointSignal> signals,
                         const JointReference<joint_count>& around = {},
                         const R& robot = described<R>())

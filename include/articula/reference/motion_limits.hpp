@@ -19,13 +19,13 @@ struct MotionLimits {
   JointVector<N> jerk = JointVector<N>::Zero();          ///< J [rad/s^3 or m/s^3], N x 1
 };
 
-/// The limits of a motion as fast as the robot's description allows. It says nothing of acceleration
-/// and jerk:
+/// The limits of a motion as fast as the robot's description allows. It says nothing of
+/// acceleration and jerk:
 ///
 ///     const auto limits = motion_limits(Q2d(), {10, 30}, {200, 600});
 ///
-/// @param robot         its joints' limits of velocity are taken; a joint without one makes no motion
-///                      that validate() accepts
+/// @param robot         its joints' limits of velocity are taken; a joint without one makes no
+///                      motion that validate() accepts
 /// @param acceleration  A [rad/s^2 or m/s^2], N x 1
 /// @param jerk          J [rad/s^3 or m/s^3], N x 1
 /// Real-time: yes.

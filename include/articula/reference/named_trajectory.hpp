@@ -49,8 +49,9 @@ struct ArrangeOptions {
 /// Puts a named trajectory in the order of a robot's joints.
 /// @tparam Capacity  most points there can be
 /// @throws TrajectoryError: invalid_joints if a name is unknown or used twice, or a joint is not
-///         named (nor `from` given, where it may stay); invalid_goal if an array has another length than the names, positions are not
-///         given, or Trajectory refuses the rest; the message names point and joint
+///         named (nor `from` given, where it may stay); invalid_goal if an array has another length
+///         than the names, positions are not given, or Trajectory refuses the rest; the message
+///         names point and joint
 /// Real-time: no (throws, allocates).
 template <int Capacity = 32, Robot R>
 [[nodiscard]] Trajectory<R, Capacity> arrange(const NamedTrajectory& named, const R& robot,

@@ -23,8 +23,8 @@ namespace articula {
 class SpeedOverride {
  public:
   /// @param rate     |df/dt| while f changes [1/s]
-  /// @param highest  f that can be asked for [1], at least 1; above 1 the joints are faster than the
-  ///                 motion's limits say
+  /// @param highest  f that can be asked for [1], at least 1; above 1 the joints are faster than
+  ///                 the motion's limits say
   /// @throws std::invalid_argument if the rate is not between 1e-9 and 1e9, or the highest speed is
   ///         not between 1 and 1e9
   explicit SpeedOverride(double rate = 2, double highest = 1) : rate_(rate), highest_(highest) {
@@ -36,8 +36,8 @@ class SpeedOverride {
     }
   }
 
-  /// Asks for a speed: 1 is the motion as it is, 0 a pause; above the highest one, for that. What is
-  /// not a finite number, or is negative, asks for a pause. Real-time: yes.
+  /// Asks for a speed: 1 is the motion as it is, 0 a pause; above the highest one, for that. What
+  /// is not a finite number, or is negative, asks for a pause. Real-time: yes.
   void set(double speed) noexcept {
     target_ = is_finite(speed) ? std::clamp(speed, 0.0, highest_) : 0.0;
   }

@@ -12,9 +12,9 @@
 
 namespace articula {
 
-/// The fastest stop from any motion, and then the way back, if it does not end where it should. From
-/// within the joints' limits of position neither leads out of them: where the fastest stop would,
-/// it is harder than the limits of acceleration and jerk allow, by no more than it takes
+/// The fastest stop from any motion, and then the way back, if it does not end where it should.
+/// From within the joints' limits of position neither leads out of them: where the fastest stop
+/// would, it is harder than the limits of acceleration and jerk allow, by no more than it takes
 /// (stop_within). The reference's effort stays.
 /// @tparam R  the robot
 template <Robot R>
@@ -37,9 +37,9 @@ class StopAndReturn {
 
   /// Begins a stop.
   /// @param from  what the joints were last asked for
-  /// @param back  where they should be in the end [rad or m], N x 1; if it is not given, or not finite,
-  ///              where the stop ends. Either no further out than the limits of the joints, or than
-  ///              it began
+  /// @param back  where they should be in the end [rad or m], N x 1; if it is not given, or not
+  ///              finite, where the stop ends. Either no further out than the limits of the joints,
+  ///              or than it began
   /// Real-time: yes. O(N).
   void begin(const Reference& from, const std::optional<Position>& back = {}) noexcept {
     way_ = JerkLimitedProfile<R>::stop(from, limits_, lower_, upper_);

@@ -42,8 +42,8 @@ struct FollowerOptions {
 /// of a trajectory themselves jump: a new trajectory is entered by a bridge (TrajectoryBridge); a
 /// trajectory that is canceled ends in the fastest stop within the limits of acceleration and jerk;
 /// one that leaves its tolerances likewise, and then goes back to where the joints were measured,
-/// so that nothing is pushed against. A stop that would be longer than the way to a joint's limit is
-/// as much harder as it takes to end there: between its points a trajectory may have higher
+/// so that nothing is pushed against. A stop that would be longer than the way to a joint's limit
+/// is as much harder as it takes to end there: between its points a trajectory may have higher
 /// accelerations than stops. So no position limit is passed, to the last bit, and who begins beyond
 /// one goes no further; nor does a stop get faster than the velocity limit, or than it began. The
 /// reference's effort stays. The follower never lets go of the joints: all it makes is a reference,
@@ -213,8 +213,8 @@ class TrajectoryFollower {
   }
 
   /// A stop runs in real time, a trajectory in its own. A motion of the former that is beyond the
-  /// limits in the latter, which may all but stand still, is not taken over: it would be beyond them
-  /// when the speed rises.
+  /// limits in the latter, which may all but stand still, is not taken over: it would be beyond
+  /// them when the speed rises.
   [[nodiscard]] bool can_begin() const noexcept {
     if (following_ || !moves()) return true;
     const Reference own = speed_.unapply(reference_);

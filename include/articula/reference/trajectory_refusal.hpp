@@ -21,8 +21,8 @@ struct TrajectoryRefusal {
   std::optional<double> limit{};  ///< beyond which it is, where there is one
 };
 
-/// The refusal in one line: `path_position -1 of joint 'elbow' is not a number >= 0`. Empty if nothing
-/// was refused.
+/// The refusal in one line: `path_position -1 of joint 'elbow' is not a number >= 0`. Empty if
+/// nothing was refused.
 /// Real-time: no (allocates).
 template <Robot R>
 [[nodiscard]] std::string to_string(const TrajectoryRefusal& refusal, const R& robot) {

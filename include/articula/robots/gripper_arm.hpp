@@ -13,7 +13,8 @@ namespace articula {
 
 namespace detail {
 
-/// The links of one half of the gripper: the knuckles of a parallelogram and the tip that it carries.
+/// The links of one half of the gripper: the knuckles of a parallelogram and the tip that it
+/// carries.
 constexpr std::array<Link, 3> gripper_finger_links(Side side) {
   return {{
       {.name = side("outer_knuckle"),

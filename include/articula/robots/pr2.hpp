@@ -12,10 +12,10 @@
 
 namespace articula {
 
-/// The Willow Garage PR2 on a base that stands still: twenty joints (torso, head, laser, and eight in
-/// each arm, the last of them for the gripper) and ten that follow a gripper's. Figures: the public
-/// robot description (pr2_description), with the links that move mass, the base and the grippers'
-/// tool frames.
+/// The Willow Garage PR2 on a base that stands still: twenty joints (torso, head, laser, and eight
+/// in each arm, the last of them for the gripper) and ten that follow a gripper's. Figures: the
+/// public robot description (pr2_description), with the links that move mass, the base and the
+/// grippers' tool frames.
 struct Pr2 {
   static constexpr RobotDescription description{
       .name = "pr2",

@@ -14,11 +14,12 @@ struct CrossingEnd {
 };
 
 /// The place where a function has just become positive, found by interpolation, truncation and
-/// projection: between the ends of the interval a straight line tells where zero is likely to be, and
-/// no step leaves more of the interval than one that halves it, but for a single step in all. Smooth
-/// functions take some ten calls, any other one more than halving.
+/// projection: between the ends of the interval a straight line tells where zero is likely to be,
+/// and no step leaves more of the interval than one that halves it, but for a single step in all.
+/// Smooth functions take some ten calls, any other one more than halving.
 /// Source: [Oliveira, Takahashi 2020, section 2.3], with k1 = 0.2 / (b - a), k2 = 2, n0 = 1;
-/// the last steps go beyond the line's guess by half the width, so that the interval closes from both ends.
+/// the last steps go beyond the line's guess by half the width, so that the interval closes from
+/// both ends.
 /// @param before    where the function is not positive
 /// @param after     further on, where it is positive
 /// @param width     how closely it is to be found

@@ -15,9 +15,9 @@
 
 namespace articula {
 
-/// Advances a robot in time under the efforts of its drives. Between events the motion is smooth and is
-/// integrated by Runge-Kutta; an event (a joint reaches its stop, or comes to rest against dry
-/// friction) is located in time to the last bits, dealt with, and the step goes on from there.
+/// Advances a robot in time under the efforts of its drives. Between events the motion is smooth
+/// and is integrated by Runge-Kutta; an event (a joint reaches its stop, or comes to rest against
+/// dry friction) is located in time to the last bits, dealt with, and the step goes on from there.
 /// Stops are inelastic: a joint that arrives gives up its velocity by an impulse through the mass
 /// matrix, which cannot add energy, and is then held for as long as it is pushed. Dry friction
 /// holds a resting joint exactly.
@@ -191,9 +191,9 @@ class JointDynamics {
         [&](int j) noexcept { return drives[j] + phase.sliding[j] - damping_[j] * v[j]; });
   }
 
-  /// The accelerations where friction and stops hold joints still as far as they can. What pulls on the
-  /// joints is M times the acceleration that they would have without: another program, of the nonlinear
-  /// effects, would be less to compute, but more to compile for every simulator.
+  /// The accelerations where friction and stops hold joints still as far as they can. What pulls on
+  /// the joints is M times the acceleration that they would have without: another program, of the
+  /// nonlinear effects, would be less to compute, but more to compile for every simulator.
   template <class Drives>
   [[nodiscard]] BoundedEffort<joint_count> held_within(const EffortBounds<joint_count>& bounds,
                                                        const Phase& phase,
@@ -206,8 +206,8 @@ class JointDynamics {
     return hold_within_bounds<joint_count>(parents_, m, product<joint_count>(m, free), bounds);
   }
 
-  /// How far a joint has passed its stop, or one that slid against friction has turned back, at most;
-  /// positive after an event. [rad or m; W]
+  /// How far a joint has passed its stop, or one that slid against friction has turned back, at
+  /// most; positive after an event. [rad or m; W]
   [[nodiscard]] double excess(const Phase& phase, const Motion<joint_count>& later) const noexcept {
     double most = -JointLimits::infinity;
     for (int j = 0; j < joint_count; ++j) {

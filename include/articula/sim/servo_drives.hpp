@@ -18,15 +18,16 @@ namespace articula {
 ///     a =   w (clamp(v_ref, -V, V) - v)               velocity
 ///
 /// with the bandwidth w and the joint's velocity limit V, and give the effort that causes just that
-/// acceleration: effort = M(q) a + h(q, v) + D v + f sign(v). So a joint follows its position command
-/// as w^2/(s + w)^2, critically damped, and its velocity command as w/(s + w), whatever its inertia,
-/// weight and friction, and as if it were alone. That is the cascaded control of industrial drives
-/// with a perfect feed-forward, [Siciliano et al. 2009, section 8.5.2].
+/// acceleration: effort = M(q) a + h(q, v) + D v + f sign(v). So a joint follows its position
+/// command as w^2/(s + w)^2, critically damped, and its velocity command as w/(s + w), whatever its
+/// inertia, weight and friction, and as if it were alone. That is the cascaded control of
+/// industrial drives with a perfect feed-forward, [Siciliano et al. 2009, section 8.5.2].
 ///
-/// A drive gives no more than its effort limit. While one is at its limit, its joint lags behind, or
-/// overshoots where it cannot brake as hard as it should, and the others still follow. Positions are
-/// asked for within the joint's limits only, and a drive does not push on where its joint rests at a
-/// stop. Where a joint has no velocity limit, V is 1e6 rad/s or m/s, so that a wish of any size to one drive leaves the others theirs.
+/// A drive gives no more than its effort limit. While one is at its limit, its joint lags behind,
+/// or overshoots where it cannot brake as hard as it should, and the others still follow. Positions
+/// are asked for within the joint's limits only, and a drive does not push on where its joint rests
+/// at a stop. Where a joint has no velocity limit, V is 1e6 rad/s or m/s, so that a wish of any
+/// size to one drive leaves the others theirs.
 /// @tparam R  the robot
 template <Robot R>
 class ServoDrives {
@@ -82,9 +83,9 @@ class ServoDrives {
     return std::clamp(velocity, -most_velocity_[j], most_velocity_[j]);
   }
 
-  /// The effort for an acceleration a. If that is more than some drive can give, the joints move with
-  /// another one, a', and M (a' - a) = effort - what was needed: drives hold a' - a at 0 as far as
-  /// their limits let them, as friction holds joints still.
+  /// The effort for an acceleration a. If that is more than some drive can give, the joints move
+  /// with another one, a', and M (a' - a) = effort - what was needed: drives hold a' - a at 0 as
+  /// far as their limits let them, as friction holds joints still.
   [[nodiscard]] Vector effort_for(Vector a, const Vector& q, const Vector& v) const noexcept {
     Vector resistance;
     for (int j = 0; j < joint_count; ++j) {

@@ -138,8 +138,8 @@ class Simulator {
     finish(motion, effort(motion.position, motion.velocity));
   }
 
-  /// Moves on by one period with ideal drives: at an even speed, as far as the limits of position and
-  /// velocity allow. The effort is what the mean acceleration takes, without limit.
+  /// Moves on by one period with ideal drives: at an even speed, as far as the limits of position
+  /// and velocity allow. The effort is what the mean acceleration takes, without limit.
   void move_to(const JointVector<joint_count>& target) noexcept {
     const auto limit = [this](double JointLimits::*which) {
       return joint_values(robot_, [&](const JointProperties& j) { return j.limits.*which; });

@@ -51,8 +51,8 @@ struct SimulatorOptions {
   std::uint64_t seed = 1;  ///< of the noise; the same seed gives the same noise
 };
 
-/// The Runge-Kutta steps in each period under position and velocity commands. In a step of 0.2/w the
-/// method is off by 0.2^5/120 = 3e-6 of what the drive's loop decays by.
+/// The Runge-Kutta steps in each period under position and velocity commands. In a step of 0.2/w
+/// the method is off by 0.2^5/120 = 3e-6 of what the drive's loop decays by.
 /// Real-time: yes.
 template <int N>
 [[nodiscard]] double servo_substeps(const SimulatorOptions<N>& options) noexcept {
@@ -72,8 +72,8 @@ template <Robot R>
 }
 
 /// Refuses options that cannot be simulated: periods, steps, bandwidths, resolutions or deviations
-/// out of range, drives of no kind, a start outside the joint limits, a mass matrix that is singular at the start, damping
-/// too strong for the step.
+/// out of range, drives of no kind, a start outside the joint limits, a mass matrix that is
+/// singular at the start, damping too strong for the step.
 /// @throws std::invalid_argument naming the option or joint, the value and the limit
 /// Real-time: no (throws).
 template <Robot R>

@@ -11,8 +11,9 @@
 namespace articula::symbolic {
 
 /// Writes the part of a graph that its outputs need as a program, in three stages: what the angles
-/// need, their sines and cosines, and the rest. What the angles do not need comes after them even if
-/// it could be computed before: there is no register in which it could wait while sines are taken.
+/// need, their sines and cosines, and the rest. What the angles do not need comes after them even
+/// if it could be computed before: there is no register in which it could wait while sines are
+/// taken.
 /// @tparam Room  for how long a program
 template <ProgramSize Room>
 class Assembler {
@@ -30,7 +31,8 @@ class Assembler {
   }
 
  private:
-  /// When a node is computed. What is needed both before the angles and after them is computed before.
+  /// When a node is computed. What is needed both before the angles and after them is computed
+  /// before.
   enum Stage : unsigned char { unused, after_angles, before_angles, angles };
   static constexpr std::size_t stages = 4;
 
@@ -56,10 +58,10 @@ class Assembler {
     }
   }
 
-  /// Finds out when each node is computed, and how many instructions each stage has. It goes from the
-  /// outputs to the inputs: what a node needs is needed when the node is, or sooner. Sines of what depends
-  /// on no other sine are the angles' stage, what they need comes before it. Nothing of that depends on a
-  /// sine, so no node of the stage is asked for sooner.
+  /// Finds out when each node is computed, and how many instructions each stage has. It goes from
+  /// the outputs to the inputs: what a node needs is needed when the node is, or sooner. Sines of
+  /// what depends on no other sine are the angles' stage, what they need comes before it. Nothing
+  /// of that depends on a sine, so no node of the stage is asked for sooner.
   constexpr void find_stages(const GrowingArray<Term>& outputs) {
     const auto* const nodes = graph_.nodes();
     Step* const steps = steps_.data();

@@ -35,8 +35,8 @@ class Graph {
   }
 
   [[nodiscard]] constexpr int size() const { return entries_.size(); }
-  /// The nodes, each after those it needs: entries that are more than a Node, so a pointer to them is
-  /// no pointer to Node.
+  /// The nodes, each after those it needs: entries that are more than a Node, so a pointer to them
+  /// is no pointer to Node.
   [[nodiscard]] constexpr const auto* nodes() const { return entries_.data(); }
 
   /// The function's input number `index`.
@@ -187,8 +187,8 @@ class Graph {
     return x.is_constant() ? intern_leaf(Operation::constant, x.constant) : x.node;
   }
 
-  /// The node that does this; a new one if there is none. It is looked for among those that have the
-  /// same last operand, of which there are few.
+  /// The node that does this; a new one if there is none. It is looked for among those that have
+  /// the same last operand, of which there are few.
   constexpr int intern(Operation operation, int left, int right = Node::none) {
     Entry* const nodes = entries_.data();
     int& newest = nodes[right == Node::none ? left : right].newest_user;
@@ -201,8 +201,8 @@ class Graph {
     return entries_.append({{operation, left, right, 0}, Node::none, next});
   }
 
-  /// The same for a node that has no operands: it is looked for among those that its number or value is
-  /// likely to tell apart from others.
+  /// The same for a node that has no operands: it is looked for among those that its number or
+  /// value is likely to tell apart from others.
   constexpr int intern_leaf(Operation operation, double value) {
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
     int& newest = newest_leaf_[(bits * golden) >> (64U - leaf_bits)];

@@ -6,8 +6,9 @@
 
 namespace articula::symbolic {
 
-/// An array that grows at its end: what std::vector is, but for the compiler to execute, which takes
-/// its time for each function that is called, and std::vector calls half a dozen for each element.
+/// An array that grows at its end: what std::vector is, but for the compiler to execute, which
+/// takes its time for each function that is called, and std::vector calls half a dozen for each
+/// element.
 /// @tparam T  made without initialising anything, so that room for elements costs nothing
 template <class T>
 class GrowingArray {

@@ -27,8 +27,8 @@ struct SineAndCosine {
   S cosine;
 };
 
-/// Doubles side by side, which one instruction adds or multiplies: a scalar for algorithms that makes
-/// them compute for as many robots at once.
+/// Doubles side by side, which one instruction adds or multiplies: a scalar for algorithms that
+/// makes them compute for as many robots at once.
 /// @tparam Lanes  how many: 2, or 4 or 8 if they fit into a register
 template <int Lanes = lanes_of_a_register>
 requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_register) class Pack {
@@ -80,8 +80,9 @@ requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_registe
     return {sine[0], cosine[0]};
   }
 
-  /// Sines and cosines of K packs of angles [rad], within three units in the last place; NaN for angles
-  /// that are not finite. If one is large all are left to <cmath>: to ask once costs less than K times.
+  /// Sines and cosines of K packs of angles [rad], within three units in the last place; NaN for
+  /// angles that are not finite. If one is large all are left to <cmath>: to ask once costs less
+  /// than K times.
   template <std::size_t K>
   [[gnu::always_inline]] friend void sincos(const std::array<Pack, K>& angle,
                                             std::array<Pack, K>& sine,

@@ -16,8 +16,8 @@ namespace articula::symbolic {
 namespace detail {
 
 /// Computes what one step of a program says. The numbers of the operands are constants to the
-/// optimiser, which keeps the values in registers. (Compilers take their time for each argument, to be
-/// deduced or passed, a thousand times: so there are few, and those of the template are given.)
+/// optimiser, which keeps the values in registers. (Compilers take their time for each argument, to
+/// be deduced or passed, a thousand times: so there are few, and those of the template are given.)
 /// @param value   those before this step; not const, because the others have no value yet
 /// @param number  of the step
 template <const auto& program, Operation operation, class S, class Input>
@@ -50,10 +50,10 @@ template <const auto& program, class S, std::size_t... Pair>
   return taken[0];
 }
 
-/// Executes the steps before the angles, the angles, and the steps after them. Each value is computed
-/// from those before it in the same list of initialisers, which are executed in order: compilers take
-/// twice as long for a fold of assignments, and limit its length. The first sine takes all sines and
-/// cosines; those that follow in the list find theirs taken.
+/// Executes the steps before the angles, the angles, and the steps after them. Each value is
+/// computed from those before it in the same list of initialisers, which are executed in order:
+/// compilers take twice as long for a fold of assignments, and limit its length. The first sine
+/// takes all sines and cosines; those that follow in the list find theirs taken.
 template <const auto& program, class S, class Input, std::size_t... Before, std::size_t... Angle,
           std::size_t... After, std::size_t... Result>
 [[gnu::always_inline]] inline std::array<S, sizeof...(Result)> execute_steps(
@@ -77,8 +77,8 @@ template <const auto& program, class S, class Input, std::size_t... Before, std:
 
 /// Runs a program.
 /// @tparam program  a constexpr variable
-/// @param input     input[i] is input number i, read when it is needed: a double, float, a pack of them
-///                  or another type that has their operators and can be made without a value
+/// @param input     input[i] is input number i, read when it is needed: a double, float, a pack of
+///                  them or another type that has their operators and can be made without a value
 /// @return          the results
 /// Real-time: yes, if the operations of that type are.
 template <const auto& program, class Input>

@@ -21,9 +21,9 @@ namespace detail {
   return lanes;
 }
 
-/// The order in which K angles go into lanes: every second one first, then the others. Neighbours in
-/// memory would be loaded as one vector; where that does not begin where the vector began as which
-/// they were stored shortly before, a processor waits for memory.
+/// The order in which K angles go into lanes: every second one first, then the others. Neighbours
+/// in memory would be loaded as one vector; where that does not begin where the vector began as
+/// which they were stored shortly before, a processor waits for memory.
 template <std::size_t K>
 [[nodiscard]] constexpr std::size_t in_order(std::size_t i) noexcept {
   constexpr std::size_t even = (K + 1) / 2;
@@ -79,10 +79,10 @@ template <std::size_t K>
 
 }  // namespace detail
 
-/// Sines and cosines of K angles [rad]: of doubles side by side, within three units in the last place,
-/// and by <cmath> if they are large, infinite or NaN; of other types by a function sincos that returns both, found by argument-dependent lookup, or by sin
-/// and cos, found so or in namespace std. Programs take those of all joints by one call of this
-/// function.
+/// Sines and cosines of K angles [rad]: of doubles side by side, within three units in the last
+/// place, and by <cmath> if they are large, infinite or NaN; of other types by a function sincos
+/// that returns both, found by argument-dependent lookup, or by sin and cos, found so or in
+/// namespace std. Programs take those of all joints by one call of this function.
 /// Real-time: yes, if those of S are.
 template <class S, std::size_t K>
 [[gnu::always_inline]] inline void sine_cosine(const std::array<S, K>& angle,

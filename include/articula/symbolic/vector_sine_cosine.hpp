@@ -58,8 +58,8 @@ template <int Lanes>
 
 /// The largest angle that is reduced right [rad].
 inline constexpr double largest_reduced_angle = 2e5;
-/// Its square, with which a sum of squares is compared: that asks once whether all angles of many are
-/// small, finite numbers.
+/// Its square, with which a sum of squares is compared: that asks once whether all angles of many
+/// are small, finite numbers.
 inline constexpr double largest_reduced_square = largest_reduced_angle * largest_reduced_angle;
 
 /// An angle as right angles and the rest.
@@ -86,10 +86,10 @@ template <int Lanes>
   return {near - count * tail, reinterpret_cast<Integers<Lanes>>(shifted)};
 }
 
-// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 - z/2 + z^2 q(z). The polynomials
-// go through the true values at Chebyshev's nodes, which keeps p z and q z^2 within 2e-17 in between.
-// Signs by the number of right angles are + + - - for the sine, + - - + for the cosine; an odd number
-// has them change places.
+// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 - z/2 + z^2 q(z). The
+// polynomials go through the true values at Chebyshev's nodes, which keeps p z and q z^2 within
+// 2e-17 in between. Signs by the number of right angles are + + - - for the sine, + - - + for the
+// cosine; an odd number has them change places.
 
 /// The first coefficient + z (the second + z (the third + ...)) [Horner].
 template <class Vector, class... Doubles>
@@ -102,8 +102,8 @@ template <class Vector, class... Doubles>
   }
 }
 
-/// Stage by stage for several vectors: processors look ahead not much farther than one of them goes, and
-/// what they find to do beside it is the next one's part in the same stage.
+/// Stage by stage for several vectors: processors look ahead not much farther than one of them
+/// goes, and what they find to do beside it is the next one's part in the same stage.
 /// @param[out] sine, cosine  of the angle in each lane
 /// @pre the angles are no larger than largest_reduced_angle
 template <int Lanes, std::size_t Count>

@@ -83,8 +83,8 @@ class ControlReader {
   }
 
   /// The limits of the commands that a joint takes: <param name="min"> and "max" of its
-  /// <command_interface>s. Of the two bounds of a velocity or effort the narrower counts, but for 0,
-  /// which leaves one direction only.
+  /// <command_interface>s. Of the two bounds of a velocity or effort the narrower counts, but for
+  /// 0, which leaves one direction only.
   void add_limits(const XmlElement& joint) {
     const std::string name = attribute(joint, "name");
     if (name.empty()) throw UrdfError(file_, "<ros2_control>: a joint has no name");

@@ -81,8 +81,8 @@ inline void check_tree(const std::string& file, const XmlElement& robot) {
   }
 }
 
-/// XML takes any white space in an attribute for blanks, urdfdom only blanks. TinyXML may have written
-/// it as a character's number.
+/// XML takes any white space in an attribute for blanks, urdfdom only blanks. TinyXML may have
+/// written it as a character's number.
 inline void blank_white_space(std::string& text) {
   for (const std::string_view space : {"\t", "\r", "\n", "&#x09;", "&#x0D;", "&#x0A;"}) {
     for (std::size_t at = text.find(space); at != std::string::npos; at = text.find(space, at)) {

@@ -8,8 +8,8 @@
 namespace articula {
 
 /// A URDF that is broken, not physical or not of the size that was asked for. `what()` is one line
-/// with file, element (link or joint), reason and figures, such as `arm.urdf: link 'elbow': the mass
-/// is negative (-0.3 kg)`.
+/// with file, element (link or joint), reason and figures, such as `arm.urdf: link 'elbow': the
+/// mass is negative (-0.3 kg)`.
 class UrdfError : public std::runtime_error {
  public:
   /// @param file    where the text comes from

@@ -17,8 +17,8 @@ struct Leader {
   double offset = 0;  ///< [rad or m]
 };
 
-/// What a joint follows at the end of the line: a joint that mimics nobody or is held. Those between
-/// may lie anywhere in the file. The joint itself if it mimics nobody.
+/// What a joint follows at the end of the line: a joint that mimics nobody or is held. Those
+/// between may lie anywhere in the file. The joint itself if it mimics nobody.
 /// @param held  positions of joints that are held [rad or m]
 /// @throws UrdfError if the line leads in a circle
 [[nodiscard]] inline Leader leader_of(const UrdfDocument& document,

@@ -10,9 +10,10 @@
 
 namespace articula::detail {
 
-/// Some files (grippers whose fingers turn against each other are known for it) give the limits of the
-/// leader to those that mimic it -1 times. Taken at their word they leave the leader a single place.
-/// Where a mimic alone does that, its limits become what the leader's make of them, and a notice tells.
+/// Some files (grippers whose fingers turn against each other are known for it) give the limits of
+/// the leader to those that mimic it -1 times. Taken at their word they leave the leader a single
+/// place. Where a mimic alone does that, its limits become what the leader's make of them, and a
+/// notice tells.
 inline void mend_mimic_limits(std::vector<Joint>& joints, UrdfNotices& notices) {
   for (Joint& joint : joints) {
     const auto leader = std::find_if(joints.begin(), joints.end(), [&](const Joint& other) {

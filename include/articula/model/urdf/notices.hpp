@@ -95,8 +95,9 @@ class UrdfNotices {
     }
   }
 
-  /// Limits of 0, as programs write them that do not know the figures, and limits of many turns, which
-  /// often are degrees. No reason to refuse a file: dynamics have no use for them, and a winch turns often.
+  /// Limits of 0, as programs write them that do not know the figures, and limits of many turns,
+  /// which often are degrees. No reason to refuse a file: dynamics have no use for them, and a
+  /// winch turns often.
   void add_limits(const Joint& joint) {
     constexpr double four_turns = 8 * std::numbers::pi;
     const auto is_far = [](double limit) {

@@ -24,9 +24,9 @@ namespace articula::detail {
   return number_of(text) ? "; if the comma is a decimal one, write " + text : "";
 }
 
-/// Makes sure that what stands for numbers is of the characters of numbers. urdfdom would refuse the rest
-/// as well, but some versions (3.0 is one) take a text that they refuse for a format of printf, so that
-/// a mass of "%s%s" ends the program.
+/// Makes sure that what stands for numbers is of the characters of numbers. urdfdom would refuse
+/// the rest as well, but some versions (3.0 is one) take a text that they refuse for a format of
+/// printf, so that a mass of "%s%s" ends the program.
 /// @param where  the link or joint, for the message
 /// @throws UrdfError with the element, the attribute and the text
 inline void check_numbers(const std::string& file, const std::string& where,

@@ -30,8 +30,8 @@ struct UrdfOptions {
   std::string tip{};  ///< link at which a chain from the root ends; branches off the chain and what
                       ///< is beyond are left out with their mass. Empty: the whole tree
   /// Joints to hold. Joints that mimic one of them are held where it puts them, also if it is left
-  /// out itself; a joint that mimics one that is left out and not held is an error. A place beyond a
-  /// joint's limits is among UrdfDescription::notices
+  /// out itself; a joint that mimics one that is left out and not held is an error. A place beyond
+  /// a joint's limits is among UrdfDescription::notices
   std::vector<LockedJoint> locked{};
   bool allow_unphysical = false;  ///< accept inertias that no real body has; see
                                   ///< UrdfDescription::notices. Masses < 0 are never accepted

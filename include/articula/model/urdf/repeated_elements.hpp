@@ -44,7 +44,8 @@ namespace articula::detail {
   return is_zero ? "0" : "";
 }
 
-/// True if two elements say the same, as far as URDF knows their words; nullptr is one that is left out.
+/// True if two elements say the same, as far as URDF knows their words; nullptr is one that is left
+/// out.
 [[nodiscard]] inline bool say_the_same(const XmlElement* a, const XmlElement* b) {
   const KnownWords* known = known_words((a ? a : b)->Value());
   if (!known) return true;  // none of those about mechanics
@@ -61,9 +62,9 @@ namespace articula::detail {
   return true;
 }
 
-/// Looks for what stands twice in a link, a joint or an <inertial>, of which urdfdom takes the first
-/// and says nothing. Where both say the same, or it tells nothing of mechanics, that is a line among the
-/// notices.
+/// Looks for what stands twice in a link, a joint or an <inertial>, of which urdfdom takes the
+/// first and says nothing. Where both say the same, or it tells nothing of mechanics, that is a
+/// line among the notices.
 class RepeatedElements {
  public:
   /// @throws UrdfError if they say different things, for nobody knows which was meant

@@ -32,7 +32,8 @@ class UrdfSource {
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
   /// The XML.
-  /// @throws UrdfError if the file cannot be read, is larger than `capacity`, is UTF-16 or holds a NUL
+  /// @throws UrdfError if the file cannot be read, is larger than `capacity`, is UTF-16 or holds a
+  /// NUL
   /// Real-time: no (reads a file).
   [[nodiscard]] std::string text() const {
     std::string text = xml_.empty() ? contents() : xml_;

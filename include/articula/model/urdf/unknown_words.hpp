@@ -14,9 +14,9 @@
 
 namespace articula::detail {
 
-/// Collects the attributes and child elements of a robot's links and joints that URDF does not know:
-/// urdfdom passes them over in silence. Each word has one line, with the first link or joint that has it
-/// and how many others do. Elements that tell nothing of mechanics are not looked into.
+/// Collects the attributes and child elements of a robot's links and joints that URDF does not
+/// know: urdfdom passes them over in silence. Each word has one line, with the first link or joint
+/// that has it and how many others do. Elements that tell nothing of mechanics are not looked into.
 class UnknownWords {
  public:
   explicit UnknownWords(const XmlElement& robot) {

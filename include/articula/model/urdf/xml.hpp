@@ -85,8 +85,8 @@ inline XmlElement& parse_xml(const std::string& file, std::string text, XmlDocum
 inline constexpr const char* xacro_advice =
     " is left of xacro: have it written out (xacro r.xacro > r.urdf)";
 
-/// @throws UrdfError if there is an element that xacro would have replaced, wherever it is: the robot
-///         without it would be another one
+/// @throws UrdfError if there is an element that xacro would have replaced, wherever it is: the
+///         robot without it would be another one
 inline void refuse_xacro(const std::string& file, const XmlElement& element) {
   const std::string name = element.Value();
   if (name.starts_with("xacro:")) throw UrdfError(file, "<" + name + ">" + xacro_advice);
