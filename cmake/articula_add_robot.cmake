@@ -24,15 +24,22 @@
 function(articula_add_robot name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "ALLOW_UNPHYSICAL"
                         "URDF;ROOT;TIP;NAMESPACE;RIGHT_ANGLE_TOLERANCE" "LOCK;GRAVITY")
-  if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "articula_add_robot(${name}): unknown or without value: "
-                        "${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
+  if(DEFINED arg_UNPARSED_ARGUMENTS) # the text OFF is something, too
+    message(FATAL_ERROR "articula_add_robot(${name}): unknown: ${arg_UNPARSED_ARGUMENTS}; options: "
+                        "URDF, ROOT, TIP, NAMESPACE, LOCK, GRAVITY, RIGHT_ANGLE_TOLERANCE, "
+                        "ALLOW_UNPHYSICAL")
+  endif()
+  if(DEFINED arg_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "articula_add_robot(${name}): without value: ${arg_KEYWORDS_MISSING_VALUES}")
   endif()
   if(NOT arg_URDF)
     message(FATAL_ERROR "articula_add_robot(${name}): URDF <file> is missing")
   endif()
   if(NOT name MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
     message(FATAL_ERROR "articula_add_robot(${name}): that cannot be the name of a struct")
+  endif()
+  if(TARGET ${name} OR TARGET ${name}_header)
+    message(FATAL_ERROR "articula_add_robot(${name}): there is a target of that name already")
   endif()
   set(urdf ${arg_URDF})
   cmake_path(ABSOLUTE_PATH urdf BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs, on Debian 12 or newer and its kin, what articula is built and tested with.
 #
-#   cmake/install-dependencies.sh          for the demo, the tests and the benchmarks
-#   cmake/install-dependencies.sh --all    also what .ci/run and the developers' tools need
+#   cmake/install-dependencies.sh          for the demo, the tests and the benchmarks of our own
+#   cmake/install-dependencies.sh --all    also what .ci/run, the benchmarks beside other libraries and
+#                                          the developers' tools need
 set -euo pipefail
 
 packages=(
@@ -13,6 +14,7 @@ packages=(
   nlohmann-json3-dev # recordings as JSON
   libyaml-cpp-dev    # configuration files
   catch2             # tests
+  libxsimd-dev       # another library's packs, which programs run for as well: tests
   binutils           # nm, for the check of the object code
   libbenchmark-dev   # benchmarks
   rt-tests           # cyclictest, beside our own jitter

@@ -25,9 +25,10 @@ struct Arguments {
   articula::UrdfOptions options{};
 };
 
-double number(const std::string& text) {
+/// @param where  the option, for the message
+double number(const std::string& where, const std::string& text) {
   const auto number = articula::detail::number_of(text);
-  if (!number) throw std::invalid_argument("'" + text + "' is not a finite number");
+  if (!number) throw std::invalid_argument(where + ": '" + text + "' is not a finite number");
   return *number;
 }
 
@@ -35,7 +36,7 @@ double number(const std::string& text) {
 articula::LockedJoint locked_joint(const std::string& text) {
   const std::size_t equals = text.rfind('=');
   if (equals == std::string::npos) return text;
-  return {text.substr(0, equals), number(text.substr(equals + 1))};
+  return {text.substr(0, equals), number("LOCK " + text, text.substr(equals + 1))};
 }
 
 Arguments parse(const std::vector<std::string>& words) {
@@ -62,10 +63,10 @@ Arguments parse(const std::vector<std::string>& words) {
     } else if (word == "--lock") {
       arguments.options.locked.push_back(locked_joint(value()));
     } else if (word == "--gravity") {
-      const double x = number(value()), y = number(value());
-      arguments.options.gravity = {x, y, number(value())};
+      const double x = number("GRAVITY", value()), y = number("GRAVITY", value());
+      arguments.options.gravity = {x, y, number("GRAVITY", value())};
     } else if (word == "--right-angle-tolerance") {
-      arguments.options.right_angle_tolerance = number(value());
+      arguments.options.right_angle_tolerance = number("RIGHT_ANGLE_TOLERANCE", value());
     } else if (word == "--allow-unphysical") {
       arguments.options.allow_unphysical = true;
     } else {

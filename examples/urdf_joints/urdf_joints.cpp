@@ -2,10 +2,14 @@
 /// @file Lists the joints of a URDF: what moves, about which axis, how far, how fast, how strongly.
 ///
 ///     urdf_joints robot.urdf [--moving] [--transmissions]
+///                 [--model [--root LINK] [--tip LINK] [--lock JOINT]... [--allow-unphysical]]
+///
+/// With --model it also says what the file, or that part of it, is to articula: the size to load it
+/// with, the joints in their order, and what should be known about it.
 ///
 /// Exit status 0; 1 if the file cannot be read or is no URDF, 2 if the options are wrong.
-#include <articula/model/urdf/convert.hpp>
-#include <articula/model/urdf/document.hpp>
+#include <articula/model/build_model.hpp>
+#include <articula/model/urdf/description.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -105,15 +109,38 @@ void list_transmissions(const articula::UrdfDocument& document) {
   }
 }
 
+/// Prints what load_urdf makes of the file.
+void describe(const articula::UrdfDescription& description) {
+  const articula::ModelSize size = articula::model_size(description.joints);
+  std::printf("load_urdf<%d", size.joints);
+  if (size.bodies != size.joints) std::printf(", %d", size.bodies);
+  const char* separator = ">: ";
+  for (const articula::Joint& joint : description.joints) {
+    if (joint.type == articula::JointType::fixed || !joint.mimic.joint.empty()) continue;
+    std::printf("%s%s", separator, std::string(joint.name.view()).c_str());
+    separator = ", ";
+  }
+  std::printf("\n");
+  for (const std::string& notice : description.notices) std::printf("%s\n", notice.c_str());
+}
+
 }  // namespace
 
 int main(int count, char** words) {
   CLI::App app("Lists the joints of a URDF.");
   std::string file;
-  bool moving_only = false, transmissions = false;
+  bool moving_only = false, transmissions = false, model = false;
+  articula::UrdfOptions options;
+  std::vector<std::string> locked;
   app.add_option("file", file, "the URDF")->required();
   app.add_flag("--moving", moving_only, "leave out fixed joints");
   app.add_flag("--transmissions", transmissions, "list the transmissions, too");
+  app.add_flag("--model", model, "say what the file is to load_urdf");
+  app.add_option("--root", options.root, "the model's root link")->needs("--model");
+  app.add_option("--tip", options.tip, "the link at which a chain ends")->needs("--model");
+  app.add_option("--lock", locked, "a joint to be held at 0")->needs("--model");
+  app.add_flag("--allow-unphysical", options.allow_unphysical, "accept such inertias")
+      ->needs("--model");
   try {
     app.parse(count, words);
   } catch (const CLI::CallForHelp& help) {
@@ -123,9 +150,12 @@ int main(int count, char** words) {
     return 2;
   }
   try {
-    const articula::UrdfDocument document = articula::parse_urdf(std::filesystem::path(file));
+    const std::filesystem::path path(file);
+    const articula::UrdfDocument document = articula::parse_urdf(path);
     list(document, *document.robot->getRoot(), moving_only);
     if (transmissions) list_transmissions(document);
+    options.locked.assign(locked.begin(), locked.end());
+    if (model) describe(articula::read_urdf(path, options));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "urdf_joints: %s\n", error.what());

@@ -77,10 +77,11 @@ TEST_CASE("Text that is not XML") {
   CHECK(refusal("<robot\n name=\"r") == "URDF: line 2: an attribute's value is not between quotes");
   CHECK(refusal("<robot a>") == "URDF: line 1: an attribute has no value");
   CHECK(refusal("<robot name='r'>\n\n<link name='a'/>") ==
-        "URDF: line 3: an element is not closed");
+        "URDF: line 3: <robot> of line 1 is not closed");
   CHECK(refusal("<robot name='r'></robot></link>") ==
-        "URDF: line 1: an element is closed that was not opened");
-  CHECK(refusal("<robot name='r'><link></robot></link>").starts_with("URDF: line 1: Error"));
+        "URDF: line 1: </link> closes what was not opened");
+  CHECK(refusal("<robot name='r'>\n<link name='a'>\n\n</robot>") ==
+        "URDF: line 4: </robot> stands where <link> of line 2 is to be closed");
   CHECK(refusal("<!-- <robot>") == "URDF: line 1: a comment is not closed");
   CHECK(refusal("<![CDATA[ <robot>") == "URDF: line 1: a CDATA part is not closed");
   CHECK(refusal("<?xml version='1.0'>") == "URDF: line 1: a <? is not closed by ?>");
@@ -168,14 +169,14 @@ TEST_CASE("Inertias that cannot be") {
   CHECK(
       refusal(inertial("0")) ==
       "URDF: link 'rod': the link has inertia but no mass (mass 0 kg, principal moments of inertia "
-      "1, 1, 1 kg m^2); allow_unphysical accepts it");
+      "1, 1, 1 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it");
   CHECK(
       refusal(inertial("1", "2.5")) ==
       "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
-      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical accepts it");
+      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it");
   CHECK(refusal(inertial("1", "1", "-1.5")) ==
         "URDF: link 'rod': the inertia is not positive definite (mass 1 kg, principal moments of "
-        "inertia -0.5, 1, 2.5 kg m^2); allow_unphysical accepts it");
+        "inertia -0.5, 1, 2.5 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it");
   const std::string bad =
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
       "izz='2.5'/></inertial>";
@@ -189,7 +190,8 @@ TEST_CASE("Inertias that cannot be") {
                     "link='rod'/><child link='tool'/></joint><joint name='weld2' "
                     "type='fixed'><parent link='rod'/><child link='flag'/></joint>")) ==
       "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
-      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical accepts it, as it does 'tool', 'flag'");
+      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it, "
+      "as it does 'tool', 'flag'");
   CHECK(refusal(inertial("-1"), {.allow_unphysical = true}) ==
         "URDF: link 'rod': the mass is negative (-1 kg)");
   CHECK(refusal(pendulum("<link name='rod'/>")) ==
@@ -208,7 +210,7 @@ TEST_CASE("Numbers that are none") {
           std::string::npos);
   }
   const std::string useless =
-      "a number is NaN, infinite or beyond all use (1e50; an angle earlier)";
+      "a number is NaN, infinite or too large (more than 1e50, or an angle of more than 1e9 rad)";
   CHECK(refusal(with_joint("<origin xyz=\"1e50 0 0\"/>")).empty());
   CHECK(refusal(with_joint("<origin xyz=\"1e51 0 0\"/>")) == "URDF: joint 'pivot': " + useless);
   CHECK(refusal(with_inertial("<origin xyz=\"1e200 0 0\"/><mass value=\"2\"/><inertia ixx=\"1\" "
@@ -340,6 +342,9 @@ TEST_CASE("Links that are no tree") {
         "URDF: link 'a': it is part of a loop");
   CHECK(refusal(robot(a + b)) ==
         "URDF: Failed to find root link: Two root links found: [a] and [b]");
+  CHECK(refusal(robot(a + "<link name='b'>" + joint("i", "continuous", "a", "b") + "</link>")) ==
+        "URDF: Failed to find root link: Two root links found: [a] and [b]; perhaps because of "
+        "this: link 'b': <link>: the element <joint> is not known there and does not count");
   CHECK(refusal(robot(a + joint("i", "continuous", "a", "x"))).find("[x]") != std::string::npos);
   CHECK(refusal(robot(a + joint("i", "continuous", "x", "a"))).find("[x]") != std::string::npos);
   CHECK(refusal(robot(a + "<joint name='i' type='fixed'/>")) ==
@@ -378,6 +383,10 @@ TEST_CASE("Joints that mimic nobody") {
   CHECK(mimics("j") ==
         "URDF: joint 'k': the joint that is to be mimicked is fixed or a mimic itself (j)");
   CHECK(mimics("k") == "URDF: joint 'k': it mimics itself");
+  const std::string circle = joint("i", "continuous", "base", "a", "<mimic joint=\"k\"/>") +
+                             joint("k", "continuous", "a", "b", "<mimic joint=\"i\"/>");
+  CHECK(refusal(robot(base + solid("a") + solid("b") + circle)) ==
+        "URDF: joint 'k': it mimics itself, by way of 'i'");
   CHECK(
       mimics("i", {.root = "a"}) ==
       "URDF: joint 'k': it mimics 'i', which is not between root and tip; lock 'i' where it is to "
@@ -386,13 +395,18 @@ TEST_CASE("Joints that mimic nobody") {
 
 TEST_CASE("Options that name nothing") {
   CHECK(refusal(pendulum(), {.root = "x"}) ==
-        "URDF: link 'x': it is to be the root, but does not exist");
+        "URDF: link 'x': it is to be the root, but does not exist; links: base, rod");
   CHECK(refusal(pendulum(), {.tip = "x"}) ==
-        "URDF: link 'x': it is to be the tip, but does not exist");
+        "URDF: link 'x': it is to be the tip, but does not exist; links: base, rod");
   CHECK(refusal(pendulum(), {.root = "rod", .tip = "base"}) ==
         "URDF: link 'base': it is not beyond 'rod'");
   CHECK(refusal(pendulum(), {.locked = {"x"}}) ==
-        "URDF: joint 'x': it is to be locked, but does not exist");
+        "URDF: joint 'x': it is to be locked, but does not exist; joints: pivot");
+  CHECK(refusal(pendulum(), {.locked = {"pivto"}}) ==
+        "URDF: joint 'pivto': it is to be locked, but does not exist; did you mean 'pivot'?");
+  CHECK(refusal(pendulum(), {.gravity = {0, 0, 1e60}}) ==
+        "URDF: robot 'r': a number is NaN, infinite or too large (more than 1e50, or an angle of "
+        "more than 1e9 rad) (gravity)");
 }
 
 TEST_CASE("Options that are no figures of use") {
@@ -430,6 +444,38 @@ TEST_CASE("Limits in ros2_control that cannot be") {
         "URDF: <ros2_control>: joint 'pivot': effort max: 'much' is not a finite number");
   CHECK(control("<param name=\"min\">1e999</param>") ==
         "URDF: <ros2_control>: joint 'pivot': effort min: '1e999' is not a finite number");
+  const auto bounds = [&](const std::string& min, const std::string& max) {
+    return control("<param name=\"min\">" + min + "</param><param name=\"max\">" + max +
+                   "</param>");
+  };
+  CHECK(bounds("-0.2", "0.2").empty());
+  CHECK(bounds("0", "0.2").empty());
+  CHECK(bounds("0.2", "-0.2") ==
+        "URDF: <ros2_control>: joint 'pivot': effort: the least is above the most (min 0.2, max "
+        "-0.2)");
+  CHECK(control("<param name=\"max\">-5</param>") ==
+        "URDF: <ros2_control>: joint 'pivot': effort: 0 is not within its limits (min -inf, max "
+        "-5)");
+}
+
+TEST_CASE("Limits of positions in two places have something in common") {
+  const auto position = [](const char* min, const char* max) {
+    std::string text = robot(base + solid("rod") +
+                             joint("pivot", "revolute", "base", "rod",
+                                   "<limit lower='-1' upper='1' effort='1' velocity='1'/>"));
+    const std::string interface =
+        std::string("<command_interface name='position'><param name='min'>") + min +
+        "</param><param name='max'>" + max + "</param></command_interface>";
+    return refusal(text.insert(text.rfind("</robot>"), "<ros2_control><joint name='pivot'>" +
+                                                           interface + "</joint></ros2_control>"));
+  };
+  CHECK(position("-3", "0.5").empty());
+  CHECK(
+      position("3", "2") ==
+      "URDF: <ros2_control>: joint 'pivot': position: the least is above the most (min 3, max 2)");
+  CHECK(position("3", "4") ==
+        "URDF: joint 'pivot': its limits in <ros2_control>, 3 .. 4, and in <limit>, -1 .. 1, have "
+        "nothing in common");
 }
 
 TEST_CASE("A robot of another size is refused with the sizes and names") {

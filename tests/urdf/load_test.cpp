@@ -132,6 +132,50 @@ TEST_CASE("Transmissions are read in all dialects") {
   CHECK(read_urdf(arm_file).transmissions.at(0).actuators.at(0).mechanical_reduction == 100.5);
 }
 
+TEST_CASE("A root that is turned has another gravity, which is told unless it is given") {
+  const auto robot = [](const std::string& mount) {
+    std::string text = support::pendulum();
+    text.insert(text.find("<link"), "<link name='world'/>");
+    text.insert(text.rfind("</robot>"),
+                "<joint name='mount' type='" + mount +
+                    "'><parent link='world'/><child link='base'/><axis xyz='1 0 0'/>"
+                    "<origin rpy='1.5707963267948966 0 0'/><limit lower='0' upper='1' effort='1' "
+                    "velocity='1'/></joint>");
+    return text;
+  };
+  const auto notices = [&](const std::string& mount, const UrdfOptions& options) {
+    return read_urdf(robot(mount), options).notices;
+  };
+  CHECK(notices("fixed", {}).empty());
+  CHECK(notices("fixed", {.root = "base"}) ==
+        std::vector<std::string>{
+            "root 'base': it is turned against the file's root, and gravity, which is not given, "
+            "is taken as 0 0 -9.81 in its frame; what is 0 0 -9.81 in the file's is there 0 -9.81 "
+            "0"});
+  CHECK(notices("fixed", {.root = "base", .gravity = {0, -9.81, 0}}).empty());
+  CHECK(notices("revolute", {.root = "base"}) ==
+        std::vector<std::string>{"root 'base': joint 'mount' turns it, and gravity, which is not "
+                                 "given, is taken as 0 0 -9.81 in its frame"});
+
+  // What is said to be there is what makes the whole robot's efforts.
+  const JointVector<1> q{0.5};
+  const Vector3<double> there{0, -9.81, 0};
+  const double whole = gravity(load_urdf<1>(robot("fixed")), q)[0];
+  const double part =
+      gravity(load_urdf<1>(robot("fixed"), {.root = "base", .gravity = there}), q)[0];
+  INFO("of " << whole << " N m");
+  CHECK(std::abs(whole - part) <= 1e-14);  // some roundings of a few N m
+}
+
+TEST_CASE("A fixed joint need not be locked") {
+  std::string text = support::pendulum();
+  text.insert(text.rfind("</robot>"),
+              "<link name='tool'/><joint name='weld' type='fixed'><parent link='rod'/>"
+              "<child link='tool'/></joint>");
+  CHECK(read_urdf(text, {.locked = {"weld"}}).notices ==
+        std::vector<std::string>{"joint 'weld': it is to be locked, but is fixed anyway"});
+}
+
 TEST_CASE("A file and its text give the same robot") {
   std::ifstream file(arm_file);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -151,6 +195,9 @@ TEST_CASE("A chain is cut out by its root and tip") {
   const Model<2> beyond = load_urdf<2>(arm_file, {.root = "column"});
   const JointVector<2> q{0.3, 0.1};
   CHECK(gravity(chain, q) == gravity(beyond, q));
+
+  // Its root is turned by no joint, so nobody need be told about gravity.
+  CHECK(read_urdf(arm_file, {.root = "column"}).notices == read_urdf(arm_file).notices);
 
   // Off the chain are the left finger and all that it carries.
   const Model<2> wrist = load_urdf<2>(URDF_FILES "/gripper.urdf", {.tip = "left_finger"});

@@ -104,23 +104,25 @@ template <class Algorithm, DescribedRobot R, Frames frames>
 template <class Algorithm, DescribedRobot R, Frames frames>
 inline constexpr auto program_in = compile<Algorithm, R, frames>();
 
-/// The frames that make the cheaper programs. Trying them on each algorithm would take the compiler
+/// By how many operations an algorithm's program is cheaper in resting frames.
+template <class Algorithm, DescribedRobot R>
+inline constexpr int gain_of_resting =
+    program_in<Algorithm, R, Frames::moving>.operations().cost() -
+    program_in<Algorithm, R, Frames::resting>.operations().cost();
+
+/// The frames that make the cheaper program. Trying them on each algorithm would take the compiler
 /// longer than all the rest. The gravity efforts are tried, for all algorithms: their program is
 /// short and consists of what the frames make cheaper or dearer, the way of vectors to the leaves
-/// and back.
-template <DescribedRobot R>
-[[nodiscard]] consteval Frames best_frames() {
-  constexpr int moving = program_in<Gravity, R, Frames::moving>.operations().cost();
-  constexpr int resting = program_in<Gravity, R, Frames::resting>.operations().cost();
-  return resting < moving ? Frames::resting : Frames::moving;
-}
-
+/// and back. Only where they make no difference, as where axes are vertical or nothing falls, the
+/// algorithm itself is tried.
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval Frames frames_for() {
   if constexpr (needs_own_frames<Algorithm>) {
     return Frames::moving;
+  } else if constexpr (gain_of_resting<Gravity, R> != 0) {
+    return gain_of_resting<Gravity, R> > 0 ? Frames::resting : Frames::moving;
   } else {
-    return best_frames<R>();
+    return gain_of_resting<Algorithm, R> > 0 ? Frames::resting : Frames::moving;
   }
 }
 

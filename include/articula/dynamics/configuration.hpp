@@ -203,9 +203,10 @@ template <class S, int N, int B>
   JointArray<AxialTurn<S>, B> joint_turns;
   if (frames == Frames::moving) joint_turns = detail::turns_by(position);
   // By which a body has turned in the frame that it is seen in: 0 where that is its own.
-  JointArray<S, B> angle{};
+  JointArray<S, B> angle;
   JointArray<AxialTurn<S>, B> own_turn;
-  own_turn.fill({S(0.0), S(1.0)});  // g++ 12 leaves elements of large arrays uninitialised
+  angle.fill(S(0.0));  // g++ 12 leaves elements of arrays uninitialised where braces should do it
+  own_turn.fill({S(0.0), S(1.0)});
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Body& body = mechanism.bodies[i];
     JointPlacement<S>& joint = configuration[i];

@@ -55,14 +55,18 @@ namespace detail {
           without_rounding(m.yz, scale), without_rounding(m.zz, scale)};
 }
 
-/// A direction of length 1, with exact zeros and ones.
-[[nodiscard]] constexpr Vector3<double> direction(const Vector3<double>& a) {
-  const Vector3<double> unit = (1 / constant_math::square_root(dot(a, a))) * a;
-  const auto rounded = [](double x) {
+/// The components of a vector of length 1, zeros and ones among them exact.
+[[nodiscard]] constexpr Vector3<double> with_exact_components(const Vector3<double>& unit) {
+  const auto exact = [](double x) {
     const double sign = x < 0 ? -1 : 1;
     return without_rounding(x - sign, 1) == 0 ? sign : without_rounding(x, 1);
   };
-  return {rounded(unit.x), rounded(unit.y), rounded(unit.z)};
+  return {exact(unit.x), exact(unit.y), exact(unit.z)};
+}
+
+/// A direction of length 1, with exact zeros and ones.
+[[nodiscard]] constexpr Vector3<double> direction(const Vector3<double>& a) {
+  return with_exact_components((1 / constant_math::square_root(dot(a, a))) * a);
 }
 
 /// The rotation with all elements up to the tolerance in size taken as zero, made orthonormal
@@ -186,7 +190,9 @@ template <int N, int Bodies>
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].parent < 0) continue;
-    detail::move_frame(canonical, i, {detail::untwist(bodies[i].placement.rotation), {}});
+    Matrix3<double>& rotation = bodies[i].placement.rotation;
+    detail::move_frame(canonical, i, {detail::untwist(rotation), {}});
+    for (Vector3<double>& row : rotation.rows) row = detail::with_exact_components(row);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Placement<double>& placement = bodies[i].placement;

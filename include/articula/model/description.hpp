@@ -43,6 +43,11 @@ RobotDescription(Name, Vector3<double>, std::array<Link, Links>, std::array<Join
                  bool = false, double = default_right_angle_tolerance)
     -> RobotDescription<Links, Joints>;
 
+// Without `.gravity`: compilers deduce from the initialisers' order, not from their names.
+template <std::size_t Links, std::size_t Joints>
+RobotDescription(Name, std::array<Link, Links>, std::array<Joint, Joints>, bool = false,
+                 double = default_right_angle_tolerance) -> RobotDescription<Links, Joints>;
+
 /// True for the types that RobotDescription makes.
 template <class T>
 inline constexpr bool is_robot_description = false;

@@ -58,7 +58,8 @@ enum class Rule {
     case Rule::name_is_used_twice:
       return "the name is used twice";
     case Rule::number_is_not_finite:
-      return "a number is NaN, infinite or beyond all use (1e50; an angle earlier)";
+      return "a number is NaN, infinite or too large (more than 1e50, or an angle of more than "
+             "1e9 rad)";
     case Rule::link_has_negative_mass:
       return "the mass is negative";
     case Rule::link_has_inertia_but_no_mass:

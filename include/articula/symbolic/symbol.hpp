@@ -4,7 +4,19 @@
 
 #include "articula/symbolic/graph.hpp"
 
+#include <stdexcept>
+
 namespace articula::symbolic {
+
+namespace detail {
+
+/// No constant expression: compilers name it. Who divides by a constant 0 has made an algorithm that
+/// works for no input, such as forward dynamics of a robot one of whose joints feels no inertia.
+[[noreturn]] inline void the_divisor_is_always_zero() {
+  throw std::domain_error("articula: the divisor is always zero");
+}
+
+}  // namespace detail
 
 /// A scalar that stands for an expression. An algorithm that is written for any scalar type and run
 /// on symbols leaves its result as expressions in the graph that its inputs came from. Constants
@@ -42,6 +54,7 @@ class Symbol {
   }
   friend constexpr Symbol operator/(const Symbol& x, const Symbol& y) {
     const bool x_constant = x.term_.node == Term::none, y_constant = y.term_.node == Term::none;
+    if (y_constant && y.term_.constant == 0) detail::the_divisor_is_always_zero();
     if (x_constant && y_constant) return Symbol(x.term_.constant / y.term_.constant);
     Graph* const graph = x.graph_ ? x.graph_ : y.graph_;
     return {graph, graph->divide(x.term_, y.term_)};

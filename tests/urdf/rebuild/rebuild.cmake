@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # A robot of articula_add_robot follows its URDF: a file that changes is read again by the next build,
-# and one with a fault stops it, with the file, the element and the reason.
+# and one with a fault stops it, with the file, the element and the reason. So does a wrong call.
 #   cmake -DPROJECT=<folder of this file> -DWORK=<scratch folder> -DSOURCE=<articula>
 #         -DGENERATOR=<generator> -DCOMPILER=<C++ compiler> [-DLAUNCHER=<compiler cache>] -P rebuild.cmake
 
@@ -61,3 +61,33 @@ foreach(word pendulum.urdf rod mass -3)
     message(FATAL_ERROR "the error does not name '${word}':\n${output}")
   endif()
 endforeach()
+
+# Wrong calls: the message names the robot, what is wrong with it, and what there is instead.
+function(expect_refusal call)
+  execute_process(COMMAND ${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK} "-DWRONG=${call}"
+                  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status)
+    build(--target Wrong_header)
+  endif()
+  if(NOT status)
+    message(FATAL_ERROR "articula_add_robot(${call}) was accepted:\n${output}")
+  endif()
+  string(REGEX REPLACE "[ \n]+" " " output "${output}") # CMake breaks lines
+  foreach(words IN LISTS ARGN)
+    string(FIND "${output}" "${words}" place)
+    if(place EQUAL -1)
+      message(FATAL_ERROR "articula_add_robot(${call}): nothing says '${words}':\n${output}")
+    endif()
+  endforeach()
+endfunction()
+
+set(urdf ${WORK}/pendulum.urdf)
+write_robot(2)
+expect_refusal("Wrong;URDF;${urdf};LOKC;pivot" "articula_add_robot(Wrong)" "LOKC" "LOCK")
+expect_refusal("Wrong;URDF;${urdf};ALLOW_UNPHYSICAL;OFF" "unknown: OFF")
+expect_refusal("Wrong;URDF;${urdf};ROOT" "articula_add_robot(Wrong)" "without value: ROOT")
+expect_refusal("Wrong;TIP;rod" "URDF <file> is missing")
+expect_refusal("Pendulum;URDF;${urdf}" "articula_add_robot(Pendulum)" "already")
+expect_refusal("Wrong;URDF;${urdf};GRAVITY;0;0;x" "GRAVITY: 'x' is not a finite number")
+expect_refusal("Wrong;URDF;${urdf};LOCK;pivot=abc" "LOCK pivot=abc: 'abc' is not")
+expect_refusal("Wrong;URDF;${urdf};TIP;rodd" "link 'rodd'" "did you mean 'rod'?")

@@ -101,6 +101,7 @@ class ControlReader {
         const std::string where = "<ros2_control>: joint '" + name + "': " + kind + " " + which;
         (which == "min" ? bounds.lower : bounds.upper) = bound_of(text_of(param), where);
       });
+      check_bounds(bounds, kind, "<ros2_control>: joint '" + name + "': " + kind);
       const double below = std::abs(bounds.lower), above = std::abs(bounds.upper);
       const double size =
           below == 0 || above == 0 ? std::max(below, above) : std::min(below, above);
@@ -110,6 +111,19 @@ class ControlReader {
       narrowed.lower = std::max(narrowed.lower, bounds.lower);
       narrowed.upper = std::min(narrowed.upper, bounds.upper);
     });
+  }
+
+  /// Bounds that leave something, and of what can be 0 that leave 0.
+  void check_bounds(const JointLimits& bounds, const std::string& kind,
+                    const std::string& where) const {
+    const std::string figures =
+        "min " + rounded_text(bounds.lower) + ", max " + rounded_text(bounds.upper);
+    if (!(bounds.lower <= bounds.upper)) {
+      throw UrdfError(file_, where + ": the least is above the most (" + figures + ")");
+    }
+    if (kind != "position" && (bounds.lower > 0 || bounds.upper < 0)) {
+      throw UrdfError(file_, where + ": 0 is not within its limits (" + figures + ")");
+    }
   }
 
   /// <joint mimic="false"> and, as in older versions, <param name="mimic">.

@@ -16,6 +16,7 @@ namespace articula {
 
 /// The limits of a joint: those of <limit>, narrowed by those of its commands in <ros2_control>.
 /// @return  [rad, rad/s, N m] or [m, m/s, N]; what is not limited is infinite
+/// @throws UrdfError if the two have no position in common
 /// Real-time: no (searches by name).
 [[nodiscard]] inline JointLimits joint_limits(const UrdfDocument& document,
                                               const urdf::Joint& joint) {
@@ -34,10 +35,17 @@ namespace articula {
   const JointLimits& command = found->second;
   limits.velocity = std::min(limits.velocity, command.velocity);
   limits.effort = std::min(limits.effort, command.effort);
-  if (!unbounded) {
-    limits.lower = std::max(limits.lower, command.lower);
-    limits.upper = std::min(limits.upper, command.upper);
+  if (unbounded) return limits;
+  if (command.lower > limits.upper || command.upper < limits.lower) {
+    const auto range = [](const JointLimits& of) {
+      return detail::rounded_text(of.lower) + " .. " + detail::rounded_text(of.upper);
+    };
+    throw UrdfError(document.file, "joint '" + joint.name + "': its limits in <ros2_control>, " +
+                                       range(command) + ", and in <limit>, " + range(limits) +
+                                       ", have nothing in common");
   }
+  limits.lower = std::max(limits.lower, command.lower);
+  limits.upper = std::min(limits.upper, command.upper);
   return limits;
 }
 
@@ -117,6 +125,14 @@ namespace detail {
           std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))), yaw};
 }
 
+/// The rotation by roll, pitch and yaw [rad].
+[[nodiscard]] inline Eigen::Matrix3d rotation_of(const Vector3<double>& rpy) {
+  return (Eigen::AngleAxisd(rpy.z, Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(rpy.y, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(rpy.x, Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
 /// The joint, fixed at a position [rad or m].
 [[nodiscard]] inline Joint locked_joint_of(const UrdfDocument& document, const urdf::Joint& joint,
                                            double position) {
@@ -131,12 +147,8 @@ namespace detail {
                                        ": it is fixed, has no axis, or "
                                        "that is no number");
   }
-  const Vector3<double>& rpy = result.orientation;
   const Eigen::Vector3d along = Eigen::Vector3d(axis.x, axis.y, axis.z) / length;
-  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(rpy.z, Eigen::Vector3d::UnitZ()) *
-                                Eigen::AngleAxisd(rpy.y, Eigen::Vector3d::UnitY()) *
-                                Eigen::AngleAxisd(rpy.x, Eigen::Vector3d::UnitX()))
-                                   .toRotationMatrix();
+  const Eigen::Matrix3d turn = rotation_of(result.orientation);
   if (joint.type == urdf::Joint::PRISMATIC) {
     const Eigen::Vector3d shift = turn * (position * along);
     result.origin = result.origin + Vector3<double>{shift.x(), shift.y(), shift.z()};

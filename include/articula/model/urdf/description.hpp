@@ -5,6 +5,7 @@
 #include "articula/model/urdf/convert.hpp"
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
+#include "articula/model/urdf/known_words.hpp"
 #include "articula/model/urdf/leader.hpp"
 #include "articula/model/urdf/mimic_limits.hpp"
 #include "articula/model/urdf/notices.hpp"
@@ -37,8 +38,10 @@ struct UrdfDescription {
                                        ///< inertias that no real body has, limits of 0 and
                                        ///< those of continuous joints, places beyond limits,
                                        ///< links that move without <inertial>, names that lead
-                                       ///< nowhere, reductions of 0, and mimics that stand in
-                                       ///< <ros2_control> alone
+                                       ///< nowhere, reductions of 0, mimics that stand in
+                                       ///< <ros2_control> alone, fixed joints that are to be
+                                       ///< locked, and a root that is turned against the file's
+                                       ///< where gravity is not given
 };
 
 namespace detail {
@@ -76,9 +79,25 @@ class UrdfReader {
   [[nodiscard]] const urdf::Link& link(const std::string& name, const char* what) const {
     const auto found = document_.robot->links_.find(name);
     if (found == document_.robot->links_.end()) {
-      fail("link '" + name + "': it is to be the " + what + ", but does not exist");
+      fail("link '" + name + "': it is to be the " + what + ", but does not exist" +
+           choice_of(name, "links", document_.robot->links_));
     }
     return *found->second;
+  }
+
+  /// What may have been meant by a name that does not exist.
+  template <class Elements>
+  [[nodiscard]] static std::string choice_of(const std::string& name, const char* kind,
+                                             const Elements& elements) {
+    std::vector<std::string_view> names;
+    std::string list;
+    for (const auto& [each, element] : elements) {
+      names.push_back(each);
+      list += (list.empty() ? "" : ", ") + each;
+    }
+    const std::string_view meant = meant_word(name, names);
+    if (!meant.empty()) return "; did you mean '" + std::string(meant) + "'?";
+    return std::string("; ") + kind + ": " + list;
   }
 
   /// Finds the joints that are wanted, from the root outwards.
@@ -86,6 +105,7 @@ class UrdfReader {
     const urdf::Link& root =
         options_.root.empty() ? *document_.robot->getRoot() : link(options_.root, "root");
     result_.links.push_back(link_of(document_, root));
+    notices_.add_root(root, options_.gravity);
     if (!options_.tip.empty()) return select_chain(root, link(options_.tip, "tip"));
     std::vector<urdf::JointSharedPtr> open;                        // the next one last
     const auto add_children = [&open](const urdf::Link& parent) {  // urdfdom has sorted them
@@ -121,7 +141,8 @@ class UrdfReader {
     for (const auto& [joint, position] : options_.locked) {
       const auto found = document_.robot->joints_.find(joint);
       if (found == document_.robot->joints_.end()) {
-        fail(joint, "it is to be locked, but does not exist");
+        fail(joint, "it is to be locked, but does not exist" +
+                        choice_of(joint, "joints", document_.robot->joints_));
       }
       if (!is_finite(position)) fail(joint, "it cannot be locked at " + rounded_text(position));
       const auto [held, first] = held_.try_emplace(joint, position);
@@ -167,9 +188,10 @@ class UrdfReader {
     if (fault.rule == Rule::none) return;
     std::string text = fault_text(fault, result_.links, result_.joints);
     if (concerns_inertia(fault.rule)) {
-      text += "; allow_unphysical accepts it" + others_like(fault.element);
+      text +=
+          "; allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it" + others_like(fault.element);
     }
-    fail(text);
+    fail(text + perhaps_because_of(document_.unknown_words));
   }
 
   /// The other links with inertias that cannot be: whoever accepts one of a file accepts them all.

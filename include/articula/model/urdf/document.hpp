@@ -156,8 +156,12 @@ inline void blank_white_space(std::string& text) {
   if (links > UrdfDocument::most_links) {
     throw UrdfError(result.file, "it has " + std::to_string(links) + " links; 4096 are accepted");
   }
-  detail::check_tree(result.file, bare);
-  result.robot = detail::parse_mechanics(result.file, text);
+  try {
+    detail::check_tree(result.file, bare);
+    result.robot = detail::parse_mechanics(result.file, text);
+  } catch (const UrdfError& error) {
+    throw UrdfError(error, detail::perhaps_because_of(result.unknown_words));
+  }
   detail::for_each_child(bare, "joint", [&](const detail::XmlElement& joint) {
     result.joint_orientations[detail::attribute(joint, "name")] = detail::orientation_of(&joint);
   });

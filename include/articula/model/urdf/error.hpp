@@ -16,6 +16,9 @@ class UrdfError : public std::runtime_error {
   /// @param reason  what is wrong, beginning with the element
   UrdfError(const std::string& file, const std::string& reason)
       : std::runtime_error(file + ": " + reason) {}
+  /// The same with something added to it.
+  UrdfError(const UrdfError& error, const std::string& addition)
+      : std::runtime_error(error.what() + addition) {}
 };
 
 }  // namespace articula

@@ -70,7 +70,8 @@ namespace articula::detail {
                                             std::span<const Joint> joints) {
   std::string kind = "robot", details;
   if (fault.rule == Rule::robot_has_no_moving_joint)
-    links = {}, joints = {};  // it has its own name
+    links = {}, joints = {};                                          // it has its own name
+  if (fault.rule == Rule::number_is_not_finite) details = "gravity";  // a robot's only numbers
   if (const int i = index_of(joints, fault.element); i >= 0) {
     kind = "joint";
     details = figures(joints[static_cast<std::size_t>(i)], fault.rule);

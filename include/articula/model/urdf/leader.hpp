@@ -34,7 +34,9 @@ struct Leader {
   const urdf::Joint* at = &joint;
   for (std::size_t step = 0; mimics(*at); ++step) {
     if (step > joints.size()) {
-      throw UrdfError(document.file, "joint '" + at->name + "': it mimics itself");
+      const std::string& next = at->mimic->joint_name;
+      throw UrdfError(document.file, "joint '" + at->name + "': it mimics itself" +
+                                         (next == at->name ? "" : ", by way of '" + next + "'"));
     }
     leader.offset += leader.multiplier * at->mimic->offset;
     leader.multiplier *= at->mimic->multiplier;

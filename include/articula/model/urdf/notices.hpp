@@ -5,6 +5,7 @@
 #include "articula/model/urdf/convert.hpp"
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
+#include "articula/model/urdf/options.hpp"
 #include "articula/model/validation.hpp"
 
 #include <cmath>
@@ -31,7 +32,40 @@ class UrdfNotices {
   /// A joint that is held. Beyond its limits is no reason to refuse a robot, since a file may have
   /// them wrong, but an odd place to be.
   void add_lock(const urdf::Joint& joint, double position) {
+    if (joint.type == urdf::Joint::FIXED) {
+      add("joint '" + joint.name + "': it is to be locked, but is fixed anyway");
+    }
     add_position(joint, "it is locked at " + rounded_text(position), position);
+  }
+
+  /// A root other than the file's. Gravity is given in the root's frame, so its default may be wrong
+  /// in one that is turned.
+  void add_root(const urdf::Link& root, const Vector3<double>& gravity) {
+    const Vector3<double> usual = UrdfOptions{}.gravity;
+    if (!root.parent_joint || gravity != usual) return;
+    std::vector<const urdf::Joint*> way;  // from the root upwards
+    for (const urdf::Link* at = &root; at->parent_joint; at = at->getParent().get()) {
+      way.push_back(at->parent_joint.get());
+    }
+    const std::string taken = "gravity, which is not given, is taken as 0 0 -9.81 in its frame";
+    constexpr double noticeable = 1e-6;  // [m/s^2], beyond what a file's rounded angles make
+    Eigen::Vector3d down(usual.x, usual.y, usual.z);
+    for (auto joint = way.rbegin(); joint != way.rend(); ++joint) {
+      down = rotation_of(document_.joint_orientations.at((*joint)->name)).transpose() * down;
+      const auto type = (*joint)->type;
+      const urdf::Vector3& axis = (*joint)->axis;
+      const bool turns = type == urdf::Joint::REVOLUTE || type == urdf::Joint::CONTINUOUS;
+      // A turn about the vertical leaves gravity where it is.
+      if (turns && Eigen::Vector3d(axis.x, axis.y, axis.z).cross(down).norm() > noticeable) {
+        return add("root '" + root.name + "': joint '" + (*joint)->name + "' turns it, and " +
+                   taken);
+      }
+    }
+    if (std::hypot(down.x(), down.y()) < noticeable && down.z() < 0) return;
+    const auto text = [](double x) { return rounded_text(std::abs(x) < noticeable ? 0 : x); };
+    add("root '" + root.name + "': it is turned against the file's root, and " + taken +
+        "; what is 0 0 -9.81 in the file's is there " + text(down.x()) + " " + text(down.y()) +
+        " " + text(down.z()));
   }
 
   /// All about a robot's links and joints, and names in the file that lead nowhere.

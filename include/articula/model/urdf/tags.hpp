@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace articula::detail {
 
@@ -16,7 +17,7 @@ namespace articula::detail {
 /// document types and processing instructions at the first '>': those become blanks.
 class TagReader {
  public:
-  static constexpr int deepest = 100;  ///< nesting of elements that is accepted
+  static constexpr std::size_t deepest = 100;  ///< nesting of elements that is accepted
 
   explicit TagReader(std::string& text) : text_(text) {}
 
@@ -25,7 +26,7 @@ class TagReader {
     for (;;) {
       const std::size_t start = at_;
       at_ = std::min(view().find('<', start), text_.size());
-      if (depth_ == 0) {
+      if (open_.empty()) {
         const std::size_t text = view().find_first_not_of(space, start == 0 ? skip_mark() : start);
         if (text < at_) {
           at_ = text;
@@ -35,21 +36,32 @@ class TagReader {
       if (std::string fault = references(start, at_); !fault.empty()) return fault;
       if (at_ == text_.size()) break;
       if (std::string fault = tag(); !fault.empty()) return fault;
-      if (depth_ > deepest) return "elements are nested more than 100 deep";
-      if (depth_ < 0) return "an element is closed that was not opened";
+      if (open_.size() > deepest) return "elements are nested more than 100 deep";
     }
-    return depth_ > 0 ? "an element is not closed" : "";
+    return open_.empty() ? "" : innermost() + " is not closed";
   }
 
   /// The line that was read last, from 1.
-  [[nodiscard]] std::size_t line() const {
-    const std::size_t end = std::min(at_, text_.size());
-    return 1 + static_cast<std::size_t>(std::count(
-                   text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
-  }
+  [[nodiscard]] std::size_t line() const { return line_of(at_); }
 
  private:
   static constexpr std::string_view space = " \t\r\n";
+
+  struct OpenElement {
+    std::string_view name;
+    std::size_t begin;
+  };
+
+  [[nodiscard]] std::size_t line_of(std::size_t place) const {
+    const std::size_t end = std::min(place, text_.size());
+    return 1 + static_cast<std::size_t>(std::count(
+                   text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  }
+  /// The element that is to be closed next, in words.
+  [[nodiscard]] std::string innermost() const {
+    return "<" + std::string(open_.back().name) + "> of line " +
+           std::to_string(line_of(open_.back().begin));
+  }
 
   [[nodiscard]] std::string_view view() const { return text_; }
   [[nodiscard]] bool take(std::string_view expected) {
@@ -122,13 +134,19 @@ class TagReader {
     }
     if (take("<!")) return "a <! that begins no comment, CDATA part or document type";
     if (take("</")) {
-      --depth_;
+      const std::size_t begin = at_;
       if (!take_name()) return "a closing tag has no name";
+      const std::string_view name = view().substr(begin, at_ - begin);
+      const std::string tag = "</" + std::string(name) + ">";
+      if (open_.empty()) return tag + " closes what was not opened";
+      if (name != open_.back().name)
+        return tag + " stands where " + innermost() + " is to be closed";
+      open_.pop_back();
       skip_space();
       return take(">") ? "" : "a closing tag has no end";
     }
     ++at_;
-    if (depth_ == 0 && has_root_) return "a second element at the top; XML has one";
+    if (open_.empty() && has_root_) return "a second element at the top; XML has one";
     has_root_ = true;
     return opening_tag();
   }
@@ -163,13 +181,15 @@ class TagReader {
   }
 
   [[nodiscard]] std::string opening_tag() {
+    const std::size_t begin = at_;
     if (!take_name()) return "a tag has no name";
+    const OpenElement element{view().substr(begin, at_ - begin), begin};
     std::set<std::string_view> names;
     for (;;) {
       skip_space();
       if (take("/>")) return "";
       if (take(">")) {
-        ++depth_;
+        open_.push_back(element);
         return "";
       }
       std::size_t start = at_;
@@ -189,7 +209,7 @@ class TagReader {
 
   std::string& text_;
   std::size_t at_ = 0;
-  int depth_ = 0;
+  std::vector<OpenElement> open_{};
   bool has_root_ = false;
   bool has_type_ = false;
 };

@@ -92,4 +92,9 @@ class UnknownWords {
   std::string owner_{};                         ///< the link or joint, for the lines
 };
 
+/// What may be behind a fault, as an addition to its message: the first word that is not known.
+[[nodiscard]] inline std::string perhaps_because_of(const std::vector<std::string>& unknown_words) {
+  return unknown_words.empty() ? "" : "; perhaps because of this: " + unknown_words.front();
+}
+
 }  // namespace articula::detail
