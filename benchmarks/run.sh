@@ -1,19 +1,25 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds and runs the benchmarks; results go to benchmarks/results/<subject>.json.
+# Builds and runs the benchmarks; results go to benchmarks/results/<subject>.json, or another folder.
 #
-#   benchmarks/run.sh [<subject>...] [--benchmark_filter=... and other options of Google Benchmark]
+#   benchmarks/run.sh [<subject>...] [--output=<folder>]
+#                     [--benchmark_filter=... and other options of Google Benchmark]
 set -euo pipefail
-cd "$(dirname "$0")/.."
 
 subjects=()
 options=()
+results=$(dirname "$0")/results
 for argument in "$@"; do
   case $argument in
+    --output=*) results=${argument#*=} ;;
     --*) options+=("$argument") ;;
     *) subjects+=("$argument") ;;
   esac
 done
+
+mkdir -p "$results"
+results=$(cd "$results" && pwd)
+cd "$(dirname "$0")/.."
 
 peers=OFF # takes other libraries and minutes to compile, so it is built when it is asked for
 for subject in ${subjects[@]+"${subjects[@]}"}; do [[ $subject != peers ]] || peers=ON; done
@@ -40,13 +46,12 @@ context=$(
   done
 )
 
-mkdir -p benchmarks/results
 # Ratios are to be believed if what disturbs one case disturbs the others as well.
 for subject in "${subjects[@]}"; do
   [[ $subject != peers && $subject != packs ]] || options+=(--benchmark_enable_random_interleaving=true)
 done
 for subject in ${subjects[@]+"${subjects[@]}"}; do
-  result=benchmarks/results/$subject.json
+  result=$results/$subject.json
   "$programs/${subject}_benchmark" \
     --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
     --benchmark_out_format=json --benchmark_out="$result" \
@@ -54,5 +59,5 @@ for subject in ${subjects[@]+"${subjects[@]}"}; do
   # In place of the machine's name, which is nobody's business.
   sed -i -e '/"host_name"/{r /dev/stdin' -e 'd}' "$result" <<<"$context"
   echo "written: $result"
-  [[ $subject != peers ]] || benchmarks/peers/table.sh
+  [[ $subject != peers ]] || benchmarks/peers/table.sh "$result" "$results"
 done

@@ -25,6 +25,11 @@ cases=$(
     done
   done
 )
+# The median and the largest coefficient of variation of all cases, in percent.
+scatter=$(awk -F '"' '
+  $2 == "aggregate_name" { aggregate = $4 }
+  $2 == "cpu_time" && aggregate == "cv" { sub(/^: /, "", $3); sub(/,$/, "", $3); print 100 * $3 }
+' "$json" | sort -g | awk '{ cv[NR] = $1 } END { printf "%.0f and %.0f", cv[int((NR + 1) / 2)], cv[NR] }')
 context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; }
 
 {
@@ -37,14 +42,18 @@ context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; 
   echo "Nanoseconds of one call, median of five repetitions; in brackets how many times as long as ours, the"
   echo "described type. \"Shortest\" are MuJoCo's stages that the result needs, without the rest of the"
   echo "public function. KDL has the robot as kdl_parser makes it of the URDF. PR2: thirty joints, all free;"
-  echo "ours compiled with \`-O1\`."
+  echo "ours compiled with \`-O1\`. Less than 2 ns cannot be told from the measuring itself. Median and largest"
+  echo "coefficient of variation of the cases: $scatter percent."
   echo
   echo "| robot | operation | described type | \`Model<N>\` | KDL | MuJoCo | MuJoCo, shortest |"
   echo "|---|---|---:|---:|---:|---:|---:|"
   awk '
     function cell(library, time) {
       time = t[$0, library]
-      return time == "" ? "-" : sprintf("%.*f (%.1f)", time < 100, time, time / t[$0, "described"])
+      if (time == "") return "-"
+      if (t[$0, "described"] < 2) return sprintf("%.*f (> %.0f)", time < 100, time, time / 2)
+      ratio = time / t[$0, "described"]
+      return sprintf("%.*f (%.*f)", time < 100, time, ratio < 10, ratio)
     }
     { key = $2 " | " $1; if (!(key in seen)) { seen[key] = 1; order[++n] = key } t[key, $3] = $4 }
     END {
@@ -52,8 +61,9 @@ context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; 
         $0 = order[i]
         ours = t[$0, "described"]
         line = $0; gsub("_", " ", line)
-        printf "| %s | %.*f | %s | %s | %s | %s |\n", line, ours < 100, ours, cell("model"),
-          cell("kdl"), cell("mujoco"), cell("mujoco_shortest")
+        printf "| %s | %s | %s | %s | %s | %s |\n", line,
+          ours < 2 ? "< 2" : sprintf("%.*f", ours < 100, ours), cell("model"), cell("kdl"),
+          cell("mujoco"), cell("mujoco_shortest")
       }
     }' <<<"$cases"
 } >"$folder/peers.md"
