@@ -33,7 +33,9 @@ struct ForwardDynamics {
 /// @param q       joint positions [rad or m], N x 1
 /// @param v       joint velocities [rad/s or m/s], N x 1
 /// @param effort  joint efforts [N m or N], N x 1
-/// @return        joint accelerations [rad/s^2 or m/s^2], N x 1
+/// @return        joint accelerations [rad/s^2 or m/s^2], N x 1. If M(q) is singular, they mean
+///                nothing and may not be finite; where it always is, because a joint feels no inertia
+///                (as that of an unphysical robot may), those of a described robot do not compile
 /// Real-time: yes. O(N d^2) with d the depth of the tree.
 template <Robot R>
 [[nodiscard]] inline JointVector<joint_count<R>> forward_dynamics(
