@@ -164,6 +164,41 @@ TEST_CASE("activation survives lost requests and tells who does not answer") {
   }
 }
 
+TEST_CASE("activation is not done while a request to clear faults may still be on its way") {
+  Drives drives(modules, {});
+  const auto answered = [&](const CanFrame& frame) {
+    CanBatch answers;
+    drives.receive(frame, answers);
+    return answers;
+  };
+  for (const auto& module : modules) {  // left from before
+    static_cast<void>(answered(quanser::encode(quanser::Control::enable, module.node)));
+  }
+  QuanserCodec<Q2d> codec(modules);
+  codec.restart();
+  CanBatch first;
+  REQUIRE(codec.set_up(std::chrono::milliseconds(0), first) == CanSetUp::in_progress);
+  // Its last frame, SYNC, overtakes the others, so that all modules answer that they are enabled.
+  for (const CanFrame& frame : answered(*(first.end() - 1))) static_cast<void>(codec.decode(frame));
+  CHECK(codec.reports()[0].enabled);
+  CanSetUp progress = CanSetUp::in_progress;
+  for (int milliseconds = 1; milliseconds < 200; ++milliseconds) {
+    CanBatch batch;
+    progress = codec.set_up(std::chrono::milliseconds(milliseconds), batch);
+    if (milliseconds == 1) {  // now they arrive
+      for (const CanFrame& frame : first) static_cast<void>(answered(frame));
+      CHECK_FALSE(drives.enabled(0));
+    }
+    if (progress == CanSetUp::done) break;
+    for (const CanFrame& frame : batch) {
+      for (const CanFrame& answer : answered(frame)) static_cast<void>(codec.decode(answer));
+    }
+  }
+  CHECK(progress == CanSetUp::done);
+  CHECK(drives.enabled(0));
+  CHECK(drives.enabled(1));
+}
+
 TEST_CASE("a drive that is moved from does not stop the arm") {
   Bench bench;
   {

@@ -245,7 +245,8 @@ TEST_CASE("a place beyond the limits is reported") {
         Notices{"joint 'follower': it is locked at 1.5, beyond its limits, -1 .. 1"});
   CHECK(notices({.locked = {{"elbow", -1.25}, "follower"}}) ==
         Notices{"joint 'elbow': it is locked at -1.25, beyond its limits, -1 .. 1"});
-  CHECK(notices({.root = "b", .locked = {{"elbow", 3}, "follower"}}).size() == 1);
+  CHECK(notices({.root = "b", .locked = {{"elbow", 3}, "follower"}, .gravity = {0, 0, -1.6}})
+            .size() == 1);
   CHECK(notices({.locked = {{"wheel", 100}}}).size() == 1);  // of the initial_value
 }
 

@@ -126,6 +126,10 @@ template <class Algorithm, DescribedRobot R>
   }
 }
 
+/// The program of an algorithm in the better frames.
+template <class Algorithm, DescribedRobot R>
+inline constexpr const auto& best_program = program_in<Algorithm, R, frames_for<Algorithm, R>()>;
+
 /// Whether an algorithm has an `Alternative`, another one with the same inputs and results, that
 /// makes the cheaper program. It is tried only where it says that it `may_pay`.
 template <class Algorithm, DescribedRobot R>
@@ -133,9 +137,8 @@ template <class Algorithm, DescribedRobot R>
   if constexpr (requires { typename Algorithm::Alternative; }) {
     using Other = typename Algorithm::Alternative;
     if constexpr (Other::may_pay(mechanism_for<Algorithm>(R{}))) {
-      constexpr Frames frames = frames_for<Algorithm, R>();
-      return program_in<Other, R, frames>.operations().cost() <
-             program_in<Algorithm, R, frames>.operations().cost();
+      return best_program<Other, R>.operations().cost() <
+             best_program<Algorithm, R>.operations().cost();
     }
   }
   return false;
@@ -143,11 +146,10 @@ template <class Algorithm, DescribedRobot R>
 
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval const auto& cheapest_program() {
-  constexpr Frames frames = frames_for<Algorithm, R>();
   if constexpr (has_cheaper_alternative<Algorithm, R>()) {
-    return program_in<typename Algorithm::Alternative, R, frames>;
+    return best_program<typename Algorithm::Alternative, R>;
   } else {
-    return program_in<Algorithm, R, frames>;
+    return best_program<Algorithm, R>;
   }
 }
 

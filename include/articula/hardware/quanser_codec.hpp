@@ -54,22 +54,28 @@ class QuanserCodec {
     halves_.fill({});
     load_position_.setZero();
     next_request_ = {};
+    enabling_ = false;
   }
 
   /// Clears faults, waits until all modules report that they have let go, enables them and waits
-  /// until they report that. Requests are repeated, in case one was lost. Real-time: yes.
+  /// until they report that. Requests are repeated, in case one was lost. Modules that are enabled
+  /// from before do not count: a request that clears faults may still be on its way to them.
+  /// Real-time: yes.
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
     const auto all = [&](auto condition) { return std::ranges::all_of(reports_, condition); };
-    if (all([](const DriveReport& r) { return r.age == 0 && r.enabled && r.fault == 0; })) {
+    if (enabling_ &&
+        all([](const DriveReport& r) { return r.age == 0 && r.enabled && r.fault == 0; })) {
       return CanSetUp::done;
     }
     if (elapsed >= next_request_) {
       constexpr std::chrono::milliseconds between_requests{20};
       const bool begun = next_request_ > std::chrono::nanoseconds{};
       next_request_ = elapsed + between_requests;
-      const bool calm = begun && all([](const DriveReport& r) {
-                          return r.age != DriveReport::never && r.fault == 0;
-                        });
+      const bool calm =
+          begun && all([this](const DriveReport& r) {
+            return r.age != DriveReport::never && r.fault == 0 && (enabling_ || !r.enabled);
+          });
+      enabling_ = calm;
       const auto request = calm ? quanser::Control::enable : quanser::Control::clear_faults;
       for (const QuanserModule& module : modules_) {
         batch.push_back(quanser::encode(request, module.node));
@@ -206,6 +212,7 @@ class QuanserCodec {
   JointVector<joint_count> load_position_ = JointVector<joint_count>::Zero();
   std::uint64_t cycle_ = 0;
   std::chrono::nanoseconds next_request_{};
+  bool enabling_ = false;  ///< of set-up: all have let go, and are requested to follow
 };
 
 }  // namespace articula
