@@ -8,13 +8,15 @@ set -euo pipefail
 
 subjects=()
 options=()
+command=benchmarks/run.sh
 results=$(dirname "$0")/results
 for argument in "$@"; do
   case $argument in
-    --output=*) results=${argument#*=} ;;
+    --output=*) results=${argument#*=} && continue ;; # whose folder it is is nobody's business
     --*) options+=("$argument") ;;
     *) subjects+=("$argument") ;;
   esac
+  command+=" $argument"
 done
 
 mkdir -p "$results"
@@ -39,7 +41,6 @@ cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
 compiler=$("$(cached CMAKE_CXX_COMPILER)" --version | head -n 1)
 flags="-std=c++20 $(cached CMAKE_CXX_FLAGS) $(cached CMAKE_CXX_FLAGS_RELEASE)"
 revision=$(git describe --always --dirty 2>/dev/null || echo unknown)
-command="benchmarks/run.sh${*:+ $*}"
 context=$(
   for key in cpu compiler flags revision command; do
     printf '    "%s": "%s",\n' "$key" "$(tr -s ' ' <<<"${!key//\"/\'}")"
