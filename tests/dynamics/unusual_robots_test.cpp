@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Described robots that look like none of the ready ones: what the compiler makes of them does
-/// the same as the algorithms' own texts.
+/// @file Described robots that look like none of the ready ones: what the compiler makes of them
+/// does the same as the algorithms' own texts.
 #include "catch.hpp"
 #include "random_mechanism.hpp"
 
@@ -49,7 +49,8 @@ constexpr auto robot_of(std::string_view name, const std::array<Step, N>& steps,
 constexpr auto slides = JointType::prismatic, turns = JointType::continuous;
 constexpr Vector3<double> x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, oblique{1, 2, 3}, across{-3, 1, 2};
 
-/// A machine tool: a table that slides two ways and turns twice, and a spindle that slides beside it.
+/// A machine tool: a table that slides two ways and turns twice, and a spindle that slides beside
+/// it.
 struct MachineTool {
   static constexpr auto description =
       robot_of("machine_tool",

@@ -13,6 +13,7 @@
 #include <utility>
 
 using namespace articula;
+using Catch::Contains;
 using support::joint;
 using support::pendulum;
 using support::robot;
@@ -393,6 +394,18 @@ TEST_CASE("Joints that mimic nobody") {
       "be, or choose root and tip with it between them");
 }
 
+TEST_CASE("A word that is not known is blamed for what is wrong where it stands") {
+  const std::string odd = "<limit lower='1' upper='-1' effort='1' velocity='1' uper='2'/>";
+  const std::string fault = refusal(with_joint(odd, "revolute"));
+  CHECK_THAT(fault, Contains("pivot") && Contains("perhaps because of this: joint 'pivot'") &&
+                        Contains("uper"));
+  const std::string elsewhere =
+      robot("<link name='base' foo='1'/>" + solid("rod") +
+            joint("pivot", "revolute", "base", "rod",
+                  "<limit lower='1' upper='-1' effort='1' velocity='1'/>"));
+  CHECK_THAT(refusal(elsewhere), !Contains("perhaps") && Contains("pivot"));
+}
+
 TEST_CASE("Options that name nothing") {
   CHECK(refusal(pendulum(), {.root = "x"}) ==
         "URDF: link 'x': it is to be the root, but does not exist; links: base, rod");
@@ -451,31 +464,41 @@ TEST_CASE("Limits in ros2_control that cannot be") {
   CHECK(bounds("-0.2", "0.2").empty());
   CHECK(bounds("0", "0.2").empty());
   CHECK(bounds("0.2", "-0.2") ==
-        "URDF: <ros2_control>: joint 'pivot': effort: the least is above the most (min 0.2, max "
+        "URDF: <ros2_control>: joint 'pivot': effort: 0 is not within its limits (min 0.2, max "
         "-0.2)");
+  CHECK(bounds("{-2*pi}", "{2*pi}").empty());  // does not count, and a notice says so
   CHECK(control("<param name=\"max\">-5</param>") ==
         "URDF: <ros2_control>: joint 'pivot': effort: 0 is not within its limits (min -inf, max "
         "-5)");
 }
 
 TEST_CASE("Limits of positions in two places have something in common") {
-  const auto position = [](const char* min, const char* max) {
-    std::string text = robot(base + solid("rod") +
+  const auto position = [](const char* min, const char* max,
+                           const UrdfOptions& options = {.locked = {"turn"}}) {
+    std::string text = robot(base + solid("rod") + solid("tool") +
                              joint("pivot", "revolute", "base", "rod",
-                                   "<limit lower='-1' upper='1' effort='1' velocity='1'/>"));
-    const std::string interface =
+                                   "<limit lower='-1' upper='1' effort='1' velocity='1'/>") +
+                             joint("turn", "continuous", "rod", "tool"));
+    const std::string command =
         std::string("<command_interface name='position'><param name='min'>") + min +
         "</param><param name='max'>" + max + "</param></command_interface>";
     return refusal(text.insert(text.rfind("</robot>"), "<ros2_control><joint name='pivot'>" +
-                                                           interface + "</joint></ros2_control>"));
+                                                           command + "</joint><joint name='turn'>" +
+                                                           command + "</joint></ros2_control>"),
+                   options);
   };
   CHECK(position("-3", "0.5").empty());
+  CHECK(position("{-pi}", "{pi}").empty());
   CHECK(
       position("3", "2") ==
-      "URDF: <ros2_control>: joint 'pivot': position: the least is above the most (min 3, max 2)");
-  CHECK(position("3", "4") ==
-        "URDF: joint 'pivot': its limits in <ros2_control>, 3 .. 4, and in <limit>, -1 .. 1, have "
-        "nothing in common");
+      "URDF: joint 'pivot': its limits, 3 .. 2 in <ros2_control> and -1 .. 1 in <limit>, leave it "
+      "no place");
+  CHECK(position("3", "255") ==
+        "URDF: joint 'pivot': its limits, 3 .. 255 in <ros2_control> and -1 .. 1 in <limit>, leave "
+        "it no place");
+  // Joints that are held or left out need no limits.
+  CHECK(position("3", "255", {.locked = {"pivot"}}).empty());
+  CHECK(position("3", "255", {.root = "rod"}).empty());
 }
 
 TEST_CASE("A robot of another size is refused with the sizes and names") {

@@ -147,15 +147,19 @@ TEST_CASE("A root that is turned has another gravity, which is told unless it is
     return read_urdf(robot(mount), options).notices;
   };
   CHECK(notices("fixed", {}).empty());
-  CHECK(notices("fixed", {.root = "base"}) ==
-        std::vector<std::string>{
-            "root 'base': it is turned against the file's root, and gravity, which is not given, "
-            "is taken as 0 0 -9.81 in its frame; what is 0 0 -9.81 in the file's is there 0 -9.81 "
-            "0"});
-  CHECK(notices("fixed", {.root = "base", .gravity = {0, -9.81, 0}}).empty());
-  CHECK(notices("revolute", {.root = "base"}) ==
-        std::vector<std::string>{"root 'base': joint 'mount' turns it, and gravity, which is not "
-                                 "given, is taken as 0 0 -9.81 in its frame"});
+  CHECK(
+      notices("fixed", {.root = "base"}) ==
+      std::vector<std::string>{
+          "root 'base': it is turned against the file's root, and gravity is 0 0 -9.81 in its own "
+          "frame; what is 0 0 -9.81 in the file's is there 0 -9.81 0"});
+  CHECK(notices("fixed", {.root = "base", .gravity = {0, -9.8, 0}}).empty());
+  const std::vector<std::string> turned{
+      "root 'base': joint 'mount' turns it, and gravity is 0 0 -9.81 in its own frame"};
+  for (const char* type : {"revolute", "planar", "floating"}) {
+    CAPTURE(type);
+    CHECK(notices(type, {.root = "base"}) == turned);
+  }
+  CHECK(notices("prismatic", {.root = "base"}) == notices("fixed", {.root = "base"}));
 
   // What is said to be there is what makes the whole robot's efforts.
   const JointVector<1> q{0.5};

@@ -34,8 +34,8 @@ struct ForwardDynamics {
 /// @param v       joint velocities [rad/s or m/s], N x 1
 /// @param effort  joint efforts [N m or N], N x 1
 /// @return        joint accelerations [rad/s^2 or m/s^2], N x 1. If M(q) is singular, they mean
-///                nothing and may not be finite; where it always is, because a joint feels no inertia
-///                (as that of an unphysical robot may), those of a described robot do not compile
+///                nothing and may not be finite; where it always is, because a joint feels no
+///                inertia (as that of an unphysical robot may), a described robot does not compile
 /// Real-time: yes. O(N d^2) with d the depth of the tree.
 template <Robot R>
 [[nodiscard]] inline JointVector<joint_count<R>> forward_dynamics(

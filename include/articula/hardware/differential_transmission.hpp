@@ -11,8 +11,10 @@ namespace articula {
 /// A differential, as in many wrists: the first joint moves with the sum of both actuators, the
 /// second with their difference. With the reductions n of actuators and m of joints,
 ///
-///     q_1 = (q_a1/n_1 + q_a2/n_2)/(2 m_1) + offset_1; effort_1 = m_1 (n_1 effort_a1 + n_2 effort_a2)
-///     q_2 = (q_a1/n_1 - q_a2/n_2)/(2 m_2) + offset_2; effort_2 = m_2 (n_1 effort_a1 - n_2 effort_a2)
+///     q_1 = (q_a1/n_1 + q_a2/n_2)/(2 m_1) + offset_1
+///     q_2 = (q_a1/n_1 - q_a2/n_2)/(2 m_2) + offset_2
+///     effort_1 = m_1 (n_1 effort_a1 + n_2 effort_a2)
+///     effort_2 = m_2 (n_1 effort_a1 - n_2 effort_a2)
 ///
 /// and velocities as positions, without offset. That is what the code of ROS's
 /// transmission_interface::DifferentialTransmission computes; its documentation has another sign in

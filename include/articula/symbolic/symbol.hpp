@@ -10,8 +10,9 @@ namespace articula::symbolic {
 
 namespace detail {
 
-/// No constant expression: compilers name it. Who divides by a constant 0 has made an algorithm that
-/// works for no input, such as forward dynamics of a robot one of whose joints feels no inertia.
+/// No constant expression: compilers name it. Who divides by a constant 0 has made an algorithm
+/// that works for no input, such as forward dynamics of a robot one of whose joints feels no
+/// inertia.
 [[noreturn]] inline void the_divisor_is_always_zero() {
   throw std::domain_error("articula: the divisor is always zero");
 }

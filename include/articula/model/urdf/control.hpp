@@ -58,6 +58,8 @@ class ControlReader {
   }
 
   std::map<std::string, JointLimits> limits{};                ///< of the commands, by joint
+  std::map<std::string, std::string> contradictions{};        ///< why they cannot be, likewise
+  std::vector<std::string> unread{};                          ///< what among them is no number
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint
   std::map<std::string, std::string> mimics{};                ///< whom, by joint; empty: nobody
   std::vector<UrdfTransmission> transmissions{};
@@ -69,11 +71,17 @@ class ControlReader {
     return *number;
   }
 
-  /// A number, or "inf" for none.
-  [[nodiscard]] double bound_of(const std::string& text, const std::string& where) const {
+  /// A number, "inf" for none, or what does not count, as it does not to ros2_control either: in
+  /// widely copied files {-2*pi} stands where xacro wanted ${-2*pi}.
+  [[nodiscard]] double bound_of(const std::string& text, const std::string& where,
+                                double otherwise) {
     constexpr double infinity = JointLimits::infinity;
     if (text == "inf" || text == "+inf" || text == ".inf") return infinity;
     if (text == "-inf" || text == "-.inf") return -infinity;
+    if (text.starts_with('{') && text.ends_with('}')) {
+      unread.push_back(where + ": '" + text + "' is no number and does not count");
+      return otherwise;
+    }
     return number(text, where);
   }
 
@@ -99,9 +107,10 @@ class ControlReader {
         const std::string which = attribute(param, "name");
         if (which != "min" && which != "max") return;
         const std::string where = "<ros2_control>: joint '" + name + "': " + kind + " " + which;
-        (which == "min" ? bounds.lower : bounds.upper) = bound_of(text_of(param), where);
+        double& bound = which == "min" ? bounds.lower : bounds.upper;
+        bound = bound_of(text_of(param), where, bound);
       });
-      check_bounds(bounds, kind, "<ros2_control>: joint '" + name + "': " + kind);
+      check_bounds(name, kind, bounds);
       const double below = std::abs(bounds.lower), above = std::abs(bounds.upper);
       const double size =
           below == 0 || above == 0 ? std::max(below, above) : std::min(below, above);
@@ -113,17 +122,12 @@ class ControlReader {
     });
   }
 
-  /// Bounds that leave something, and of what can be 0 that leave 0.
-  void check_bounds(const JointLimits& bounds, const std::string& kind,
-                    const std::string& where) const {
-    const std::string figures =
-        "min " + rounded_text(bounds.lower) + ", max " + rounded_text(bounds.upper);
-    if (!(bounds.lower <= bounds.upper)) {
-      throw UrdfError(file_, where + ": the least is above the most (" + figures + ")");
-    }
-    if (kind != "position" && (bounds.lower > 0 || bounds.upper < 0)) {
-      throw UrdfError(file_, where + ": 0 is not within its limits (" + figures + ")");
-    }
+  /// Notes velocities or efforts among which 0 is not.
+  void check_bounds(const std::string& joint, const std::string& kind, const JointLimits& bounds) {
+    if (kind == "position" || (bounds.lower <= 0 && bounds.upper >= 0)) return;
+    contradictions.try_emplace(joint, kind + ": 0 is not within its limits (min " +
+                                          number_text(bounds.lower) + ", max " +
+                                          number_text(bounds.upper) + ")");
   }
 
   /// <joint mimic="false"> and, as in older versions, <param name="mimic">.

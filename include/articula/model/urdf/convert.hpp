@@ -16,7 +16,6 @@ namespace articula {
 
 /// The limits of a joint: those of <limit>, narrowed by those of its commands in <ros2_control>.
 /// @return  [rad, rad/s, N m] or [m, m/s, N]; what is not limited is infinite
-/// @throws UrdfError if the two have no position in common
 /// Real-time: no (searches by name).
 [[nodiscard]] inline JointLimits joint_limits(const UrdfDocument& document,
                                               const urdf::Joint& joint) {
@@ -36,14 +35,6 @@ namespace articula {
   limits.velocity = std::min(limits.velocity, command.velocity);
   limits.effort = std::min(limits.effort, command.effort);
   if (unbounded) return limits;
-  if (command.lower > limits.upper || command.upper < limits.lower) {
-    const auto range = [](const JointLimits& of) {
-      return detail::rounded_text(of.lower) + " .. " + detail::rounded_text(of.upper);
-    };
-    throw UrdfError(document.file, "joint '" + joint.name + "': its limits in <ros2_control>, " +
-                                       range(command) + ", and in <limit>, " + range(limits) +
-                                       ", have nothing in common");
-  }
   limits.lower = std::max(limits.lower, command.lower);
   limits.upper = std::min(limits.upper, command.upper);
   return limits;
@@ -103,6 +94,29 @@ namespace detail {
           .orientation = document.joint_orientations.at(joint.name)};
 }
 
+/// Refuses limits that leave a joint nothing because <ros2_control> narrows them to that.
+inline void check_limits(const UrdfDocument& document, const urdf::Joint& joint,
+                         const JointLimits& narrowed) {
+  const auto contradiction = document.contradictions.find(joint.name);
+  if (contradiction != document.contradictions.end()) {
+    throw UrdfError(document.file,
+                    "<ros2_control>: joint '" + joint.name + "': " + contradiction->second);
+  }
+  const auto command = document.command_limits.find(joint.name);
+  if (command == document.command_limits.end() || narrowed.lower <= narrowed.upper ||
+      !joint.limits || joint.limits->lower > joint.limits->upper) {
+    return;  // whatever else is wrong is no matter of these
+  }
+  const auto range = [](double lower, double upper) {
+    return number_text(lower) + " .. " + number_text(upper);
+  };
+  throw UrdfError(document.file, "joint '" + joint.name + "': its limits, " +
+                                     range(command->second.lower, command->second.upper) +
+                                     " in <ros2_control> and " +
+                                     range(joint.limits->lower, joint.limits->upper) +
+                                     " in <limit>, leave it no place");
+}
+
 /// A joint without whom it mimics, see leader_of.
 [[nodiscard]] inline Joint joint_of(const UrdfDocument& document, const urdf::Joint& joint) {
   Joint result = fixed_joint_of(document, joint);
@@ -110,6 +124,7 @@ namespace detail {
   if (result.type == JointType::fixed) return result;
   result.axis = vector_of(joint.axis);
   result.limits = joint_limits(document, joint);
+  check_limits(document, joint, result.limits);
   if (joint.dynamics) {
     result.damping = joint.dynamics->damping;
     result.friction = joint.dynamics->friction;

@@ -40,8 +40,8 @@ struct UrdfDescription {
                                        ///< links that move without <inertial>, names that lead
                                        ///< nowhere, reductions of 0, mimics that stand in
                                        ///< <ros2_control> alone, fixed joints that are to be
-                                       ///< locked, and a root that is turned against the file's
-                                       ///< where gravity is not given
+                                       ///< locked, a root that is turned against the file's
+                                       ///< where gravity is the default, and limits in braces
 };
 
 namespace detail {
@@ -191,7 +191,7 @@ class UrdfReader {
       text +=
           "; allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it" + others_like(fault.element);
     }
-    fail(text + perhaps_because_of(document_.unknown_words));
+    fail(text + perhaps_because_of(document_.unknown_words, text));
   }
 
   /// The other links with inertias that cannot be: whoever accepts one of a file accepts them all.

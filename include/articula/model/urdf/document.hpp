@@ -32,7 +32,9 @@ struct UrdfDocument {
       joint_orientations{};  ///< roll, pitch, yaw [rad] by joint; urdfdom keeps quaternions only
   std::map<std::string, Vector3<double>> inertia_orientations{};  ///< likewise by link
   std::map<std::string, JointLimits> command_limits{};            ///< from <ros2_control>, by joint
-  std::map<std::string, UrdfInitialValues> initial_values{};      ///< likewise
+  std::map<std::string, std::string> contradictions{};            ///< why these limits cannot be
+  std::vector<std::string> unread_limits{};                       ///< what among them is no number
+  std::map<std::string, UrdfInitialValues> initial_values{};      ///< likewise, by joint
   std::map<std::string, std::string>
       command_mimics{};  ///< likewise, whom a joint is to mimic; empty: nobody
   std::vector<UrdfTransmission> transmissions{};
@@ -129,6 +131,8 @@ inline void blank_white_space(std::string& text) {
   detail::ControlReader control(result.file);
   control.read(robot);
   result.command_limits = std::move(control.limits);
+  result.contradictions = std::move(control.contradictions);
+  result.unread_limits = std::move(control.unread);
   result.initial_values = std::move(control.initial_values);
   result.command_mimics = std::move(control.mimics);
   result.transmissions = std::move(control.transmissions);
@@ -160,7 +164,7 @@ inline void blank_white_space(std::string& text) {
     detail::check_tree(result.file, bare);
     result.robot = detail::parse_mechanics(result.file, text);
   } catch (const UrdfError& error) {
-    throw UrdfError(error, detail::perhaps_because_of(result.unknown_words));
+    throw UrdfError(error, detail::perhaps_because_of(result.unknown_words, error.what()));
   }
   detail::for_each_child(bare, "joint", [&](const detail::XmlElement& joint) {
     result.joint_orientations[detail::attribute(joint, "name")] = detail::orientation_of(&joint);

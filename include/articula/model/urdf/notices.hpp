@@ -25,6 +25,7 @@ class UrdfNotices {
       : document_(document), notices_(document.unknown_words) {
     notices_.insert(notices_.end(), document.repeated_elements.begin(),
                     document.repeated_elements.end());
+    notices_.insert(notices_.end(), document.unread_limits.begin(), document.unread_limits.end());
   }
 
   [[nodiscard]] std::vector<std::string> take() { return std::move(notices_); }
@@ -38,8 +39,8 @@ class UrdfNotices {
     add_position(joint, "it is locked at " + rounded_text(position), position);
   }
 
-  /// A root other than the file's. Gravity is given in the root's frame, so its default may be wrong
-  /// in one that is turned.
+  /// A root other than the file's, whose frame may be turned. Gravity is given in that frame, so
+  /// its default may not be what the user thinks of.
   void add_root(const urdf::Link& root, const Vector3<double>& gravity) {
     const Vector3<double> usual = UrdfOptions{}.gravity;
     if (!root.parent_joint || gravity != usual) return;
@@ -47,23 +48,23 @@ class UrdfNotices {
     for (const urdf::Link* at = &root; at->parent_joint; at = at->getParent().get()) {
       way.push_back(at->parent_joint.get());
     }
-    const std::string taken = "gravity, which is not given, is taken as 0 0 -9.81 in its frame";
-    constexpr double noticeable = 1e-6;  // [m/s^2], beyond what a file's rounded angles make
+    const std::string taken = ", and gravity is 0 0 -9.81 in its own frame";
+    constexpr double noticeable = 1e-3;  // [m/s^2], more than files' rounded angles make
     Eigen::Vector3d down(usual.x, usual.y, usual.z);
-    for (auto joint = way.rbegin(); joint != way.rend(); ++joint) {
-      down = rotation_of(document_.joint_orientations.at((*joint)->name)).transpose() * down;
-      const auto type = (*joint)->type;
-      const urdf::Vector3& axis = (*joint)->axis;
-      const bool turns = type == urdf::Joint::REVOLUTE || type == urdf::Joint::CONTINUOUS;
+    for (auto at = way.rbegin(); at != way.rend(); ++at) {
+      const urdf::Joint& joint = **at;
+      down = rotation_of(document_.joint_orientations.at(joint.name)).transpose() * down;
+      if (joint.type == urdf::Joint::FIXED || joint.type == urdf::Joint::PRISMATIC) continue;
       // A turn about the vertical leaves gravity where it is.
-      if (turns && Eigen::Vector3d(axis.x, axis.y, axis.z).cross(down).norm() > noticeable) {
-        return add("root '" + root.name + "': joint '" + (*joint)->name + "' turns it, and " +
-                   taken);
+      const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
+      if (joint.type == urdf::Joint::FLOATING ||
+          axis.stableNormalized().cross(down).norm() > noticeable) {
+        return add("root '" + root.name + "': joint '" + joint.name + "' turns it" + taken);
       }
     }
     if (std::hypot(down.x(), down.y()) < noticeable && down.z() < 0) return;
     const auto text = [](double x) { return rounded_text(std::abs(x) < noticeable ? 0 : x); };
-    add("root '" + root.name + "': it is turned against the file's root, and " + taken +
+    add("root '" + root.name + "': it is turned against the file's root" + taken +
         "; what is 0 0 -9.81 in the file's is there " + text(down.x()) + " " + text(down.y()) +
         " " + text(down.z()));
   }

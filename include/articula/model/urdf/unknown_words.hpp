@@ -92,9 +92,19 @@ class UnknownWords {
   std::string owner_{};                         ///< the link or joint, for the lines
 };
 
-/// What may be behind a fault, as an addition to its message: the first word that is not known.
-[[nodiscard]] inline std::string perhaps_because_of(const std::vector<std::string>& unknown_words) {
-  return unknown_words.empty() ? "" : "; perhaps because of this: " + unknown_words.front();
+/// What may be behind a fault, as an addition to its message: the first word that is not known in a
+/// link or joint that the message names.
+[[nodiscard]] inline std::string perhaps_because_of(const std::vector<std::string>& unknown_words,
+                                                    std::string_view message) {
+  for (const std::string& line : unknown_words) {  // link 'name': ...
+    const std::size_t begin = line.find('\'') + 1;
+    const std::string name = line.substr(begin, line.find('\'', begin) - begin);
+    if (message.find("'" + name + "'") != std::string_view::npos ||
+        message.find("[" + name + "]") != std::string_view::npos) {
+      return "; perhaps because of this: " + line;
+    }
+  }
+  return "";
 }
 
 }  // namespace articula::detail
