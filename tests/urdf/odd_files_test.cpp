@@ -224,6 +224,19 @@ TEST_CASE("limits of many turns are reported") {
   CHECK(notices("prismatic", "-1", "170").empty());
 }
 
+TEST_CASE("limits that are expressions in braces do not count and are reported") {
+  std::string file = support::pendulum();
+  file.insert(file.rfind("</robot>"),
+              "<ros2_control><joint name='pivot'><command_interface name='effort'><param "
+              "name='min'>{-2*pi}</param><param name='max'>3</param></command_interface></joint>"
+              "</ros2_control>");
+  const UrdfDescription pendulum = read_urdf(UrdfSource(file));
+  CHECK(pendulum.notices ==
+        std::vector<std::string>{"<ros2_control>: joint 'pivot': effort min: '{-2*pi}' is no "
+                                 "number and does not count"});
+  CHECK(pendulum.joints[0].limits.effort == 3);
+}
+
 TEST_CASE("a place beyond the limits is reported") {
   const std::string limit = "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"2\"/>";
   const std::string file = robot(

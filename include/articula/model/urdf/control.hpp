@@ -71,8 +71,8 @@ class ControlReader {
     return *number;
   }
 
-  /// A number, "inf" for none, or what does not count, as it does not to ros2_control either: in
-  /// widely copied files {-2*pi} stands where xacro wanted ${-2*pi}.
+  /// A number, "inf" for none, or what does not count: files of UR arms have {-2*pi} where xacro
+  /// wanted ${-2*pi}.
   [[nodiscard]] double bound_of(const std::string& text, const std::string& where,
                                 double otherwise) {
     constexpr double infinity = JointLimits::infinity;
