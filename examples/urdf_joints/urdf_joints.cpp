@@ -138,7 +138,9 @@ int main(int count, char** words) {
   app.add_flag("--model", model, "say what the file is to load_urdf");
   app.add_option("--root", options.root, "the model's root link")->needs("--model");
   app.add_option("--tip", options.tip, "the link at which a chain ends")->needs("--model");
-  app.add_option("--lock", locked, "a joint to be held at 0")->needs("--model");
+  app.add_option("--lock", locked, "a joint to be held at 0")
+      ->needs("--model")
+      ->allow_extra_args(false);  // one each time
   app.add_flag("--allow-unphysical", options.allow_unphysical, "accept such inertias")
       ->needs("--model");
   try {
