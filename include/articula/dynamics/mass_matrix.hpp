@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/dynamics/evaluate.hpp"
-#include "articula/dynamics/newton_euler.hpp"
+#include "articula/dynamics/wrench.hpp"
 
 namespace articula {
 
@@ -15,11 +15,12 @@ struct MassMatrix {
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointRows<S, N> evaluate(
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
-    JointArray<MassMoments<S>, B> composite;
-    for (std::size_t i = 0; i < composite.size(); ++i) composite[i] = configuration[i].moments;
+    detail::UnsetArray<MassMoments<S>, B> composite;
+    for (std::size_t i = 0; i < configuration.size(); ++i)
+      composite.set(i, configuration[i].moments);
     JointRows<S, B> matrix;
     for (auto& row : matrix) row.fill(S(0.0));
-    for (std::size_t i = composite.size(); i-- > 0;) {
+    for (std::size_t i = configuration.size(); i-- > 0;) {
       Wrench<S> wrench = unit_acceleration_wrench(composite[i], mechanism.bodies[i].prismatic);
       matrix[i][i] = felt_by(mechanism.bodies[i], wrench);
       const double reflected = mechanism.bodies[i].reflected_inertia;
@@ -37,7 +38,7 @@ struct MassMatrix {
             composite[i], composite[static_cast<std::size_t>(mechanism.bodies[i].parent)]);
       }
     }
-    for (std::size_t i = 0; i < composite.size(); ++i) {
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
       const Body& body = mechanism.bodies[i];
       if (body.sharing_body < 0) continue;
       const auto other = static_cast<std::size_t>(body.sharing_body);

@@ -3,16 +3,11 @@
 #pragma once
 
 #include "articula/dynamics/configuration.hpp"
+#include "articula/dynamics/unset_array.hpp"
+#include "articula/dynamics/wrench.hpp"
 #include "articula/model/mechanism.hpp"
 
 namespace articula {
-
-/// A force and a moment about the origin of a body's frame.
-template <class S>
-struct Wrench {
-  Vector3<S> force{};   ///< [N], 3 x 1
-  Vector3<S> moment{};  ///< [N m], 3 x 1
-};
 
 namespace detail {
 
@@ -88,51 +83,41 @@ template <class S, int N, int B>
                                                       const JointArray<S, N>& a) noexcept {
   const JointArray<S, B> velocity = body_rates<S, N, B>(mechanism, v);
   const JointArray<S, B> acceleration = body_rates<S, N, B>(mechanism, a);
-  JointArray<detail::BodyMotion<S>, B> motions;
-  JointArray<Matrix3<S>, B> gradients;
-  JointArray<Wrench<S>, B> wrenches;
-
+  detail::UnsetArray<detail::BodyMotion<S>, B> motions;
+  detail::UnsetArray<Matrix3<S>, B> gradients;
+  detail::UnsetArray<Wrench<S>, B> wrenches;
   for (std::size_t i = 0; i < velocity.size(); ++i) {
     const Body& body = mechanism.bodies[i];
     const JointPlacement<S>& joint = configuration[i];
-    detail::BodyMotion<S> parent{{}, {}, constant<S>(-mechanism.gravity)};
+    Vector3<S> w{}, dw{}, dv = constant<S>(-mechanism.gravity);
     if (body.parent >= 0) {
       const auto p = static_cast<std::size_t>(body.parent);
-      parent = motions[p];
-      parent.acceleration = parent.acceleration + gradients[p] * joint.translation;
+      w = joint.from_parent(motions[p].angular_velocity);
+      dw = joint.from_parent(motions[p].angular_acceleration);
+      dv = motions[p].acceleration + gradients[p] * joint.translation;
     }
-    const Vector3<S> w = joint.from_parent(parent.angular_velocity);
-    const Vector3<S> dw = joint.from_parent(parent.angular_acceleration);
-    const Vector3<S> dv = joint.from_parent(parent.acceleration);
+    dv = joint.from_parent(dv);
     if (body.prismatic) {
       const S coriolis = S(2.0) * velocity[i];
-      motions[i] = {w, dw, {dv.x + w.y * coriolis, dv.y - w.x * coriolis, dv.z + acceleration[i]}};
+      dv = {dv.x + w.y * coriolis, dv.y - w.x * coriolis, dv.z + acceleration[i]};
     } else {
-      motions[i] = {{w.x, w.y, w.z + velocity[i]},
-                    {dw.x + w.y * velocity[i], dw.y - w.x * velocity[i], dw.z + acceleration[i]},
-                    dv};
+      dw = {dw.x + w.y * velocity[i], dw.y - w.x * velocity[i], dw.z + acceleration[i]};
+      w.z = w.z + velocity[i];
     }
-    const detail::VelocityProducts<S> products(motions[i].angular_velocity);
-    gradients[i] = detail::acceleration_gradient(products, motions[i].angular_acceleration);
-    wrenches[i] = detail::wrench_for(motions[i], products, gradients[i], joint.moments);
+    const detail::BodyMotion<S> motion{w, dw, dv};
+    const detail::VelocityProducts<S> products(w);
+    const Matrix3<S> gradient = detail::acceleration_gradient(products, dw);
+    motions.set(i, motion);
+    gradients.set(i, gradient);
+    wrenches.set(i, detail::wrench_for(motion, products, gradient, joint.moments));
   }
 
-  JointArray<S, B> effort;
-  for (std::size_t i = velocity.size(); i-- > 0;) {
+  JointArray<S, B> effort = detail::efforts_for<S, N, B>(mechanism, configuration, wrenches);
+  for (std::size_t i = 0; i < effort.size(); ++i) {
     const Body& body = mechanism.bodies[i];
-    effort[i] = body.prismatic ? wrenches[i].force.z : wrenches[i].moment.z;
     if (body.reflected_inertia != 0) {
       effort[i] = effort[i] + S(body.reflected_inertia) * acceleration[i];
     }
-    if (body.parent < 0) continue;
-    Wrench<S>& parent = wrenches[static_cast<std::size_t>(body.parent)];
-    const Vector3<S> force = configuration[i].to_parent(wrenches[i].force);
-    parent.force = parent.force + force;
-    parent.moment = parent.moment + configuration[i].to_parent(wrenches[i].moment) +
-                    cross(configuration[i].translation, force);
-  }
-  for (std::size_t i = 0; i < effort.size(); ++i) {
-    const Body& body = mechanism.bodies[i];
     if (body.sharing_body < 0) continue;
     const auto other = static_cast<std::size_t>(body.sharing_body);
     effort[i] = effort[i] + S(body.shared_inertia) * acceleration[other];
