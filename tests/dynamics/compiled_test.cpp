@@ -156,8 +156,8 @@ TEST_CASE("Results do not depend on the frames in which they are calculated") {
     const Mechanism<n> tree = canonical_form(random.mechanism<n>()).mechanism;
     const auto q = random.numbers<n>(-3, 3), v = random.numbers<n>(-2, 2),
                x = random.numbers<n>(-5, 5);
-    const auto moving = configuration_of<double, n, n>(tree, q, Frames::moving);
-    const auto resting = configuration_of<double, n, n>(tree, q, Frames::resting);
+    const auto moving = configuration_of<double, n, n>(tree, q);
+    const auto resting = configuration_of<double, n, n, Frames::resting>(tree, q);
     const auto compare = [](const auto& a, const auto& b) {
       const auto expected = numbers_of(a), result = numbers_of(b);
       for (std::size_t i = 0; i < expected.size(); ++i) {

@@ -50,8 +50,8 @@ TEST_CASE("Axes that are all but parallel are not taken as parallel with toleran
       const Mechanism<2> canonical = canonical_form(chain, 0).mechanism;
       const std::array<double, 2> q{0.7, -1.1}, v{1, -2}, a{3, 4};
       const auto own = configuration_of<double, 2, 2>(chain, q);
-      for (const Frames frames : {Frames::moving, Frames::resting}) {
-        const auto other = configuration_of<double, 2, 2>(canonical, q, frames);
+      for (const auto& other : {configuration_of<double, 2, 2>(canonical, q),
+                                configuration_of<double, 2, 2, Frames::resting>(canonical, q)}) {
         const auto effort = InverseDynamics::evaluate(chain, own, v, a);
         const auto other_effort = InverseDynamics::evaluate(canonical, other, v, a);
         // Some hundred roundings of numbers up to 50.

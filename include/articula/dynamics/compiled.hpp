@@ -70,7 +70,7 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
   int next = 0;
   symbolic::for_each_scalar<Symbol>(
       inputs, [&](Symbol& symbol) { symbol = Symbol(graph, graph.input(next++)); });
-  const auto configuration = configuration_of<Symbol, n, b>(mechanism, inputs[0], frames);
+  const auto configuration = configuration_of<Symbol, n, b, frames>(mechanism, inputs[0]);
   auto result = [&]<std::size_t... I>(std::index_sequence<I...>) {
     return Algorithm::template evaluate<Symbol, n, b>(mechanism, configuration, inputs[1 + I]...);
   }

@@ -190,18 +190,38 @@ template <class S, std::size_t B>
 }  // namespace detail
 
 /// The configuration of a mechanism at joint positions.
+/// @tparam frames    in which the algorithms shall calculate
 /// @param mechanism  the robot's bodies; for resting frames in canonical form
 /// @param q          joint positions [rad or m]
-/// @param frames     in which the algorithms shall calculate
 /// Real-time: yes. O(N) for moving frames.
-template <class S, int N, int B>
-[[nodiscard]] constexpr Configuration<S, B> configuration_of(
-    const Mechanism<N, B>& mechanism, const JointArray<S, N>& q,
-    Frames frames = Frames::moving) noexcept {
+template <class S, int N, int B, Frames frames = Frames::moving>
+[[nodiscard]] constexpr Configuration<S, B> configuration_of(const Mechanism<N, B>& mechanism,
+                                                             const JointArray<S, N>& q) noexcept {
   const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
   Configuration<S, B> configuration;
-  JointArray<AxialTurn<S>, B> joint_turns;
-  if (frames == Frames::moving) joint_turns = detail::turns_by(position);
+  const auto place_at_zero = [&](std::size_t i) __attribute__((always_inline)) {
+    const Body& body = mechanism.bodies[i];
+    configuration[i] = {constant<S>(body.placement.rotation),
+                        {},
+                        constant<S>(body.placement.translation),
+                        moments_of<S>(body.inertia)};
+  };
+  const auto slide = [&](std::size_t i) __attribute__((always_inline)) {
+    JointPlacement<S>& joint = configuration[i];
+    joint.translation = joint.translation + position[i] * joint.rotation.column(2);
+  };
+  if constexpr (frames == Frames::moving) {
+    const JointArray<AxialTurn<S>, B> turns = detail::turns_by(position);
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
+      place_at_zero(i);
+      if (mechanism.bodies[i].prismatic) {
+        slide(i);
+      } else {
+        configuration[i].add_turn(turns[i]);
+      }
+    }
+    return configuration;
+  }
   // By which a body has turned in the frame that it is seen in: 0 where that is its own.
   JointArray<S, B> angle;
   JointArray<AxialTurn<S>, B> own_turn;
@@ -210,24 +230,20 @@ template <class S, int N, int B>
   for (std::size_t i = 0; i < configuration.size(); ++i) {
     const Body& body = mechanism.bodies[i];
     JointPlacement<S>& joint = configuration[i];
-    joint = {constant<S>(body.placement.rotation),
-             {},
-             constant<S>(body.placement.translation),
-             moments_of<S>(body.inertia)};
-    if (body.parent >= 0 && frames == Frames::resting) {
+    place_at_zero(i);
+    if (body.parent >= 0) {
       const auto parent = static_cast<std::size_t>(body.parent);
       joint.translation = own_turn[parent](joint.translation);
       angle[i] =
           S(body.placement.rotation.rows[2].z) * angle[parent];  // 0, or the axes are parallel
     }
     if (body.prismatic) {
-      joint.translation = joint.translation + position[i] * joint.rotation.column(2);
+      slide(i);
     } else {
       angle[i] = angle[i] + position[i];
     }
-    if (body.prismatic && frames == Frames::moving) continue;
-    const AxialTurn<S> turn = frames == Frames::moving ? joint_turns[i] : detail::turn_by(angle[i]);
-    if (frames == Frames::resting && detail::carries_parallel_axes(mechanism, i)) {
+    const AxialTurn<S> turn = detail::turn_by(angle[i]);
+    if (detail::carries_parallel_axes(mechanism, i)) {
       own_turn[i] = turn;
       joint.moments = turn(joint.moments);
     } else {
