@@ -80,24 +80,16 @@ class UrdfReader {
     const auto found = document_.robot->links_.find(name);
     if (found == document_.robot->links_.end()) {
       fail("link '" + name + "': it is to be the " + what + ", but does not exist" +
-           choice_of(name, "links", document_.robot->links_));
+           choice_of(name, "links", names_of(document_.robot->links_)));
     }
     return *found->second;
   }
 
-  /// What may have been meant by a name that does not exist.
   template <class Elements>
-  [[nodiscard]] static std::string choice_of(const std::string& name, const char* kind,
-                                             const Elements& elements) {
+  [[nodiscard]] static std::vector<std::string_view> names_of(const Elements& elements) {
     std::vector<std::string_view> names;
-    std::string list;
-    for (const auto& [each, element] : elements) {
-      names.push_back(each);
-      list += (list.empty() ? "" : ", ") + each;
-    }
-    const std::string_view meant = meant_word(name, names);
-    if (!meant.empty()) return "; did you mean '" + std::string(meant) + "'?";
-    return std::string("; ") + kind + ": " + list;
+    for (const auto& [name, element] : elements) names.push_back(name);
+    return names;
   }
 
   /// Finds the joints that are wanted, from the root outwards.
@@ -142,7 +134,7 @@ class UrdfReader {
       const auto found = document_.robot->joints_.find(joint);
       if (found == document_.robot->joints_.end()) {
         fail(joint, "it is to be locked, but does not exist" +
-                        choice_of(joint, "joints", document_.robot->joints_));
+                        choice_of(joint, "joints", names_of(document_.robot->joints_)));
       }
       if (!is_finite(position)) fail(joint, "it cannot be locked at " + rounded_text(position));
       const auto [held, first] = held_.try_emplace(joint, position);

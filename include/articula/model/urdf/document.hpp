@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/model/urdf/control.hpp"
+#include "articula/model/urdf/meant_word.hpp"
 #include "articula/model/urdf/messages.hpp"
 #include "articula/model/urdf/number_check.hpp"
 #include "articula/model/urdf/repeated_elements.hpp"
@@ -12,6 +13,7 @@
 
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -43,6 +45,23 @@ struct UrdfDocument {
 };
 
 namespace detail {
+
+/// Makes sure that joints are between links that exist.
+inline void check_links(const std::string& file, const XmlElement& robot) {
+  std::vector<std::string> links;
+  for_each_child(robot, "link",
+                 [&](const XmlElement& link) { links.push_back(attribute(link, "name")); });
+  const std::vector<std::string_view> names(links.begin(), links.end());
+  for_each_child(robot, "joint", [&](const XmlElement& joint) {
+    for (const char* which : {"parent", "child"}) {
+      const XmlElement* element = joint.FirstChildElement(which);
+      const std::string link = element ? attribute(*element, "link") : "";
+      if (link.empty() || std::find(names.begin(), names.end(), link) != names.end()) continue;
+      throw UrdfError(file, "joint '" + attribute(joint, "name") + "': its " + which + " link '" +
+                                link + "' does not exist" + choice_of(link, "links", names));
+    }
+  });
+}
 
 /// Makes sure that no link has two parents or is its own ancestor.
 inline void check_tree(const std::string& file, const XmlElement& robot) {
@@ -161,6 +180,7 @@ inline void blank_white_space(std::string& text) {
     throw UrdfError(result.file, "it has " + std::to_string(links) + " links; 4096 are accepted");
   }
   try {
+    detail::check_links(result.file, bare);
     detail::check_tree(result.file, bare);
     result.robot = detail::parse_mechanics(result.file, text);
   } catch (const UrdfError& error) {

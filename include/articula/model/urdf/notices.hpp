@@ -8,6 +8,7 @@
 #include "articula/model/urdf/options.hpp"
 #include "articula/model/validation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -74,8 +75,11 @@ class UrdfNotices {
     for (const Link& link : links) {
       const Rule rule = broken_rule(link);
       if (rule != Rule::none) add(fault_text({link.name, rule}, links, {}));
+      add_odd_units(link);
     }
     for (const Joint& joint : joints) {
+      const std::string name(joint.name.view());
+      add_large_angle("joint '" + name + "'", document_.joint_orientations.at(name));
       if (joint.type != JointType::fixed) add_joint(joint, joints);
     }
     add_names();
@@ -96,6 +100,28 @@ class UrdfNotices {
   }
   [[nodiscard]] static std::string range_text(const JointLimits& limits) {
     return rounded_text(limits.lower) + " .. " + rounded_text(limits.upper);
+  }
+
+  /// Origins are turned by more than a turn where somebody wrote degrees.
+  void add_large_angle(const std::string& where, const Vector3<double>& rpy) {
+    if (std::max({std::abs(rpy.x), std::abs(rpy.y), std::abs(rpy.z)}) <= 2 * std::numbers::pi)
+      return;
+    add(where + ": its rpy, " + rounded_text(rpy.x) + " " + rounded_text(rpy.y) + " " +
+        rounded_text(rpy.z) + " rad, is more than a turn; are these degrees?");
+  }
+  /// And an inertia is that of a body of hundreds of metres where it is in kg mm^2.
+  void add_odd_units(const Link& link) {
+    const std::string name(link.name.view());
+    const auto orientation = document_.inertia_orientations.find(name);
+    if (orientation != document_.inertia_orientations.end()) {
+      add_large_angle("link '" + name + "'", orientation->second);
+    }
+    const double largest = std::max({link.inertia.xx, link.inertia.yy, link.inertia.zz});
+    const double radius = link.mass > 0 ? std::sqrt(largest / link.mass) : 0;
+    if (radius > 10) {
+      add("link '" + name + "': its inertia is that of " + rounded_text(link.mass) +
+          " kg at a distance of " + rounded_text(radius) + " m; is it in kg m^2?");
+    }
   }
 
   void add_position(const urdf::Joint& joint, const std::string& text, double position) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/model/urdf/known_words.hpp"
+#include "articula/model/urdf/meant_word.hpp"
 #include "articula/model/urdf/xml.hpp"
 
 #include <algorithm>
