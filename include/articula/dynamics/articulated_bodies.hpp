@@ -110,10 +110,10 @@ struct ArticulatedBodies {
       const JointArray<S, N>& v, const JointArray<S, N>& effort) noexcept {
     const JointArray<S, N> bias = NonlinearEffects::evaluate<S, N, B>(mechanism, configuration, v);
     JointArray<detail::ArticulatedInertia<S>, B> inertia;
-    JointArray<Wrench<S>, B> wrench;  // that the efforts beyond a body exert on it
-    JointArray<Wrench<S>, B> along;   // for a unit acceleration of the joint alone
-    JointArray<S, B> inverse, free;   // 1/D, and the effort that is left to accelerate
-    wrench.fill({});                  // g++ 12 leaves elements of large arrays uninitialised
+    JointArray<Wrench<S>, B> wrench;      // that the efforts beyond a body exert on it
+    JointArray<Wrench<S>, B> along;       // for a unit acceleration of the joint alone
+    JointArray<S, B> inverse, remaining;  // 1/D, and the effort that is left to accelerate
+    wrench.fill({});                      // g++ 12 leaves elements of large arrays uninitialised
     for (std::size_t i = 0; i < inertia.size(); ++i) {
       inertia[i] = detail::articulated(configuration[i].moments);
     }
@@ -125,7 +125,8 @@ struct ArticulatedBodies {
           body.prismatic ? Wrench<S>{m.rows[2], h.column(2)} : Wrench<S>{h.rows[2], j.rows[2]};
       const S felt = body.prismatic ? along[i].force.z : along[i].moment.z;
       inverse[i] = S(1.0) / (felt + S(body.reflected_inertia));
-      free[i] = effort[i] - bias[i] - (body.prismatic ? wrench[i].force.z : wrench[i].moment.z);
+      remaining[i] =
+          effort[i] - bias[i] - (body.prismatic ? wrench[i].force.z : wrench[i].moment.z);
       if (body.parent < 0) continue;
       const auto p = static_cast<std::size_t>(body.parent);
       const Vector3<S> force = inverse[i] * along[i].force, moment = inverse[i] * along[i].moment;
@@ -143,10 +144,10 @@ struct ArticulatedBodies {
       for (std::size_t k = 0; k < 3; ++k) {
         parent.coupling.rows[k] = parent.coupling.rows[k] + moved.coupling.rows[k];
       }
-      const Vector3<S> f = configuration[i].to_parent(wrench[i].force + free[i] * force);
+      const Vector3<S> f = configuration[i].to_parent(wrench[i].force + remaining[i] * force);
       wrench[p].force = wrench[p].force + f;
       wrench[p].moment = wrench[p].moment +
-                         configuration[i].to_parent(wrench[i].moment + free[i] * moment) +
+                         configuration[i].to_parent(wrench[i].moment + remaining[i] * moment) +
                          cross(configuration[i].translation, f);
     }
     JointArray<Vector3<S>, B> angular, linear;
@@ -162,7 +163,7 @@ struct ArticulatedBodies {
                                                  cross(angular[p], configuration[i].translation));
         carried = dot(along[i].moment, angular[i]) + dot(along[i].force, linear[i]);
       }
-      a[i] = inverse[i] * (free[i] - carried);
+      a[i] = inverse[i] * (remaining[i] - carried);
       S& own = body.prismatic ? linear[i].z : angular[i].z;
       own = own + a[i];
     }

@@ -10,6 +10,11 @@
 #include "articula/symbolic/scalars.hpp"
 #include "articula/symbolic/symbol.hpp"
 
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace articula::compiled {
@@ -19,7 +24,7 @@ namespace articula::compiled {
 /// `needs_own_frames`; the others on its canonical form.
 template <class Algorithm>
 inline constexpr bool needs_own_frames = requires {
-  Algorithm::needs_own_frames;
+  requires Algorithm::needs_own_frames;
 };
 
 /// The mechanism of a robot on which an algorithm is run. Real-time: yes.

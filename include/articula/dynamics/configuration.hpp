@@ -220,35 +220,35 @@ template <class S, int N, int B, Frames frames = Frames::moving>
         configuration[i].add_turn(turns[i]);
       }
     }
-    return configuration;
-  }
-  // By which a body has turned in the frame that it is seen in: 0 where that is its own.
-  JointArray<S, B> angle;
-  JointArray<AxialTurn<S>, B> own_turn;
-  angle.fill(S(0.0));  // g++ 12 leaves elements of arrays uninitialised where braces should do it
-  own_turn.fill({S(0.0), S(1.0)});
-  for (std::size_t i = 0; i < configuration.size(); ++i) {
-    const Body& body = mechanism.bodies[i];
-    JointPlacement<S>& joint = configuration[i];
-    place_at_zero(i);
-    if (body.parent >= 0) {
-      const auto parent = static_cast<std::size_t>(body.parent);
-      joint.translation = own_turn[parent](joint.translation);
-      angle[i] =
-          S(body.placement.rotation.rows[2].z) * angle[parent];  // 0, or the axes are parallel
-    }
-    if (body.prismatic) {
-      slide(i);
-    } else {
-      angle[i] = angle[i] + position[i];
-    }
-    const AxialTurn<S> turn = detail::turn_by(angle[i]);
-    if (detail::carries_parallel_axes(mechanism, i)) {
-      own_turn[i] = turn;
-      joint.moments = turn(joint.moments);
-    } else {
-      joint.add_turn(turn);
-      angle[i] = S(0.0);
+  } else {
+    // How far a body has turned in the frame in which it is seen: 0 where that is its own.
+    JointArray<S, B> angle;
+    JointArray<AxialTurn<S>, B> own_turn;
+    angle.fill(S(0.0));  // g++ 12 leaves elements of arrays uninitialised where braces should do it
+    own_turn.fill({S(0.0), S(1.0)});
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
+      const Body& body = mechanism.bodies[i];
+      JointPlacement<S>& joint = configuration[i];
+      place_at_zero(i);
+      if (body.parent >= 0) {
+        const auto parent = static_cast<std::size_t>(body.parent);
+        joint.translation = own_turn[parent](joint.translation);
+        angle[i] =
+            S(body.placement.rotation.rows[2].z) * angle[parent];  // 0, or the axes are parallel
+      }
+      if (body.prismatic) {
+        slide(i);
+      } else {
+        angle[i] = angle[i] + position[i];
+      }
+      const AxialTurn<S> turn = detail::turn_by(angle[i]);
+      if (detail::carries_parallel_axes(mechanism, i)) {
+        own_turn[i] = turn;
+        joint.moments = turn(joint.moments);
+      } else {
+        joint.add_turn(turn);
+        angle[i] = S(0.0);
+      }
     }
   }
   return configuration;

@@ -3,6 +3,7 @@
 /// programs calculate are chosen by it, see compiled.hpp.
 #pragma once
 
+#include "articula/dynamics/unset_array.hpp"
 #include "articula/dynamics/wrench.hpp"
 
 namespace articula {
@@ -15,9 +16,9 @@ struct Gravity {
     detail::UnsetArray<Vector3<S>, B> upward;  // minus gravity, in each body's frame
     detail::UnsetArray<Wrench<S>, B> wrenches;
     for (std::size_t i = 0; i < configuration.size(); ++i) {
-      const int parent = mechanism.bodies[i].parent;
+      const Body& body = mechanism.bodies[i];
       const Vector3<S> own = configuration[i].from_parent(
-          parent < 0 ? constant<S>(-mechanism.gravity) : upward[static_cast<std::size_t>(parent)]);
+          body.parent < 0 ? constant<S>(-mechanism.gravity) : upward[detail::parent_of(body, i)]);
       const MassMoments<S>& moments = configuration[i].moments;
       upward.set(i, own);
       wrenches.set(i, {moments.mass * own, cross(moments.first, own)});

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/dynamics/evaluate.hpp"
+#include "articula/dynamics/unset_array.hpp"
 #include "articula/dynamics/wrench.hpp"
 
 namespace articula {

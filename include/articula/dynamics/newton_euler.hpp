@@ -91,7 +91,7 @@ template <class S, int N, int B>
     const JointPlacement<S>& joint = configuration[i];
     Vector3<S> w{}, dw{}, dv = constant<S>(-mechanism.gravity);
     if (body.parent >= 0) {
-      const auto p = static_cast<std::size_t>(body.parent);
+      const std::size_t p = detail::parent_of(body, i);
       w = joint.from_parent(motions[p].angular_velocity);
       dw = joint.from_parent(motions[p].angular_acceleration);
       dv = motions[p].acceleration + gradients[p] * joint.translation;

@@ -19,12 +19,13 @@ namespace detail {
 
 /// What the joints feel of the wrenches that the bodies need: each passes on to its parent what it
 /// needs itself and for those that it carries. Source: [Luh, Walker, Paul 1980].
-/// @param wrenches  of each body alone, in its frame; changed
+/// @param wrenches  of each body alone, in its frame; of no meaning afterwards
 /// @return          the parts along the joints' axes [N m or N]
 template <class S, int N, int B>
 [[nodiscard]] constexpr JointArray<S, B> efforts_for(const Mechanism<N, B>& mechanism,
                                                      const Configuration<S, B>& configuration,
                                                      UnsetArray<Wrench<S>, B>& wrenches) noexcept {
+  static_assert(B > 0, "articula: a mechanism without bodies moves nothing");
   JointArray<S, B> effort;
   // Most parents are the body before: what is handed on to that one stays in registers, because the
   // next step waits for it.
@@ -35,7 +36,7 @@ template <class S, int N, int B>
     if (i == 0) break;
     Wrench<S> next = wrenches[i - 1];
     if (body.parent >= 0) {
-      const auto p = static_cast<std::size_t>(body.parent);
+      const std::size_t p = parent_of(body, i);
       const Vector3<S> force = configuration[i].to_parent(wrench.force);
       Wrench<S> parent = p + 1 == i ? next : wrenches[p];
       parent.force = parent.force + force;

@@ -6,6 +6,7 @@
 #include "articula/model/placement.hpp"
 
 #include <array>
+#include <cstddef>
 
 namespace articula {
 
@@ -31,7 +32,8 @@ struct Coupling {
 };
 
 /// A tree of moving bodies on a fixed base, each on one joint with one degree of freedom. A body's
-/// parent stands before it. Without mimic joints there is one body for each joint, in their order.
+/// parent stands before it; the algorithms rely on that. Without mimic joints there is one body for
+/// each joint, in their order.
 /// @tparam N       number of joints that can be commanded
 /// @tparam Bodies  number of moving bodies: N and one for each mimic joint
 template <int N, int Bodies = N>
@@ -40,5 +42,19 @@ struct Mechanism {
   std::array<Coupling, static_cast<std::size_t>(Bodies)> couplings{};  ///< not used if Bodies == N
   Vector3<double> gravity{};  ///< acceleration of free fall in the base frame [m/s^2], 3 x 1
 };
+
+namespace detail {
+
+/// The index of the body that carries body i. That it is smaller tells compilers that algorithms
+/// read what they have set before.
+/// @pre body i has a parent, which stands before it
+[[nodiscard, gnu::always_inline]] constexpr std::size_t parent_of(const Body& body,
+                                                                  std::size_t i) noexcept {
+  const auto parent = static_cast<std::size_t>(body.parent);
+  if (parent >= i) __builtin_unreachable();
+  return parent;
+}
+
+}  // namespace detail
 
 }  // namespace articula

@@ -42,6 +42,7 @@ class Graph {
   /// The function's input number `index`.
   constexpr Term input(int index) { return {0, intern_leaf(Operation::input, index)}; }
 
+  /// Signs stay outside: -a - b is the node a + b as a negative term, a - b and b - a are one node.
   constexpr Term add(Term x, Term y) {
     if (x.is_constant()) std::swap(x, y);
     if (x.is_constant()) return {x.constant + y.constant};
