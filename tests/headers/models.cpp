@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All algorithms for models of several sizes and shapes, compiled with optimisation: only then do
+// The dynamics of models of several sizes and shapes, compiled with optimisation: only then do
 // compilers warn of what may be read before it is set.
 #include <articula/articula.hpp>
 

@@ -347,9 +347,20 @@ TEST_CASE("Links that are no tree") {
         "URDF: Failed to find root link: Two root links found: [a] and [b]; perhaps because of "
         "this: link 'b': <link>: the element <joint> is not known there and does not count");
   CHECK(refusal(robot(a + joint("i", "continuous", "a", "x"))) ==
-        "URDF: joint 'i': its child link 'x' does not exist; links: a");
+        "URDF: joint 'i': its child link 'x' is no <link> of the file; links: a");
   CHECK(refusal(robot(a + solid("forearm") + joint("i", "continuous", "foreram", "a"))) ==
-        "URDF: joint 'i': its parent link 'foreram' does not exist; did you mean 'forearm'?");
+        "URDF: joint 'i': its parent link 'foreram' is no <link> of the file; did you mean "
+        "'forearm'?");
+  CHECK(refusal(robot(a + solid("FORE_ARM") + joint("i", "continuous", "FORE_AMR", "a"))) ==
+        "URDF: joint 'i': its parent link 'FORE_AMR' is no <link> of the file; did you mean "
+        "'FORE_ARM'?");
+  CHECK_THAT(refusal(robot("<link/>" + a + joint("i", "continuous", "a", "x"))),
+             Contains("No name given for the link"));
+  CHECK_THAT(refusal(robot(a + a + joint("i", "continuous", "a", "x"))), Contains("not unique"));
+  // In time, though words as long as these could be compared letter by letter for minutes.
+  const std::string long_name(60000, 'x'), other(60000, 'y');
+  CHECK_THAT(refusal(robot(a + solid(long_name) + joint("i", "continuous", "a", other))),
+             Contains("'" + other + "' is no <link> of the file"));
   CHECK(refusal(robot(a + "<joint name='i' type='fixed'/>")) ==
         "URDF: joint 'i': it has no child link");
 }

@@ -232,19 +232,22 @@ TEST_CASE("angles of more than a turn and inertias of giants are reported") {
   };
   using Notices = std::vector<std::string>;
   CHECK(notices(solid("a"), "<origin rpy='0 -90 0'/>") ==
-        Notices{"joint 'elbow': its rpy, 0 -90 0 rad, is more than a turn; are these degrees?"});
-  CHECK(notices(solid("a"), "<origin rpy='6.28 0 -6.28'/>").empty());
+        Notices{"joint 'elbow': <origin>: rpy 0 -90 0 rad is more than a turn; are these "
+                "degrees?"});
+  CHECK(notices(solid("a"), "<origin rpy='6.2832 0 -6.28319'/>").empty());
   const auto link = [](const char* angle, const char* inertia) {
     const std::string i(inertia);
     return "<link name='a'><inertial><origin rpy='0 0 " + std::string(angle) +
            "'/><mass value='2'/><inertia ixx='" + i + "' iyy='" + i + "' izz='" + i +
            "' ixy='0' ixz='0' iyz='0'/></inertial></link>";
   };
-  CHECK(notices(link("1", "200"), "").empty());
-  CHECK(notices(link("90", "200"), "") ==
-        Notices{"link 'a': its rpy, 0 0 90 rad, is more than a turn; are these degrees?"});
+  CHECK(notices(link("1", "4500"), "").empty());
+  CHECK(notices(link("90", "4500"), "") ==
+        Notices{"link 'a': <inertial>: <origin>: rpy 0 0 90 rad is more than a turn; are "
+                "these degrees?"});
   CHECK(notices(link("0", "20000"), "") ==
-        Notices{"link 'a': its inertia is that of 2 kg at a distance of 100 m; is it in kg m^2?"});
+        Notices{"link 'a': <inertial>: the inertia is that of 2 kg at a distance of 100 m; is it "
+                "in kg m^2?"});
 }
 
 TEST_CASE("limits that are expressions in braces do not count and are reported") {

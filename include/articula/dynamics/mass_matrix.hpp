@@ -17,8 +17,9 @@ struct MassMatrix {
   [[nodiscard]] static constexpr JointRows<S, N> evaluate(
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
     detail::UnsetArray<MassMoments<S>, B> composite;
-    for (std::size_t i = 0; i < configuration.size(); ++i)
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
       composite.set(i, configuration[i].moments);
+    }
     JointRows<S, B> matrix;
     for (auto& row : matrix) row.fill(S(0.0));
     for (std::size_t i = configuration.size(); i-- > 0;) {

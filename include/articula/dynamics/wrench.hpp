@@ -6,6 +6,8 @@
 #include "articula/dynamics/unset_array.hpp"
 #include "articula/model/mechanism.hpp"
 
+#include <cstddef>
+
 namespace articula {
 
 /// A force and a moment about the origin of a body's frame.

@@ -5,8 +5,8 @@
 #include "articula/model/urdf/convert.hpp"
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
-#include "articula/model/urdf/known_words.hpp"
 #include "articula/model/urdf/leader.hpp"
+#include "articula/model/urdf/meant_word.hpp"
 #include "articula/model/urdf/mimic_limits.hpp"
 #include "articula/model/urdf/notices.hpp"
 #include "articula/model/urdf/options.hpp"
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace articula {
@@ -41,7 +42,8 @@ struct UrdfDescription {
                                        ///< nowhere, reductions of 0, mimics that stand in
                                        ///< <ros2_control> alone, fixed joints that are to be
                                        ///< locked, a root that is turned against the file's
-                                       ///< where gravity is the default, and limits in braces
+                                       ///< where gravity is the default, limits in braces, and
+                                       ///< angles and inertias that seem to be in other units
 };
 
 namespace detail {

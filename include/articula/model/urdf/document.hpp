@@ -13,7 +13,6 @@
 
 #include <urdf_parser/urdf_parser.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -46,19 +45,30 @@ struct UrdfDocument {
 
 namespace detail {
 
-/// Makes sure that joints are between links that exist.
+/// The name of a joint's parent or child link, empty if it has none.
+[[nodiscard]] inline std::string link_name(const XmlElement& joint, const char* which) {
+  const XmlElement* element = joint.FirstChildElement(which);
+  return element ? attribute(*element, "link") : std::string();
+}
+
+/// Makes sure that joints are between links that exist. Where links have no name, or one together,
+/// that comes first, and urdfdom tells it.
 inline void check_links(const std::string& file, const XmlElement& robot) {
-  std::vector<std::string> links;
-  for_each_child(robot, "link",
-                 [&](const XmlElement& link) { links.push_back(attribute(link, "name")); });
-  const std::vector<std::string_view> names(links.begin(), links.end());
+  std::set<std::string> links;
+  bool all_have_names = true;
+  for_each_child(robot, "link", [&](const XmlElement& link) {
+    const std::string name = attribute(link, "name");
+    all_have_names = !name.empty() && links.insert(name).second && all_have_names;
+  });
+  if (!all_have_names) return;
   for_each_child(robot, "joint", [&](const XmlElement& joint) {
     for (const char* which : {"parent", "child"}) {
-      const XmlElement* element = joint.FirstChildElement(which);
-      const std::string link = element ? attribute(*element, "link") : "";
-      if (link.empty() || std::find(names.begin(), names.end(), link) != names.end()) continue;
+      const std::string link = link_name(joint, which);
+      if (link.empty() || links.contains(link)) continue;
+      const std::vector<std::string_view> names(links.begin(), links.end());
       throw UrdfError(file, "joint '" + attribute(joint, "name") + "': its " + which + " link '" +
-                                link + "' does not exist" + choice_of(link, "links", names));
+                                link + "' is no <link> of the file" +
+                                choice_of(link, "links", names));
     }
   });
 }
@@ -66,19 +76,15 @@ inline void check_links(const std::string& file, const XmlElement& robot) {
 /// Makes sure that no link has two parents or is its own ancestor.
 inline void check_tree(const std::string& file, const XmlElement& robot) {
   std::map<std::string, std::string> parents, carriers;
-  const auto link = [](const XmlElement& joint, const char* which) {
-    const XmlElement* element = joint.FirstChildElement(which);
-    return element ? attribute(*element, "link") : std::string();
-  };
   for_each_child(robot, "joint", [&](const XmlElement& joint) {
-    const std::string child = link(joint, "child"), name = attribute(joint, "name");
+    const std::string child = link_name(joint, "child"), name = attribute(joint, "name");
     if (child.empty()) throw UrdfError(file, "joint '" + name + "': it has no child link");
     const auto [carrier, first] = carriers.try_emplace(child, name);
     if (!first) {
       throw UrdfError(file, "link '" + child + "': it is the child of two joints, '" +
                                 carrier->second + "' and '" + name + "'");
     }
-    parents[child] = link(joint, "parent");
+    parents[child] = link_name(joint, "parent");
   });
   std::set<std::string> safe;  // known to lead to a root
   for (const auto& [start, parent] : parents) {
@@ -179,8 +185,8 @@ inline void blank_white_space(std::string& text) {
   if (links > UrdfDocument::most_links) {
     throw UrdfError(result.file, "it has " + std::to_string(links) + " links; 4096 are accepted");
   }
+  detail::check_links(result.file, bare);
   try {
-    detail::check_links(result.file, bare);
     detail::check_tree(result.file, bare);
     result.robot = detail::parse_mechanics(result.file, text);
   } catch (const UrdfError& error) {

@@ -2,6 +2,8 @@
 /// @file What was meant by a word that does not exist.
 #pragma once
 
+#include "articula/core/name.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -35,18 +37,25 @@ namespace articula::detail {
 }
 
 /// The word that was meant by one that is not among them: at most two letters off, capital letters
-/// not counted; empty if there is none, or if several are as close.
+/// not counted; empty if there is none, or if several are as close. Nothing is looked for where the
+/// word is longer than any name.
 [[nodiscard]] inline std::string_view meant_word(std::string_view unknown,
                                                  std::span<const std::string_view> words) {
   constexpr std::size_t farthest = 2;
-  std::string small(unknown);
-  for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  if (unknown.size() > Name::capacity) return {};
+  const auto without_capitals = [](std::string_view word) {
+    std::string small(word);
+    for (char& c : small) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return small;
+  };
+  const std::string small = without_capitals(unknown);
   std::string_view meant;
   std::size_t nearest = farthest + 1;
   for (const std::string_view word : words) {
-    if (small.size() > word.size() + farthest) continue;  // however long it is
-    const std::size_t distance = edit_distance(small, word);
-    const bool shares_letters = distance < std::max(small.size(), word.size());
+    const std::size_t longer = std::max(small.size(), word.size());
+    if (longer > std::min(small.size(), word.size()) + farthest) continue;  // however long it is
+    const std::size_t distance = edit_distance(small, without_capitals(word));
+    const bool shares_letters = distance < longer;
     if (distance > nearest || distance > farthest || !shares_letters) continue;
     meant = distance < nearest ? word : std::string_view();
     nearest = distance;

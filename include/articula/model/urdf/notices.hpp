@@ -79,7 +79,7 @@ class UrdfNotices {
     }
     for (const Joint& joint : joints) {
       const std::string name(joint.name.view());
-      add_large_angle("joint '" + name + "'", document_.joint_orientations.at(name));
+      add_large_angle("joint '" + name + "': <origin>", document_.joint_orientations.at(name));
       if (joint.type != JointType::fixed) add_joint(joint, joints);
     }
     add_names();
@@ -102,25 +102,27 @@ class UrdfNotices {
     return rounded_text(limits.lower) + " .. " + rounded_text(limits.upper);
   }
 
-  /// Origins are turned by more than a turn where somebody wrote degrees.
+  /// Angles of more than a turn, which itself may be rounded up.
   void add_large_angle(const std::string& where, const Vector3<double>& rpy) {
-    if (std::max({std::abs(rpy.x), std::abs(rpy.y), std::abs(rpy.z)}) <= 2 * std::numbers::pi)
-      return;
-    add(where + ": its rpy, " + rounded_text(rpy.x) + " " + rounded_text(rpy.y) + " " +
-        rounded_text(rpy.z) + " rad, is more than a turn; are these degrees?");
+    if (std::max({std::abs(rpy.x), std::abs(rpy.y), std::abs(rpy.z)}) < 6.3) return;
+    add(where + ": rpy " + rounded_text(rpy.x) + " " + rounded_text(rpy.y) + " " +
+        rounded_text(rpy.z) + " rad is more than a turn; are these degrees?");
   }
-  /// And an inertia is that of a body of hundreds of metres where it is in kg mm^2.
+
+  /// An <inertial> in other units. In kg mm^2 a body seems a thousand times as large as it is; a
+  /// crane's jib has a radius of gyration of 20 m.
   void add_odd_units(const Link& link) {
-    const std::string name(link.name.view());
-    const auto orientation = document_.inertia_orientations.find(name);
+    constexpr double largest_radius = 50;  // of gyration [m]
+    const std::string where = "link '" + std::string(link.name.view()) + "': <inertial>: ";
+    const auto orientation = document_.inertia_orientations.find(std::string(link.name.view()));
     if (orientation != document_.inertia_orientations.end()) {
-      add_large_angle("link '" + name + "'", orientation->second);
+      add_large_angle(where + "<origin>", orientation->second);
     }
     const double largest = std::max({link.inertia.xx, link.inertia.yy, link.inertia.zz});
     const double radius = link.mass > 0 ? std::sqrt(largest / link.mass) : 0;
-    if (radius > 10) {
-      add("link '" + name + "': its inertia is that of " + rounded_text(link.mass) +
-          " kg at a distance of " + rounded_text(radius) + " m; is it in kg m^2?");
+    if (radius > largest_radius) {
+      add(where + "the inertia is that of " + rounded_text(link.mass) + " kg at a distance of " +
+          rounded_text(radius) + " m; is it in kg m^2?");
     }
   }
 
