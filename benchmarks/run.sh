@@ -38,6 +38,9 @@ fi
 # What a result is worth without: where it comes from.
 cached() { sed -n "s/^$1:[A-Z]*=//p" build/bench/CMakeCache.txt; }
 cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
+for lanes in avx512f avx2; do
+  if grep -qw "$lanes" /proc/cpuinfo; then cpu+=" ($lanes)" && break; fi
+done
 compiler=$("$(cached CMAKE_CXX_COMPILER)" --version | head -n 1)
 flags="-std=c++20 $(cached CMAKE_CXX_FLAGS) $(cached CMAKE_CXX_FLAGS_RELEASE)"
 revision=$(git describe --always --dirty 2>/dev/null || echo unknown)

@@ -41,9 +41,9 @@ context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; 
   echo
   echo "Nanoseconds of one call, median of five repetitions; in brackets how many times as long as ours, the"
   echo "described type. \"Shortest\" are MuJoCo's stages that the result needs, without the rest of the"
-  echo "public function. KDL has the robot as kdl_parser makes it of the URDF. PR2: thirty joints, all free;"
-  echo "ours compiled with \`-O1\`. Less than 2 ns cannot be told from the measuring itself. Median and largest"
-  echo "coefficient of variation of the cases: $scatter percent."
+  echo "public function. KDL has the robot as kdl_parser makes it of the URDF. PR2: thirty joints, all free."
+  echo "Less than 2 ns cannot be told from the measuring itself. Median and largest coefficient of variation"
+  echo "of the cases: $scatter percent."
   echo
   echo "| robot | operation | described type | \`Model<N>\` | KDL | MuJoCo | MuJoCo, shortest |"
   echo "|---|---|---:|---:|---:|---:|---:|"

@@ -21,13 +21,13 @@ namespace detail {
   return lanes;
 }
 
-/// The order in which K angles go into lanes: every second one first, then the others. Neighbours
-/// in memory would be loaded as one vector; where that does not begin where the vector began as
-/// which they were stored shortly before, a processor waits for memory.
-template <std::size_t K>
-[[nodiscard]] constexpr std::size_t in_order(std::size_t i) noexcept {
-  constexpr std::size_t even = (K + 1) / 2;
-  return i < even ? 2 * i : 2 * (i - even) + 1;
+/// An angle that compilers load by itself. Neighbours in memory they would load as one vector, for
+/// which a processor waits long if they were stored one by one, or as other vectors, just before.
+[[nodiscard, gnu::always_inline]] inline double by_itself(double angle) noexcept {
+#if defined(__x86_64__)
+  asm("" : "+x"(angle));
+#endif
+  return angle;
 }
 
 /// Some of the angles, each in as many lanes as said, and zeros in the lanes that are left. Put
@@ -89,23 +89,17 @@ template <class S, std::size_t K>
                                                std::array<S, K>& sine,
                                                std::array<S, K>& cosine) noexcept {
   if constexpr (std::same_as<S, double>) {
+    std::array<double, K> single;
     double squares = 0;
     detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
-      squares += angle[i] * angle[i];
+      single[i] = detail::by_itself(angle[i]);
+      squares += single[i] * single[i];
     });
     if (squares <= detail::largest_reduced_square) [[likely]] {
-      std::array<double, K> ordered, s, c;
-      detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
-        ordered[i] = angle[detail::in_order<K>(i)];
-      });
-      detail::sine_cosine_in_lanes<0>(ordered, s, c);
-      detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
-        sine[detail::in_order<K>(i)] = s[i];
-        cosine[detail::in_order<K>(i)] = c[i];
-      });
+      detail::sine_cosine_in_lanes<0>(single, sine, cosine);
     } else {
       std::array<double, K> s, c;
-      detail::sine_cosine_of_large(std::array<double, K>(angle), s, c);
+      detail::sine_cosine_of_large(std::array<double, K>(single), s, c);
       sine = s;
       cosine = c;
     }
