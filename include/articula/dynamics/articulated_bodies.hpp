@@ -128,7 +128,7 @@ struct ArticulatedBodies {
       remaining[i] =
           effort[i] - bias[i] - (body.prismatic ? wrench[i].force.z : wrench[i].moment.z);
       if (body.parent < 0) continue;
-      const auto p = static_cast<std::size_t>(body.parent);
+      const std::size_t p = detail::parent_of(body, i);
       const Vector3<S> force = inverse[i] * along[i].force, moment = inverse[i] * along[i].moment;
       detail::ArticulatedInertia<S> rest{detail::minus_product(own.moment, moment, along[i].moment),
                                          own.coupling,
@@ -157,7 +157,7 @@ struct ArticulatedBodies {
       angular[i] = linear[i] = {};
       S carried(0.0);
       if (body.parent >= 0) {
-        const auto p = static_cast<std::size_t>(body.parent);
+        const std::size_t p = detail::parent_of(body, i);
         angular[i] = configuration[i].from_parent(angular[p]);
         linear[i] = configuration[i].from_parent(linear[p] +
                                                  cross(angular[p], configuration[i].translation));

@@ -16,9 +16,9 @@ struct BodyPlacements {
     JointArray<Placement<S>, B> placements;
     for (std::size_t i = 0; i < placements.size(); ++i) {
       const Placement<S> in_parent{configuration[i].matrix(), configuration[i].translation};
-      const int parent = mechanism.bodies[i].parent;
+      const Body& body = mechanism.bodies[i];
       placements[i] =
-          parent < 0 ? in_parent : placements[static_cast<std::size_t>(parent)] * in_parent;
+          body.parent < 0 ? in_parent : placements[detail::parent_of(body, i)] * in_parent;
     }
     return placements;
   }

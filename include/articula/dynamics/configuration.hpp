@@ -231,7 +231,7 @@ template <class S, int N, int B, Frames frames = Frames::moving>
       JointPlacement<S>& joint = configuration[i];
       place_at_zero(i);
       if (body.parent >= 0) {
-        const auto parent = static_cast<std::size_t>(body.parent);
+        const std::size_t parent = detail::parent_of(body, i);
         joint.translation = own_turn[parent](joint.translation);
         angle[i] =
             S(body.placement.rotation.rows[2].z) * angle[parent];  // 0, or the axes are parallel

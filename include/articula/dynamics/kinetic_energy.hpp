@@ -20,7 +20,7 @@ struct KineticEnergy {
       const Body& body = mechanism.bodies[i];
       Vector3<S> w{}, u{};
       if (body.parent >= 0) {
-        const auto p = static_cast<std::size_t>(body.parent);
+        const std::size_t p = detail::parent_of(body, i);
         w = configuration[i].from_parent(angular[p]);
         u = configuration[i].from_parent(linear[p] +
                                          cross(angular[p], configuration[i].translation));

@@ -32,12 +32,12 @@ struct MassMatrix {
         const Vector3<S> force = configuration[j].to_parent(wrench.force);
         wrench = {force, configuration[j].to_parent(wrench.moment) +
                              cross(configuration[j].translation, force)};
-        j = static_cast<std::size_t>(mechanism.bodies[j].parent);
+        j = detail::parent_of(mechanism.bodies[j], j);
         matrix[i][j] = matrix[j][i] = felt_by(mechanism.bodies[j], wrench);
       }
       if (mechanism.bodies[i].parent >= 0) {
-        configuration[i].add_to_parent(
-            composite[i], composite[static_cast<std::size_t>(mechanism.bodies[i].parent)]);
+        configuration[i].add_to_parent(composite[i],
+                                       composite[detail::parent_of(mechanism.bodies[i], i)]);
       }
     }
     for (std::size_t i = 0; i < configuration.size(); ++i) {
