@@ -44,24 +44,24 @@ done
 compiler=$("$(cached CMAKE_CXX_COMPILER)" --version | head -n 1)
 flags="-std=c++20 $(cached CMAKE_CXX_FLAGS) $(cached CMAKE_CXX_FLAGS_RELEASE)"
 revision=$(git describe --always --dirty 2>/dev/null || echo unknown)
-context=$(
+context_of() { # <subject>
+  local key flags=$flags
+  [[ $1 != packs || -z $(cached ARTICULA_HAS_MARCH_NATIVE) ]] || flags+=' -march=native'
   for key in cpu compiler flags revision command; do
     printf '    "%s": "%s",\n' "$key" "$(tr -s ' ' <<<"${!key//\"/\'}")"
   done
-)
+}
 
-# Ratios are to be believed if what disturbs one case disturbs the others as well.
-for subject in "${subjects[@]}"; do
-  [[ $subject != peers && $subject != packs ]] || options+=(--benchmark_enable_random_interleaving=true)
-done
 for subject in ${subjects[@]+"${subjects[@]}"}; do
   result=$results/$subject.json
+  order=() # ratios are to be believed if what disturbs one case disturbs the others as well
+  [[ $subject != peers && $subject != packs ]] || order=(--benchmark_enable_random_interleaving=true)
   "$programs/${subject}_benchmark" \
     --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
     --benchmark_out_format=json --benchmark_out="$result" \
-    ${options[@]+"${options[@]}"}
+    ${order[@]+"${order[@]}"} ${options[@]+"${options[@]}"}
   # In place of the machine's name, which is nobody's business.
-  sed -i -e '/"host_name"/{r /dev/stdin' -e 'd}' "$result" <<<"$context"
+  sed -i -e '/"host_name"/{r /dev/stdin' -e 'd}' "$result" < <(context_of "$subject")
   echo "written: $result"
   [[ $subject != peers ]] || benchmarks/peers/table.sh "$result" "$results"
 done

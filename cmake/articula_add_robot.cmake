@@ -10,7 +10,8 @@
 # with a fault stops the build with the element, the reason and figures.
 #
 #   ROOT              link that becomes the fixed base, instead of the URDF's root
-#   TIP               link at which a chain from the root ends; the rest is left out
+#   TIP               link at which a chain from the root ends; the rest is left out with its mass, with a
+#                     warning if joints of the chain carry it
 #   LOCK              joints to be held in place, at 0 or at a position [rad or m]; beyond the joint's
 #                     limits with a warning. Joints that mimic one of them are held, too
 #   GRAVITY           acceleration of free fall in the root link's frame, 0 0 -9.81 [m/s^2] if not given

@@ -40,4 +40,6 @@ install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_packa
 
 # What README.md links to lies beside it, as it does here.
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)
-install(DIRECTORY docs examples TYPE DOC)
+install(DIRECTORY docs TYPE DOC)
+install(DIRECTORY examples TYPE DOC PATTERN CMakeLists.txt EXCLUDE) # its own users' part of a build
+install(DIRECTORY benchmarks/results DESTINATION ${CMAKE_INSTALL_DOCDIR}/benchmarks)

@@ -12,6 +12,8 @@
 #include <fstream>
 #include <iterator>
 #include <locale>
+#include <string>
+#include <vector>
 
 using namespace articula;
 using Eigen::Vector3d;
@@ -207,6 +209,28 @@ TEST_CASE("A chain is cut out by its root and tip") {
   const Model<2> wrist = load_urdf<2>(URDF_FILES "/gripper.urdf", {.tip = "left_finger"});
   CHECK(joint_names(wrist) == std::array<std::string_view, 2>{"wrist", "left_knuckle"});
   CHECK(wrist.links.size() == 3);
+}
+
+TEST_CASE("A chain says what it leaves out of what its joints carry") {
+  const auto about_tip = [](const UrdfOptions& options) {
+    std::vector<std::string> notices = read_urdf(URDF_FILES "/gripper.urdf", options).notices;
+    std::erase_if(notices, [](const std::string& each) { return !each.starts_with("tip"); });
+    return notices;
+  };
+  // The right finger, 0.12 kg, with its tip, 0.04 kg, and the left tip, 0.05 kg.
+  CHECK(about_tip({.tip = "left_finger"}) ==
+        std::vector<std::string>{
+            "tip 'left_finger': 0.21 kg that hang on the chain are left out, at joint "
+            "'right_knuckle' and 1 more; without a tip, and with the joints there locked, they are "
+            "carried along"});
+  // What hangs on the base changes nothing, be it a link or a joint that make it stand.
+  const std::vector<std::string> left_tip{
+      "tip 'left_finger': 0.05 kg that hang on the chain are left out, at joint 'left_slide'; "
+      "without a tip, and with the joints there locked, they are carried along"};
+  CHECK(about_tip({.root = "palm", .tip = "left_finger"}) == left_tip);
+  CHECK(about_tip({.tip = "left_finger", .locked = {"wrist"}}) == left_tip);
+  CHECK(about_tip({}).empty());
+  CHECK(read_urdf(arm_file, {.tip = "tool"}).notices == read_urdf(arm_file).notices);
 }
 
 TEST_CASE("Locked joints stay where they are put") {

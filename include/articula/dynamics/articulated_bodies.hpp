@@ -29,7 +29,8 @@ template <class S>
           {m, zero, zero, m, zero, m}};
 }
 
-/// A plus sign x y^T, of which the lower triangle is left out.
+/// A - x y^T.
+/// @pre x and y are parallel, so that the result is symmetric
 template <class S>
 [[nodiscard]] constexpr Symmetric3<S> minus_product(const Symmetric3<S>& a, const Vector3<S>& x,
                                                     const Vector3<S>& y) noexcept {

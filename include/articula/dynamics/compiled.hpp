@@ -60,8 +60,8 @@ consteval std::size_t input_arrays() {
   }
 }
 
-/// Runs an algorithm on symbols and assembles what it leaves in the graph. Inputs are the
-/// positions, then the algorithm's other arrays.
+/// Runs an algorithm on symbols and assembles what it leaves in the graph. Inputs are numbered
+/// through the positions, then through the algorithm's other arrays: see OneAfterTheOther.
 /// @tparam Room  for how long a program
 template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSize Room>
 [[nodiscard]] constexpr symbolic::Program<Room> trace() {
@@ -86,7 +86,7 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
   return symbolic::Assembler<Room>::assemble(graph, outputs);
 }
 
-/// Room for the programs of most algorithms, twice over for those of this library.
+/// Room for the programs of most algorithms: about twice what those of this library take.
 template <DescribedRobot R>
 [[nodiscard]] consteval symbolic::ProgramSize usual_room() {
   constexpr auto bodies = static_cast<std::size_t>(ModelOf<R>::body_count);
@@ -158,7 +158,7 @@ template <class Algorithm, DescribedRobot R>
   }
 }
 
-/// Arrays of N numbers as one.
+/// Arrays of N numbers as one, in which inputs are numbered as in `trace`.
 template <class Array, std::size_t N, std::size_t Arrays>
 struct OneAfterTheOther {
   const Array* arrays[Arrays];  // NOLINT
@@ -168,9 +168,15 @@ struct OneAfterTheOther {
   }
 };
 
-/// For std::declval: an algorithm's other inputs, whatever they are to be read from.
-template <class S, int N, class>
+/// An array of S for each of the inputs, whatever type they have: an algorithm takes arrays.
+template <class S, int N, class Input>
 using ArrayOf = JointArray<S, N>;
+
+/// What an algorithm returns for the scalar S.
+template <class Algorithm, class S, int N, int B, class... Inputs>
+using ResultOf = decltype(Algorithm::template evaluate<S, N, B>(
+    std::declval<Mechanism<N, B>>(), std::declval<Configuration<S, B>>(),
+    std::declval<ArrayOf<S, N, Inputs>>()...));
 
 }  // namespace detail
 
@@ -179,7 +185,9 @@ template <class Algorithm, DescribedRobot R>
 inline constexpr const auto& program = detail::cheapest_program<Algorithm, R>();
 
 /// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
-/// but for rounding.
+/// but for rounding. Where angles of parallel axes are added, that is as if one of them were off by
+/// half a unit in its last place (1e-9 rad at 1e7 rad). What the result does not depend on is not
+/// read: a NaN there leaves no trace.
 /// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack; an
 ///                array, or what else can be read so, as a pointer to N numbers
 /// @param inputs  the algorithm's other inputs, of the same type
@@ -196,9 +204,7 @@ template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>...
       {&q, &inputs...}};
   const auto output = symbolic::run_program<program<Algorithm, R>>(input);
 
-  decltype(Algorithm::template evaluate<S, n, b>(
-      std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(),
-      std::declval<detail::ArrayOf<S, n, Inputs>>()...)) result;
+  detail::ResultOf<Algorithm, S, n, b, Inputs...> result;
   std::size_t next = 0;
   symbolic::for_each_scalar<S>(
       result, [&](S & value) __attribute__((always_inline)) { value = output[next++]; });

@@ -221,7 +221,8 @@ template <class S, int N, int B, Frames frames = Frames::moving>
       }
     }
   } else {
-    // How far a body has turned in the frame in which it is seen: 0 where that is its own.
+    // How far a body has turned in the frame in which it is seen; that frame, where it is not the
+    // body's own, does not turn with the joint. Both are 0 and no turn where it is the body's own.
     JointArray<S, B> angle;
     JointArray<AxialTurn<S>, B> own_turn;
     angle.fill(S(0.0));  // g++ 12 leaves elements of arrays uninitialised where braces should do it
@@ -233,8 +234,9 @@ template <class S, int N, int B, Frames frames = Frames::moving>
       if (body.parent >= 0) {
         const std::size_t parent = detail::parent_of(body, i);
         joint.translation = own_turn[parent](joint.translation);
-        angle[i] =
-            S(body.placement.rotation.rows[2].z) * angle[parent];  // 0, or the axes are parallel
+        // Either the parent is seen in its own frame and its angle is 0, or this is a joint on an
+        // axis parallel to the parent's: 1 if both point the same way, -1 if not.
+        angle[i] = S(body.placement.rotation.rows[2].z) * angle[parent];
       }
       if (body.prismatic) {
         slide(i);

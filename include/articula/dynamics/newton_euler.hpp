@@ -39,8 +39,9 @@ constexpr Matrix3<S> acceleration_gradient(const VelocityProducts<S>& w,
             {w.xz - dw.y, w.yz + dw.x, -(w.xx + w.yy)}}}};
 }
 
-/// Force and moment that give a body its motion: f = m a + U h and n = h x a + the vector of the
-/// antisymmetric part of U J, in which (Jxx + Jyy) is written for the part of z.
+/// Force and moment that give a body its motion: f = m a + U h and n = h x a + the vector r with
+/// [r]x = U J - (U J)^T, J being the second moments of mass. In r.z the terms with dw.z are put
+/// together, as (Jxx + Jyy) dw.z: one multiplication, by a constant.
 template <class S>
 [[gnu::always_inline]] constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion,
                                                       const VelocityProducts<S>& w,

@@ -160,8 +160,9 @@ constexpr void move_frame(CanonicalMechanism<N, Bodies>& canonical, std::size_t 
 ///
 /// 1. Right angles that were written with few digits become exact: elements of rotation matrices
 ///    up to `right_angle_tolerance` in size become 0, unless some are only little larger, and the
-///    matrices are made orthonormal again. This changes efforts by as much as the angles were off,
-///    and accelerations by that times the condition of the mass matrix; 0 turns it off.
+///    matrices are made orthonormal again. This changes efforts in proportion to how far off the
+///    angles were, and accelerations by that times the condition of the mass matrix; 0 turns it
+///    off.
 /// 2. Frames are turned about their z axes so that rotations have more zeros, and axes that are
 ///    parallel have the same frame.
 /// 3. Origins slide along their joints' axes to where the parent's origin is nearest.

@@ -31,8 +31,8 @@ class Assembler {
   }
 
  private:
-  /// When a node is computed. What is needed both before the angles and after them is computed
-  /// before.
+  /// When a node is computed, in the order of urgency: of two stages that need it the greater one
+  /// says when.
   enum Stage : unsigned char { unused, after_angles, before_angles, angles };
   static constexpr std::size_t stages = 4;
 
@@ -60,8 +60,8 @@ class Assembler {
 
   /// Finds out when each node is computed, and how many instructions each stage has. It goes from
   /// the outputs to the inputs: what a node needs is needed when the node is, or sooner. Sines of
-  /// what depends on no other sine are the angles' stage, what they need comes before it. Nothing
-  /// of that depends on a sine, so no node of the stage is asked for sooner.
+  /// what depends on no other sine are the angles' stage, what they need comes before it. What
+  /// comes before the angles depends on no sine, so it asks for none of the angles' stage.
   constexpr void find_stages(const GrowingArray<Term>& outputs) {
     const auto* const nodes = graph_.nodes();
     Step* const steps = steps_.data();

@@ -39,35 +39,46 @@ template <const auto& program, Operation operation, class S, class Input>
 /// @param value  those before them
 /// @param taken  receives sines and cosines by turns
 /// @return       the first sine
-template <const auto& program, class S, std::size_t... Pair>
+template <const auto& program, class S, std::size_t... Angle>
 [[gnu::always_inline]] inline S take_angles(S* value, S* taken,
-                                            std::index_sequence<Pair...>) noexcept {
+                                            std::index_sequence<Angle...>) noexcept {
   constexpr std::size_t begin = program.angles_begin;
-  const std::array<S, sizeof...(Pair)> angle{value[program.instructions[begin + 2 * Pair].left]...};
-  std::array<S, sizeof...(Pair)> sine, cosine;
+  const std::array<S, sizeof...(Angle)> angle{
+      value[program.instructions[begin + 2 * Angle].left]...};
+  std::array<S, sizeof...(Angle)> sine, cosine;
   sine_cosine(angle, sine, cosine);
-  ((taken[2 * Pair] = sine[Pair], taken[2 * Pair + 1] = cosine[Pair]), ...);
+  ((taken[2 * Angle] = sine[Angle], taken[2 * Angle + 1] = cosine[Angle]), ...);
   return taken[0];
 }
 
 /// Executes the steps before the angles, the angles, and the steps after them. Each value is
 /// computed from those before it in the same list of initialisers, which are executed in order:
 /// compilers take twice as long for a fold of assignments, and limit its length. The first sine
-/// takes all sines and cosines; those that follow in the list find theirs taken.
-template <const auto& program, class S, class Input, std::size_t... Before, std::size_t... Angle,
-          std::size_t... After, std::size_t... Result>
+/// takes all sines and cosines; those that follow in the list find theirs taken. The program of
+/// 2 cos(x) + x, say, becomes
+///
+///     S value[] = {input[0],                          // Before: x
+///                  take_angles(value, taken),         // SineOrCosine 0: sin(x)
+///                  taken[1],                          // SineOrCosine 1: cos(x)
+///                  S(2.0),                            // After
+///                  value[3] * value[2],
+///                  value[4] + value[0]};
+///     return {value[5]};
+template <const auto& program, class S, class Input, std::size_t... Before,
+          std::size_t... SineOrCosine, std::size_t... After, std::size_t... Result>
 [[gnu::always_inline]] inline std::array<S, sizeof...(Result)> execute_steps(
     [[maybe_unused]] const Input& input, std::index_sequence<Before...>,
-    std::index_sequence<Angle...>, std::index_sequence<After...>,
+    std::index_sequence<SineOrCosine...>, std::index_sequence<After...>,
     std::index_sequence<Result...>) noexcept {
   constexpr const auto& steps = program.instructions;
   constexpr std::size_t end = program.angles_end;
-  [[maybe_unused]] constexpr std::make_index_sequence<sizeof...(Angle) / 2> pairs;
-  [[maybe_unused]] S taken[sizeof...(Angle) + 1];  // NOLINT: one more, as no array may be empty
+  [[maybe_unused]] constexpr std::make_index_sequence<sizeof...(SineOrCosine) / 2> angles;
+  [[maybe_unused]] S
+      taken[sizeof...(SineOrCosine) + 1];  // NOLINT: one more, as no array may be empty
   // NOLINTNEXTLINE: compilers read plain arrays faster than std::array
   S value[] = {
       execute<program, steps[Before].operation, S, Input>(value, input, Before)...,
-      (Angle == 0 ? take_angles<program, S>(value, taken, pairs) : taken[Angle])...,
+      (SineOrCosine == 0 ? take_angles<program, S>(value, taken, angles) : taken[SineOrCosine])...,
       execute<program, steps[end + After].operation, S, Input>(value, input, end + After)...};
   return {(program.outputs[Result].negative ? -value[program.outputs[Result].value]
                                             : value[program.outputs[Result].value])...};

@@ -14,15 +14,16 @@ namespace articula::symbolic {
 
 namespace detail {
 
-/// The lanes for a number of angles: few are left empty.
+/// The lanes for a number of angles: all of a register, or half and so on if that has room enough.
 [[nodiscard]] constexpr int lanes_for(std::size_t angles) noexcept {
   int lanes = 2;
   while (lanes < lanes_of_a_register && static_cast<std::size_t>(lanes) < angles) lanes *= 2;
   return lanes;
 }
 
-/// An angle that compilers load by itself. Neighbours in memory they would load as one vector, for
-/// which a processor waits long if they were stored one by one, or as other vectors, just before.
+/// An angle that compilers load by itself. Neighbours in memory they would load as one vector. If
+/// those were stored one by one, or as other vectors, just before, a processor cannot forward them
+/// to that load: it waits until all stores have reached the cache (failed store forwarding).
 [[nodiscard, gnu::always_inline]] inline double by_itself(double angle) noexcept {
 #if defined(__x86_64__)
   asm("" : "+x"(angle));
@@ -35,6 +36,7 @@ namespace detail {
 template <int Lanes, std::size_t Begin, std::size_t Times, std::size_t K>
 [[gnu::always_inline]] inline Reals<Lanes> in_lanes(const std::array<double, K>& angle) noexcept {
   return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    // (% K: the compiler wants a valid index also where none is read.)
     return Reals<Lanes>{(Begin + I / Times < K ? angle[(Begin + I / Times) % K] : 0.0)...};
   }
   (std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
@@ -80,9 +82,10 @@ template <std::size_t K>
 }  // namespace detail
 
 /// Sines and cosines of K angles [rad]: of doubles side by side, within three units in the last
-/// place, and by <cmath> if they are large, infinite or NaN; of other types by a function sincos
-/// that returns both, found by argument-dependent lookup, or by sin and cos, found so or in
-/// namespace std. Programs take those of all joints by one call of this function.
+/// place, and by <cmath> if they are large, infinite or NaN; of other types by their function
+/// sincos, of all angles (as packs have it) or of one, returning both, found by argument-dependent
+/// lookup, or by sin and cos, found so or in namespace std. Programs take those of all joints by
+/// one call of this function.
 /// Real-time: yes, if those of S are.
 template <class S, std::size_t K>
 [[gnu::always_inline]] inline void sine_cosine(const std::array<S, K>& angle,

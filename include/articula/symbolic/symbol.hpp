@@ -34,7 +34,8 @@ class Symbol {
 
   [[nodiscard]] constexpr const Term& term() const noexcept { return term_; }
 
-  // With few calls: compilers take their time for each.
+  // What needs no graph is done here, although the graph would find it as well: compilers take
+  // their time for each call.
   friend constexpr Symbol operator-(const Symbol& x) { return {x.graph_, -x.term_}; }
   friend constexpr Symbol operator+(const Symbol& x, const Symbol& y) {
     const bool x_constant = x.term_.node == Term::none, y_constant = y.term_.node == Term::none;

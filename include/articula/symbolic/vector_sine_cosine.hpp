@@ -96,7 +96,7 @@ template <class Vector, class... Doubles>
 [[gnu::always_inline]] inline Vector polynomial(const Vector& z, double first,
                                                 Doubles... others) noexcept {
   if constexpr (sizeof...(others) == 0) {
-    return first - Vector{};
+    return first - Vector{};  // in all lanes: vectors have no constructor for that
   } else {
     return first + z * polynomial(z, others...);
   }
@@ -129,8 +129,8 @@ template <int Lanes, std::size_t Count>
     const auto& [x, right_angles] = reduced[i];
     const auto s = reinterpret_cast<Integers<Lanes>>(x + (x * z[i]) * p[i]);
     const auto c = reinterpret_cast<Integers<Lanes>>((1.0 - 0.5 * z[i]) + (z[i] * z[i]) * q[i]);
-    const Integers<Lanes> odd = right_angles << 63;
-    const Integers<Lanes> swap = (s ^ c) & (odd < 0);
+    const Integers<Lanes> odd = right_angles << 63;    // the last bit as a sign
+    const Integers<Lanes> swap = (s ^ c) & (odd < 0);  // true is a lane full of ones
     const Integers<Lanes> sign = (right_angles & 2) << 62;
     sine[i] = reinterpret_cast<Vector>(s ^ swap ^ sign);
     cosine[i] = reinterpret_cast<Vector>(c ^ swap ^ sign ^ odd);

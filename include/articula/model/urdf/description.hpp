@@ -6,6 +6,7 @@
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
 #include "articula/model/urdf/leader.hpp"
+#include "articula/model/urdf/left_out.hpp"
 #include "articula/model/urdf/meant_word.hpp"
 #include "articula/model/urdf/mimic_limits.hpp"
 #include "articula/model/urdf/notices.hpp"
@@ -42,8 +43,9 @@ struct UrdfDescription {
                                        ///< nowhere, reductions of 0, mimics that stand in
                                        ///< <ros2_control> alone, fixed joints that are to be
                                        ///< locked, a root that is turned against the file's
-                                       ///< where gravity is the default, limits in braces, and
-                                       ///< angles and inertias that seem to be in other units
+                                       ///< where gravity is the default, masses that hang on a
+                                       ///< chain and are left out, limits in braces, and angles
+                                       ///< and inertias that seem to be in other units
 };
 
 namespace detail {
@@ -65,6 +67,9 @@ class UrdfReader {
                .initial_values = document_.initial_values};
     select();
     lock();
+    if (!options_.tip.empty()) {
+      notices_.add_tip(options_.tip, left_out_by(document_, selected_, held_));
+    }
     for (const urdf::Joint* joint : selected_) add(*joint);
     mend_mimic_limits(result_.joints, notices_);
     check();

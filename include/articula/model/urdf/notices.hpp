@@ -5,11 +5,13 @@
 #include "articula/model/urdf/convert.hpp"
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
+#include "articula/model/urdf/left_out.hpp"
 #include "articula/model/urdf/options.hpp"
 #include "articula/model/validation.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <span>
 #include <string>
@@ -68,6 +70,16 @@ class UrdfNotices {
     add("root '" + root.name + "': it is turned against the file's root" + taken +
         "; what is 0 0 -9.81 in the file's is there " + text(down.x()) + " " + text(down.y()) +
         " " + text(down.z()));
+  }
+
+  /// A chain that leaves out what its joints carry in the file.
+  void add_tip(const std::string& tip, const LeftOut& left_out) {
+    if (left_out.joints.empty()) return;
+    const std::size_t others = left_out.joints.size() - 1;
+    add("tip '" + tip + "': " + rounded_text(left_out.mass) +
+        " kg that hang on the chain are left out, at joint '" + left_out.joints.front() + "'" +
+        (others == 0 ? "" : " and " + std::to_string(others) + " more") +
+        "; without a tip, and with the joints there locked, they are carried along");
   }
 
   /// All about a robot's links and joints, and names in the file that lead nowhere.
