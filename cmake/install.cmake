@@ -38,8 +38,9 @@ install(FILES cmake/articula-recording.cmake DESTINATION ${articula_package_dir}
 # The component config.
 install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_package_dir})
 
-# What README.md links to lies beside it, as it does here.
+# What README.md and docs link to lies beside them, as it does here; but for headers, which are
+# where headers are.
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)
 install(DIRECTORY docs TYPE DOC)
-install(DIRECTORY examples TYPE DOC PATTERN CMakeLists.txt EXCLUDE) # its own users' part of a build
+install(DIRECTORY examples TYPE DOC PATTERN CMakeLists.txt EXCLUDE) # of our build
 install(DIRECTORY benchmarks/results DESTINATION ${CMAKE_INSTALL_DOCDIR}/benchmarks)

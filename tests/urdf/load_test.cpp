@@ -221,16 +221,24 @@ TEST_CASE("A chain says what it leaves out of what its joints carry") {
   CHECK(about_tip({.tip = "left_finger"}) ==
         std::vector<std::string>{
             "tip 'left_finger': 0.21 kg that hang on the chain are left out, at joint "
-            "'right_knuckle' and 1 more; without a tip, and with the joints there locked, they are "
+            "'right_knuckle' and 1 more; without a tip, and with all other joints locked, they are "
             "carried along"});
   // What hangs on the base changes nothing, be it a link or a joint that make it stand.
   const std::vector<std::string> left_tip{
       "tip 'left_finger': 0.05 kg that hang on the chain are left out, at joint 'left_slide'; "
-      "without a tip, and with the joints there locked, they are carried along"};
+      "without a tip, and with all other joints locked, they are carried along"};
   CHECK(about_tip({.root = "palm", .tip = "left_finger"}) == left_tip);
   CHECK(about_tip({.tip = "left_finger", .locked = {"wrist"}}) == left_tip);
   CHECK(about_tip({}).empty());
   CHECK(read_urdf(arm_file, {.tip = "tool"}).notices == read_urdf(arm_file).notices);
+  using support::joint, support::robot, support::solid;
+  const std::string arm_on_a_mast = robot(
+      "<link name=\"base\"/>" + solid("other") + solid("mast") + solid("camera") + solid("arm") +
+      joint("leader", "continuous", "base", "other") +
+      joint("follower", "continuous", "base", "mast", "<mimic joint=\"leader\"/>") +
+      joint("mount", "fixed", "mast", "camera") + joint("elbow", "continuous", "mast", "arm"));
+  CHECK(read_urdf(arm_on_a_mast, {.tip = "arm", .locked = {"leader"}}).notices.empty());
+  CHECK(read_urdf(arm_on_a_mast, {.tip = "arm", .locked = {"follower"}}).notices.empty());
 }
 
 TEST_CASE("Locked joints stay where they are put") {

@@ -86,7 +86,7 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
   return symbolic::Assembler<Room>::assemble(graph, outputs);
 }
 
-/// Room for the programs of most algorithms: about twice what those of this library take.
+/// Room for the programs of most algorithms: at least twice what those of this library take.
 template <DescribedRobot R>
 [[nodiscard]] consteval symbolic::ProgramSize usual_room() {
   constexpr auto bodies = static_cast<std::size_t>(ModelOf<R>::body_count);
@@ -186,8 +186,8 @@ inline constexpr const auto& program = detail::cheapest_program<Algorithm, R>();
 
 /// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
 /// but for rounding. Where angles of parallel axes are added, that is as if one of them were off by
-/// half a unit in its last place (1e-9 rad at 1e7 rad). What the result does not depend on is not
-/// read: a NaN there leaves no trace.
+/// some units in its last place (2e-9 rad each at 1e7 rad). What the result does not depend on is
+/// not read: a NaN there leaves no trace.
 /// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack; an
 ///                array, or what else can be read so, as a pointer to N numbers
 /// @param inputs  the algorithm's other inputs, of the same type

@@ -92,9 +92,10 @@ template <class S, int N, int B>
 /// For each joint the one before it on the way to the base, -1 if there is none: elements of the
 /// mass matrix and of its factors between joints that are not on one such way are zero. Mimic
 /// joints tie branches together, and so do rotors that two joints share: two joints are on one way
-/// if one of them moves a body that carries a body of the other, or if both are on that of a third
-/// joint further out. (This is the elimination tree of the mass matrix, the third kind being the
-/// fill-in of its factors. Source: [Liu 1990]; for joints [Featherstone 2008, section 6.4].)
+/// if one of them moves a body that carries a body of the other, if they share a rotor, or if both
+/// are on that of a third joint further out. (This is the elimination tree of the mass matrix, the
+/// last case being the fill-in of its factors. Source: [Liu 1990]; for joints [Featherstone 2008,
+/// section 6.4].)
 template <int N, int B>
 [[nodiscard]] constexpr JointArray<int, N> branches(const Mechanism<N, B>& mechanism) noexcept {
   JointRows<bool, N> tied{};

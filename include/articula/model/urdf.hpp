@@ -59,8 +59,8 @@ template <int N, int Bodies = N>
 
 /// Loads a robot:
 ///
-///     const auto panda = articula::load_urdf<7>("panda.urdf", {.tip = "panda_link8"});
-///     articula::gravity(panda, q);
+///     const auto arm = articula::load_urdf<7>("panda.urdf", {.locked = {"panda_finger_joint1"}});
+///     articula::gravity(arm, q);
 ///
 /// Fixed and locked joints are welded, mimic joints follow theirs, joints stand depth first and
 /// siblings by name. Transmissions and what else a file tells is in read_urdf's result.

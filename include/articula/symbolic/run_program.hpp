@@ -62,7 +62,7 @@ template <const auto& program, class S, std::size_t... Angle>
 ///                  taken[1],                          // SineOrCosine 1: cos(x)
 ///                  S(2.0),                            // After
 ///                  value[3] * value[2],
-///                  value[4] + value[0]};
+///                  value[0] + value[4]};
 ///     return {value[5]};
 template <const auto& program, class S, class Input, std::size_t... Before,
           std::size_t... SineOrCosine, std::size_t... After, std::size_t... Result>

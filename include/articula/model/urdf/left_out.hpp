@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/model/urdf/document.hpp"
+#include "articula/model/urdf/leader.hpp"
 
 #include <cstddef>
 #include <map>
@@ -32,14 +33,15 @@ struct LeftOut {
 /// What a chain leaves out that its joints would have to move. Branches off its base are not among
 /// it: they change nothing.
 /// @param chain  its joints, from the root to the tip
-/// @param held   joints that are held, by name
+/// @param held   where joints are held [rad or m], by name
 [[nodiscard]] inline LeftOut left_out_by(const UrdfDocument& document,
                                          const std::vector<const urdf::Joint*>& chain,
                                          const std::map<std::string, double>& held) {
   LeftOut result;
   bool moves = false;
   for (std::size_t i = 0; i < chain.size(); ++i) {
-    moves = moves || (chain[i]->type != urdf::Joint::FIXED && !held.contains(chain[i]->name));
+    moves = moves || (chain[i]->type != urdf::Joint::FIXED &&
+                      !held.contains(leader_of(document, held, *chain[i]).joint));
     if (!moves) continue;
     for (const auto& branch : document.robot->links_.at(chain[i]->child_link_name)->child_joints) {
       if (i + 1 < chain.size() && branch.get() == chain[i + 1]) continue;

@@ -79,7 +79,7 @@ class UrdfNotices {
     add("tip '" + tip + "': " + rounded_text(left_out.mass) +
         " kg that hang on the chain are left out, at joint '" + left_out.joints.front() + "'" +
         (others == 0 ? "" : " and " + std::to_string(others) + " more") +
-        "; without a tip, and with the joints there locked, they are carried along");
+        "; without a tip, and with all other joints locked, they are carried along");
   }
 
   /// All about a robot's links and joints, and names in the file that lead nowhere.

@@ -23,13 +23,13 @@ struct LockedJoint {
 
 /// Which part of a URDF to read, and how strictly.
 ///
-///     load_urdf<7>("panda.urdf", {.tip = "panda_hand", .locked = {"panda_finger_joint1"}});
+///     load_urdf<7>("panda.urdf", {.locked = {{"panda_finger_joint1", 0.02}}});
 struct UrdfOptions {
   std::string root{};  ///< link that becomes the fixed base; what is not beyond it is left out.
                        ///< Empty: the file's root
   std::string tip{};  ///< link at which a chain from the root ends; branches off the chain and what
-                      ///< is beyond are left out with their mass, as a notice says. Empty: the
-                      ///< whole tree
+                      ///< is beyond are left out with their mass, see UrdfDescription::notices.
+                      ///< Empty: the whole tree
   /// Joints to hold. Joints that mimic one of them are held where it puts them, also if it is left
   /// out itself; a joint that mimics one that is left out and not held is an error. A place beyond
   /// a joint's limits is among UrdfDescription::notices
