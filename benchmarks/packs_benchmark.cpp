@@ -2,7 +2,7 @@
 // Sixteen robots side by side, <operation>/<robot>/together, and one after the other, /one_by_one:
 // the ratio of the two is what packs gain per robot. `lanes` is how many doubles fit into a
 // register. A single robot's sines already are taken in its lanes; /plain is one by one with those
-// of <cmath>.
+// of <cmath>. /model_... are the same of a robot that is loaded at run time.
 #include <articula/dynamics/forward_dynamics.hpp>
 #include <articula/dynamics/inverse_dynamics.hpp>
 #include <articula/robots/panda.hpp>
@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 namespace {
@@ -37,6 +38,20 @@ struct Forward {
     return forward_dynamics(robot, arrays...);
   }
 };
+
+/// A robot as the compiler knows it.
+template <class R>
+struct Described {
+  static constexpr R robot{};
+};
+/// The same robot as if it had been loaded: not constant, so that nothing of it is known.
+template <class R>
+struct Loaded {
+  static inline auto robot = model_of(R{});
+};
+
+template <class From>
+constexpr int joints_of = joint_count<std::remove_cvref_t<decltype(From::robot)>>;
 
 /// A double that the library does not know as one.
 struct Plain {
@@ -64,26 +79,26 @@ std::vector<std::array<Vectors, 3>> random_states(std::size_t count) {
   return states;
 }
 
-template <class Operation, class R>
+template <class Operation, class From>
 void together(benchmark::State& bench) {
-  const auto states = random_states<JointVectors<joint_count<R>, robots>>(sets);
+  const auto states = random_states<JointVectors<joints_of<From>, robots>>(sets);
   std::size_t i = 0;
   for (auto _ : bench) {
     const auto& [q, v, x] = states[i++ % states.size()];
-    auto result = Operation::run(R{}, q, v, x);
+    auto result = Operation::run(From::robot, q, v, x);
     benchmark::DoNotOptimize(result);
   }
   bench.counters["lanes"] = symbolic::lanes_of_a_register;
 }
 
-template <class Operation, class R>
+template <class Operation, class From>
 void one_by_one(benchmark::State& bench) {
-  const auto states = random_states<JointVector<joint_count<R>>>(sets * robots);
+  const auto states = random_states<JointVector<joints_of<From>>>(sets * robots);
   std::size_t i = 0;
   for (auto _ : bench) {
     for (int k = 0; k < robots; ++k) {
       const auto& [q, v, x] = states[i++ % states.size()];
-      auto result = Operation::run(R{}, q, v, x);
+      auto result = Operation::run(From::robot, q, v, x);
       benchmark::DoNotOptimize(result);
     }
   }
@@ -112,10 +127,16 @@ void plain(benchmark::State& bench) {
   }
 }
 
-#define ARTICULA_PACKS(operation, Operation, robot, Robot)                                     \
-  BENCHMARK(together<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/together");     \
-  BENCHMARK(one_by_one<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/one_by_one"); \
-  BENCHMARK(plain<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/plain")
+#define ARTICULA_PACKS(operation, Operation, robot, Robot)                           \
+  BENCHMARK(together<Operation, Described<Robot>>)                                   \
+      ->Name(#operation "_dynamics/" #robot "/together");                            \
+  BENCHMARK(one_by_one<Operation, Described<Robot>>)                                 \
+      ->Name(#operation "_dynamics/" #robot "/one_by_one");                          \
+  BENCHMARK(plain<Operation, Robot>)->Name(#operation "_dynamics/" #robot "/plain"); \
+  BENCHMARK(together<Operation, Loaded<Robot>>)                                      \
+      ->Name(#operation "_dynamics/" #robot "/model_together");                      \
+  BENCHMARK(one_by_one<Operation, Loaded<Robot>>)                                    \
+      ->Name(#operation "_dynamics/" #robot "/model_one_by_one")
 
 ARTICULA_PACKS(inverse, Inverse, q2d, Q2d);
 ARTICULA_PACKS(inverse, Inverse, ur10, Ur10);
