@@ -221,8 +221,8 @@ template <class S, int N, int B, Frames frames = Frames::moving>
       }
     }
   } else {
-    // How far a body has turned in the frame in which it is seen; that frame, where it is not the
-    // body's own, does not turn with the joint. Both are 0 and no turn where it is the body's own.
+    // How far a body has turned in the frame in which it is seen, as an angle and as a turn: not at
+    // all where that is its own frame; elsewhere the frame does not turn with the joint.
     JointArray<S, B> angle;
     JointArray<AxialTurn<S>, B> own_turn;
     angle.fill(S(0.0));  // g++ 12 leaves elements of arrays uninitialised where braces should do it

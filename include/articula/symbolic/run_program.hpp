@@ -73,8 +73,8 @@ template <const auto& program, class S, class Input, std::size_t... Before,
   constexpr const auto& steps = program.instructions;
   constexpr std::size_t end = program.angles_end;
   [[maybe_unused]] constexpr std::make_index_sequence<sizeof...(SineOrCosine) / 2> angles;
-  [[maybe_unused]] S
-      taken[sizeof...(SineOrCosine) + 1];  // NOLINT: one more, as no array may be empty
+  // NOLINTNEXTLINE: one more, as no array may be empty
+  [[maybe_unused]] S taken[sizeof...(SineOrCosine) + 1];
   // NOLINTNEXTLINE: compilers read plain arrays faster than std::array
   S value[] = {
       execute<program, steps[Before].operation, S, Input>(value, input, Before)...,
