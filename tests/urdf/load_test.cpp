@@ -223,7 +223,7 @@ TEST_CASE("A chain says what it leaves out of what its joints carry") {
             "tip 'left_finger': 0.21 kg that hang on the chain are left out, at joint "
             "'right_knuckle' and 1 more; without a tip, and with all other joints locked, they are "
             "carried along"});
-  // What hangs on the base changes nothing, be it a link or a joint that make it stand.
+  // What hangs on what stands still changes nothing, be that the root or held by a lock.
   const std::vector<std::string> left_tip{
       "tip 'left_finger': 0.05 kg that hang on the chain are left out, at joint 'left_slide'; "
       "without a tip, and with all other joints locked, they are carried along"};
