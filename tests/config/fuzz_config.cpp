@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (some.group.empty()) __builtin_trap();
     validate(some.gains, joint_names(robot));
   });
-  load([&] { validate(load_trajectory_tolerances(robot, source).tolerances, robot); });
+  load([&] { validate(robot, load_trajectory_tolerances(robot, source).tolerances); });
   load([&] {
     if (!(load_controller_manager(source).period() > 0)) __builtin_trap();
   });

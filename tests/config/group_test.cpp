@@ -36,7 +36,7 @@ TEST_CASE("the trajectory controller of six joints of seven leaves the gripper u
     CHECK(config.tolerances.path_position[j] ==
           (j == joint_index(GripperArm(), "joint_1") ? 0.1 : 0));
   }
-  CHECK_NOTHROW(validate(config.tolerances, GripperArm()));
+  CHECK_NOTHROW(validate(GripperArm(), config.tolerances));
   bool noted = false;
   for (const std::string& note : config.notes) {
     noted = noted || note.find(
@@ -75,7 +75,7 @@ TEST_CASE("gains of six joints of seven are those of a group") {
   CHECK(effort[gripper] == 0.5);
 
   const std::vector<std::string_view> names(arm.group.begin(), arm.group.end());
-  OnJoints<7, PidLaw<7>> part(PidLaw<7>(arm.gains, GripperArm()), GripperArm(), names);
+  OnJoints<7, PidLaw<7>> part(GripperArm(), PidLaw<7>(GripperArm(), arm.gains), names);
   part.start(state);
   CHECK(part.effort(state, reference, 0.01)[gripper] == 0);
 }

@@ -270,9 +270,9 @@ TEST_CASE("a robot that is a value takes its gravity from the file") {
   const ControllerConfig config = load_controller(example_file("pid_plus_gravity.yaml"));
   REQUIRE(config.gravity);
   auto model = model_of(Q2d());
-  CHECK_NOTHROW(pid_gains(config, model));
+  CHECK_NOTHROW(pid_gains(model, config));
   model.mechanism.gravity = {0, 0, -1.62};  // on the moon
-  CHECK_THROWS_WITH(pid_gains(config, model), Contains("expected (0, 0, -1.62)"));
+  CHECK_THROWS_WITH(pid_gains(model, config), Contains("expected (0, 0, -1.62)"));
 }
 
 TEST_CASE("a file is read as a text is, and a missing one is named") {

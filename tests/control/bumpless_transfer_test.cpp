@@ -296,7 +296,7 @@ TEST_CASE("a period that is none lets nothing decay") {
 TEST_CASE("huge numbers are carried without an overflow") {
   const Model<2> arm = support::free_arm<Arm>();  // without limits
   using C = Switch<Model<2>, Bypass<Model<2>>, Bypass<Model<2>>>;
-  C controllers({.slew = Vector(1, 1)}, Bypass<Model<2>>(arm), Bypass<Model<2>>(arm), arm);
+  C controllers(arm, {.slew = Vector(1, 1)}, Bypass<Model<2>>(arm), Bypass<Model<2>>(arm));
   Reference reference;
   controllers.start({});
   for (const double huge : {support::largest, -support::largest, 1e300, support::smallest, 0.0}) {
@@ -422,7 +422,7 @@ TEST_CASE("in a sum the integral takes what the other laws leave, each joint by 
   const std::array<std::string_view, 1> shoulder{"shoulder_active_joint"},
       elbow{"elbow_active_joint"};
   const PidLaw<2> law(gains, joint_names(Arm()));
-  EffortController<Arm, Law, Law> parts(Arm(), Law(law, Arm(), shoulder), Law(law, Arm(), elbow));
+  EffortController<Arm, Law, Law> parts(Arm(), Law(Arm(), law, shoulder), Law(Arm(), law, elbow));
   parts.start(state);
   CHECK((parts.prime(state, reference, dt, last) - last).norm() < 1e-12);
 

@@ -257,12 +257,12 @@ TEST_CASE("on a random tree each joint can have a law of its own") {
     pid_gains[i] = {.proportional = random.number(1, 10), .integral = random.number(1, 10)};
     springs[i] = {random.number(1, 10), random.number(0, 1)};
   }
-  const PidLaw<5> pid_law(pid_gains, robot);
+  const PidLaw<5> pid_law(robot, pid_gains);
   const ImpedanceLaw<5> spring_law({springs, names});
   using Springs = OnJoints<5, ImpedanceLaw<5>>;
   using Pids = OnJoints<5, PidLaw<5>>;
-  EffortController<Model<5>, Springs, Pids> controller(robot, Springs(spring_law, robot, stiff),
-                                                       Pids(pid_law, robot, pid));
+  EffortController<Model<5>, Springs, Pids> controller(robot, Springs(robot, spring_law, stiff),
+                                                       Pids(robot, pid_law, pid));
   JointState<5> state;
   JointReference<5> reference;
   state.position = random.vector<5>(1);
@@ -278,9 +278,9 @@ TEST_CASE("on a random tree each joint can have a law of its own") {
   CHECK(effort[3] == of_springs[3]);
   CHECK(effort[4] == of_pid[4]);
 
-  CHECK_THROWS_WITH(Pids(pid_law, robot, std::array<std::string_view, 1>{"no_such_joint"}),
+  CHECK_THROWS_WITH(Pids(robot, pid_law, std::array<std::string_view, 1>{"no_such_joint"}),
                     Catch::Matchers::Contains("no_such_joint"));
-  CHECK_THROWS_WITH(Pids(pid_law, robot, std::array<std::string_view, 2>{names[1], names[1]}),
+  CHECK_THROWS_WITH(Pids(robot, pid_law, std::array<std::string_view, 2>{names[1], names[1]}),
                     Catch::Matchers::Contains("twice"));
 }
 

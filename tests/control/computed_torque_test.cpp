@@ -55,7 +55,7 @@ Vector largest_deviation(const Path& path, const Vector& initial_error, double p
   options.initial_velocity = start.velocity;
   Loop<TiltedSim, ComputedTorque> loop(
       TiltedSim(robot, options),
-      ComputedTorque<Model<2>>(ComputedTorque<Model<2>>::critically_damped(w), robot));
+      ComputedTorque<Model<2>>(robot, ComputedTorque<Model<2>>::critically_damped(w)));
   Vector largest = Vector::Zero();
   for (int k = 0; k * period < 0.5; ++k) {
     const double t = k * period;
@@ -99,9 +99,8 @@ TEST_CASE("an error of one joint leaves the other alone") {
 
 TEST_CASE("the effort is M a + h + D v + f sign(v), plus feed-forward") {
   const auto robot = strong_arm(0.7);
-  ComputedTorque<Model<2>> controller({PidGains{.proportional = 100, .derivative = 10},
-                                       PidGains{.proportional = 50, .derivative = 5}},
-                                      robot);
+  ComputedTorque<Model<2>> controller(robot, {PidGains{.proportional = 100, .derivative = 10},
+                                              PidGains{.proportional = 50, .derivative = 5}});
   JointState<2> state;
   state.position = {0.2, -0.5};
   state.velocity = {-1.5, 2.5};

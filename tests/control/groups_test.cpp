@@ -185,12 +185,12 @@ TEST_CASE("the joints of a group that fails are braked, within limits around the
   using Free = Model<2>;  // its joints would coast: it has no damping
   const Free robot = support::free_arm<Arm>();
   const auto bare = [&] {
-    return Parting<Free>({{{"s", {shoulder}}, {"e", {elbow}}}}, Bypass<Free>(robot), {}, robot);
+    return Parting<Free>(robot, {{{"s", {shoulder}}, {"e", {elbow}}}}, Bypass<Free>(robot), {});
   };
   CommandLimits<2> limits;
   limits.acceleration = {100, 100};
   Parting<Free> groups = bare();
-  Limited<Free, Parting> limited(limits, bare(), robot);
+  Limited<Free, Parting> limited(robot, limits, bare());
   const auto speed_after = [&](auto& controller, auto& failing) {
     Simulator<Free> arm(robot, SimulatorOptions<2>{.initial_velocity = Vector(0, -1)});
     JointState<2> state;
@@ -289,7 +289,7 @@ TEST_CASE("on random trees each joint gets its group's command") {
     }
     for (auto& group : groups) group.divisor = random.integer(1, 4);
     using C = Counter<5>;
-    Groups<Model<5>, C, C, C> together(groups, C{.bad = 0.1}, C{.bad = 0.2}, C{.bad = 0.3}, robot);
+    Groups<Model<5>, C, C, C> together(robot, groups, C{.bad = 0.1}, C{.bad = 0.2}, C{.bad = 0.3});
     together.start({});
     for (int cycle = 0; cycle < 12; ++cycle) {
       const auto effort = together.update({}, {}, dt).effort;

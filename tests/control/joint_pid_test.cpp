@@ -175,7 +175,7 @@ TEST_CASE("a continuous joint takes the short way round, another one does not") 
   const Model<1> wheel = support::single_joint(JointType::continuous);
   const Model<1> lever = support::single_joint(JointType::revolute);
   const JointPidGains<1> gains{PidGains{.proportional = 1}};
-  PidLaw<1> turning(gains, wheel), swinging(gains, lever);
+  PidLaw<1> turning(wheel, gains), swinging(lever, gains);
   JointState<1> state;
   JointReference<1> reference;
   constexpr unsigned seed = 5;
@@ -195,8 +195,8 @@ TEST_CASE("a continuous joint takes the short way round, another one does not") 
 }
 
 TEST_CASE("the derivative of a continuous joint's error has no jump where the way changes") {
-  PidLaw<1> law({PidGains{.derivative = 1, .derivative_of = DerivativeOf::error}},
-                support::single_joint(JointType::continuous));
+  PidLaw<1> law(support::single_joint(JointType::continuous),
+                {PidGains{.derivative = 1, .derivative_of = DerivativeOf::error}});
   JointState<1> state;
   JointReference<1> reference;
   for (int k = 0; k < 10000; ++k) {

@@ -90,7 +90,7 @@ template <int N>
 Worst wild_run(const Case<N>& c, support::Random& random, int cycles) {
   using R = Model<N>;
   Loop<Simulator<R>, LimitedBypass> loop(Simulator<R>(c.robot),
-                                         LimitedBypass<R>(c.limits, Bypass<R>(c.robot), c.robot));
+                                         LimitedBypass<R>(c.robot, c.limits, Bypass<R>(c.robot)));
   Worst worst;
   JointVector<N> last = JointVector<N>::Zero();
   for (int k = 0; k < cycles; ++k) {
@@ -157,7 +157,7 @@ TEST_CASE("the finer the cycle, the closer the limits are kept") {
     CommandLimits<1> limits = command_limits(robot);
     limits.upper[0] = 0.5;
     limits.acceleration[0] = 20;
-    Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+    Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
     Simulator<Model<1>> simulator(robot, {.period = period});
     JointState<1> state;
     JointReference<1> reference;
@@ -184,7 +184,7 @@ TEST_CASE("a joint at its limit comes back as soon as the effort says so") {
   CommandLimits<1> limits;
   limits.upper[0] = 0.5;
   limits.deceleration[0] = 10;
-  Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+  Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
   JointState<1> state;
   state.position[0] = 0.5;
   controller.start(state);
@@ -270,7 +270,7 @@ TEST_CASE("after a start efforts change no faster than asked for from what was g
   CommandLimits<1> limits;
   limits.effort[0] = 20;
   limits.effort_rate[0] = 1000;
-  Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+  Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
   const JointVector<1> last(7.0), bad(not_a_number);
   JointReference<1> reference;
   reference.effort[0] = 10;
@@ -298,7 +298,7 @@ TEST_CASE("where efforts change slowly, a jerk that they can follow lets joints 
     limits.effort[0] = 100;
     limits.effort_rate[0] = 1000;
     if (jerk) limits.jerk[0] = 1000.0 / 2;
-    Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+    Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
     Simulator<Model<1>> simulator(robot);
     JointState<1> state;
     JointReference<1> reference;
@@ -327,8 +327,8 @@ TEST_CASE("a feedback comes to rest if the jerk limit is twice A p/d, and may no
     CommandLimits<1> limits;
     limits.acceleration[0] = acceleration;
     limits.jerk[0] = factor * acceleration * gains.proportional / gains.derivative;
-    Limited<Model<1>, PidPlusGravity> controller(limits, PidPlusGravity<Model<1>>({gains}, robot),
-                                                 robot);
+    Limited<Model<1>, PidPlusGravity> controller(robot, limits,
+                                                 PidPlusGravity<Model<1>>(robot, {gains}));
     Simulator<Model<1>> simulator(robot);
     JointState<1> state;
     JointReference<1> reference;
@@ -452,7 +452,7 @@ TEST_CASE("multi-mode: what the drives' springs and dampers do within a cycle is
   limits.acceleration[0] = 1;
   limits.effort[0] = 100;
   const ImpedanceGains gains{.stiffness = 5000, .damping = 500};
-  LimitedImpedance<Model<1>> controller(limits, DriveImpedance<Model<1>>({gains}, robot), robot);
+  LimitedImpedance<Model<1>> controller(robot, limits, DriveImpedance<Model<1>>(robot, {gains}));
   Simulator<Model<1>> simulator(robot);
   JointState<1> state;
   JointReference<1> reference;
@@ -500,7 +500,7 @@ TEST_CASE("multi-mode: a negative spring or damper does not pass, and is reporte
   for (const double position : {1.0, 0.0}) {  // also where it pulls nothing
     for (const bool spring : {true, false}) {
       CAPTURE(position, spring);
-      Limited<Model<1>, AnySprings> controller(limits, {}, robot);
+      Limited<Model<1>, AnySprings> controller(robot, limits, {});
       MultiModeCommand<1>& asked = controller.controller().command;
       asked.stiffness[0] = spring ? -10 : 10;
       asked.damping[0] = spring ? 1 : -1;
@@ -524,7 +524,7 @@ TEST_CASE("a state that is no number is reported, also where no effort was asked
   const Model<1> robot = support::slider();
   CommandLimits<1> limits;
   limits.acceleration[0] = 10;
-  Limited<Model<1>, Bypass> controller(limits, Bypass<Model<1>>(robot), robot);
+  Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
   JointState<1> state;
   controller.start(state);
   static_cast<void>(controller.update(state, {}, dt));

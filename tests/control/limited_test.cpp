@@ -113,7 +113,7 @@ JointReference<1> to_velocity(double velocity) {
 
 Positions positions_within(const CommandLimits<1>& limits) {
   const Slider robot = support::slider();
-  return Positions(limits, ForwardPosition<Slider>(robot), robot);
+  return Positions(robot, limits, ForwardPosition<Slider>(robot));
 }
 
 /// Position commands to a drive that follows.
@@ -140,7 +140,7 @@ struct PositionRun {
 
 Velocities velocities_within(const CommandLimits<1>& limits) {
   const Slider robot = support::slider();
-  return Velocities(limits, ForwardVelocity<Slider>(robot), robot);
+  return Velocities(robot, limits, ForwardVelocity<Slider>(robot));
 }
 
 }  // namespace
@@ -314,8 +314,8 @@ TEST_CASE("a motion as fast as the limits allow passes to the last bit") {
     CommandLimits<1> limits =
         smooth(random.number(0.1, 3), acceleration, acceleration * random.number(3, 300));
     const JointVector<1> from(random.number(-1, 1)), to(random.number(-1, 1));
-    const JerkLimitedProfile<Slider> profile(
-        from, to, {limits.velocity, limits.acceleration, limits.jerk}, robot);
+    const JerkLimitedProfile<Slider> profile(robot, from, to,
+                                             {limits.velocity, limits.acceleration, limits.jerk});
     const bool ends_at_limit = random.one_in(2);
     (to[0] > from[0] ? limits.upper : limits.lower)[0] =
         ends_at_limit ? to[0] : 2 * to[0] - from[0];
@@ -616,8 +616,8 @@ TEST_CASE("the controller is told what was cut off, and does not wind up") {
   limits.velocity[0] = 1;
   using Approach = Limited<Slider, PositionByVelocity>;
   Approach controller(
-      limits, PositionByVelocity<Slider>({PidGains{.proportional = 5, .integral = 2}}, robot),
-      robot);
+      robot, limits,
+      PositionByVelocity<Slider>(robot, {PidGains{.proportional = 5, .integral = 2}}));
   controller.start(at(0));
   for (int k = 0; k < 100; ++k) static_cast<void>(controller.update(at(0), to_position(10), dt));
   CHECK(controller.controller().part<PidLaw<1>>().integral()[0] == 0);
@@ -666,13 +666,13 @@ TEST_CASE("limits that make no sense are refused, naming joint, limit and value"
     CAPTURE(bad.name);
     CommandLimits<1> limits = command_limits(robot);
     (limits.*bad.member)[0] = bad.value;
-    CHECK_THROWS_WITH(Positions(limits, ForwardPosition<Slider>(robot), robot),
+    CHECK_THROWS_WITH(Positions(robot, limits, ForwardPosition<Slider>(robot)),
                       Catch::Matchers::Contains("'joint'") && Catch::Matchers::Contains(bad.name));
   }
   CommandLimits<1> limits = command_limits(robot);
   limits.acceleration[0] = 1;
   limits.deceleration[0] = 2;
-  CHECK_THROWS_WITH(Positions(limits, ForwardPosition<Slider>(robot), robot),
+  CHECK_THROWS_WITH(Positions(robot, limits, ForwardPosition<Slider>(robot)),
                     Catch::Matchers::Contains("deceleration 2 is above the limit 1"));
   CHECK_NOTHROW(Limited<Q2d, ForwardPosition>());  // the description's
 
@@ -681,11 +681,11 @@ TEST_CASE("limits that make no sense are refused, naming joint, limit and value"
     limits = command_limits(robot);
     limits.soft_lower[0] = std::min(side * 5, side * 6);
     limits.soft_upper[0] = std::max(side * 5, side * 6);
-    CHECK_THROWS_WITH(Positions(limits, ForwardPosition<Slider>(robot), robot),
+    CHECK_THROWS_WITH(Positions(robot, limits, ForwardPosition<Slider>(robot)),
                       Catch::Matchers::Contains("'joint'") &&
                           Catch::Matchers::Contains(side > 0 ? "soft_lower 5" : "soft_upper -5") &&
                           Catch::Matchers::Contains("-1 .. 1"));
     (side > 0 ? limits.soft_lower : limits.soft_upper)[0] = side * 1;
-    CHECK_NOTHROW(Positions(limits, ForwardPosition<Slider>(robot), robot));
+    CHECK_NOTHROW(Positions(robot, limits, ForwardPosition<Slider>(robot)));
   }
 }

@@ -31,7 +31,7 @@ JointReference<1> reference_of(double position, double effort = 0) {
 Pid<Model<1>> limited_pid(const PidGains& gains) {
   Model<1> robot = support::slider();
   robot.joints[0].limits.effort = 1;
-  return Pid<Model<1>>({gains}, robot);
+  return Pid<Model<1>>(robot, {gains});
 }
 
 double integral(const Pid<Model<1>>& pid) { return pid.part<PidLaw<1>>().integral()[0]; }
@@ -150,7 +150,7 @@ TEST_CASE("the largest references leave a command within the limits and nothing 
 // Without any limit an overflow reaches the drive, where the loop stops it; the integral must not
 // keep it.
 TEST_CASE("an overflow of an unlimited drive is over in the next cycle") {
-  Pid<Model<1>> pid({PidGains{.proportional = 1, .integral = 1e3}}, support::slider());
+  Pid<Model<1>> pid(support::slider(), {PidGains{.proportional = 1, .integral = 1e3}});
   static_cast<void>(pid.update({}, reference_of(support::largest), 1.0));
   CHECK(is_finite(pid.update({}, reference_of(0), 1e-3)));
 }

@@ -115,7 +115,7 @@ TEST_CASE("what makes no sense is refused at set-up, by name") {
   using Free = Switch<Model<2>, Bypass<Model<2>>, Pid<Model<2>>>;
   const Model<2> arm = support::free_arm();
   const auto make = [&](const SwitchOptions<2>& options) {
-    return Free(options, Bypass<Model<2>>(arm), Pid<Model<2>>(Q2d::pid_gains, arm), arm);
+    return Free(arm, options, Bypass<Model<2>>(arm), Pid<Model<2>>(arm, Q2d::pid_gains));
   };
   CHECK_THROWS_WITH(make({}), Contains("slew inf of joint 'shoulder_active_joint'"));
   CHECK(make({.slew = Vector(1, 1)}).slew() == Vector(1, 1));

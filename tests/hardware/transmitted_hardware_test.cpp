@@ -293,7 +293,7 @@ TEST_CASE("a run-time model behind a four-bar linkage is controlled as any robot
   const Model<2> model = support::model<Q2d>();
   const FourBarTransmission linkage{.actuator_reduction = {80, 60}, .joint_offset = {0.1, -0.2}};
   Loop<Arm, ForwardPosition> loop(
-      Arm(model, Drives({}, 1e-3, model),
+      Arm(model, Drives(model, {}, 1e-3),
           {.joints = {shoulder, elbow}, .actuators = {shoulder, elbow}, .transmission = linkage}),
       ForwardPosition<Model<2>>(model));
   loop.reference().position = {0.3, -0.7};

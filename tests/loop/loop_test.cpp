@@ -220,11 +220,11 @@ TEST_CASE("a robot loaded at run time moves as the one known at compile time") {
   const Model<2> model = support::model<TiltedQ2d>();
   Loop<Simulator<TiltedQ2d>, PidPlusGravity> described;
   Loop<Simulator<Model<2>>, PidPlusGravity> loaded(
-      Simulator<Model<2>>(model), PidPlusGravity<Model<2>>(TiltedQ2d::pid_gains, model));
+      Simulator<Model<2>>(model), PidPlusGravity<Model<2>>(model, TiltedQ2d::pid_gains));
   Loop<Simulator<TiltedQ2d>, ComputedTorque> described_torque;
   Loop<Simulator<Model<2>>, ComputedTorque> loaded_torque(
       Simulator<Model<2>>(model),
-      ComputedTorque<Model<2>>(ComputedTorque<Model<2>>::critically_damped(20), model));
+      ComputedTorque<Model<2>>(model, ComputedTorque<Model<2>>::critically_damped(20)));
   const auto follow = [](auto& one, auto& two) {
     one.reference().position = two.reference().position = Vector(0.4, -0.8);
     for (int k = 0; k < 2000; ++k) {

@@ -80,11 +80,11 @@ TEST_CASE("no controller of any command interface touches the heap") {
   const JointImpedanceGains<2> springs{{{100, 1}, {100, 1}}};
   CHECK(heap_calls_of<2>(ForwardPosition<R>(robot)) == 0);
   CHECK(heap_calls_of<2>(ForwardVelocity<R>(robot)) == 0);
-  CHECK(heap_calls_of<2>(PositionByVelocity<R>(gains, robot)) == 0);
-  CHECK(heap_calls_of<2>(VelocityByEffort<R>(gains, robot)) == 0);
-  CHECK(heap_calls_of<2>(JointImpedance<R>(springs, robot)) == 0);
-  CHECK(heap_calls_of<2>(DriveImpedance<R>(springs, robot)) == 0);
-  CHECK(heap_calls_of<2>(ComputedTorque<R>(gains, robot)) == 0);
+  CHECK(heap_calls_of<2>(PositionByVelocity<R>(robot, gains)) == 0);
+  CHECK(heap_calls_of<2>(VelocityByEffort<R>(robot, gains)) == 0);
+  CHECK(heap_calls_of<2>(JointImpedance<R>(robot, springs)) == 0);
+  CHECK(heap_calls_of<2>(DriveImpedance<R>(robot, springs)) == 0);
+  CHECK(heap_calls_of<2>(ComputedTorque<R>(robot, gains)) == 0);
 }
 
 TEST_CASE("nor do the laws that a controller can be put together from") {
@@ -93,13 +93,13 @@ TEST_CASE("nor do the laws that a controller can be put together from") {
   for (const auto version : {ControlToolbox::current, ControlToolbox::humble_antiwindup}) {
     using Law = OnJoints<2, ControlToolboxPidLaw<2>>;
     const ControlToolboxPidLaw<2> law(version, Q2d::pid_gains, joint_names(robot));
-    CHECK(heap_calls_of<2>(EffortController<Model<2>, Law>(robot, Law(law, robot, elbow))) == 0);
+    CHECK(heap_calls_of<2>(EffortController<Model<2>, Law>(robot, Law(robot, law, elbow))) == 0);
   }
   JointPidGains<2> gains = Q2d::pid_gains;
   gains[0].anti_windup = AntiWindup::back_calculation;
   gains[1].derivative_of = DerivativeOf::error;
   gains[1].derivative_filter_time = 0.01;
-  CHECK(heap_calls_of<2>(PidPlusGravity<Model<2>>(gains, robot)) == 0);
+  CHECK(heap_calls_of<2>(PidPlusGravity<Model<2>>(robot, gains)) == 0);
 }
 
 TEST_CASE("nor do limits, of any command") {
@@ -112,12 +112,12 @@ TEST_CASE("nor do limits, of any command") {
   limits.soft_rate.setConstant(5);
   limits.effort_rate.setConstant(1000);
   const JointImpedanceGains<2> springs{{{100, 1}, {100, 1}}};
-  CHECK(heap_calls_of<2>(LimitedBypass<R>(limits, Bypass<R>(robot), robot)) == 0);
-  CHECK(heap_calls_of<2>(LimitedPid<R>(limits, PidPlusGravity<R>(Q2d::pid_gains, robot), robot)) ==
+  CHECK(heap_calls_of<2>(LimitedBypass<R>(robot, limits, Bypass<R>(robot))) == 0);
+  CHECK(heap_calls_of<2>(LimitedPid<R>(robot, limits, PidPlusGravity<R>(robot, Q2d::pid_gains))) ==
         0);
-  CHECK(heap_calls_of<2>(LimitedPosition<R>(limits, ForwardPosition<R>(robot), robot)) == 0);
-  CHECK(heap_calls_of<2>(LimitedVelocity<R>(limits, ForwardVelocity<R>(robot), robot)) == 0);
-  CHECK(heap_calls_of<2>(LimitedSprings<R>(limits, DriveImpedance<R>(springs, robot), robot)) == 0);
+  CHECK(heap_calls_of<2>(LimitedPosition<R>(robot, limits, ForwardPosition<R>(robot))) == 0);
+  CHECK(heap_calls_of<2>(LimitedVelocity<R>(robot, limits, ForwardVelocity<R>(robot))) == 0);
+  CHECK(heap_calls_of<2>(LimitedSprings<R>(robot, limits, DriveImpedance<R>(robot, springs))) == 0);
 }
 
 TEST_CASE("nor does a loop with everything composed, whose gains change meanwhile") {

@@ -57,9 +57,9 @@ template <Robot R>
 std::size_t heap_calls_of_control(const R& robot) {
   const auto gains = Q2d::pid_gains;
   Bypass<R> bypass(robot);
-  Pid<R> pid(gains, robot);
-  PidPlusGravity<R> plus_gravity(gains, robot);
-  ComputedTorque<R> torque(gains, robot);
+  Pid<R> pid(robot, gains);
+  PidPlusGravity<R> plus_gravity(robot, gains);
+  ComputedTorque<R> torque(robot, gains);
   PidLaw<2> law(gains, joint_names(robot));
   GravityCompensation<R> weight(robot);
   FrictionCompensation<R> friction(robot);

@@ -97,13 +97,13 @@ TEST_CASE("nor on a run-time model with stops and dry friction") {
           return Loop<Sim, Bypass>(std::move(sim), Bypass<Model<2>>(arm));
         }) == 0);
   CHECK(heap_calls_on_model([&](Sim sim, const Model<2>& arm) {
-          return Loop<Sim, Pid>(std::move(sim), Pid<Model<2>>(gains, arm));
+          return Loop<Sim, Pid>(std::move(sim), Pid<Model<2>>(arm, gains));
         }) == 0);
   CHECK(heap_calls_on_model([&](Sim sim, const Model<2>& arm) {
-          return Loop<Sim, PidPlusGravity>(std::move(sim), PidPlusGravity<Model<2>>(gains, arm));
+          return Loop<Sim, PidPlusGravity>(std::move(sim), PidPlusGravity<Model<2>>(arm, gains));
         }) == 0);
   CHECK(heap_calls_on_model([&](Sim sim, const Model<2>& arm) {
-          return Loop<Sim, ComputedTorque>(std::move(sim), ComputedTorque<Model<2>>(gains, arm));
+          return Loop<Sim, ComputedTorque>(std::move(sim), ComputedTorque<Model<2>>(arm, gains));
         }) == 0);
 }
 

@@ -122,7 +122,7 @@ TEST_CASE("a supervised loop with limits over transmissions does not touch the h
   CommandLimits<3> limits = command_limits(robot);
   limits.acceleration.setConstant(20);
   SupervisedLoop<Geared, Careful> loop(geared(DriveModel::servo),
-                                       Careful<Arm>(limits, ForwardPosition<Arm>(robot), robot));
+                                       Careful<Arm>(robot, limits, ForwardPosition<Arm>(robot)));
   int active = 0;
   const std::size_t calls = heap_calls_in([&] {
     for (int k = 0; k < 500; ++k) {

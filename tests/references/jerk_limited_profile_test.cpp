@@ -486,6 +486,6 @@ TEST_CASE("a motion may be as fast as the description allows") {
 
   const Model<1> slider = support::slider();  // whose description limits no velocity
   const JointVector<1> one(1.0);
-  CHECK_THROWS_WITH(validate(motion_limits(slider, one, one), slider),
+  CHECK_THROWS_WITH(validate(slider, motion_limits(slider, one, one)),
                     Contains("velocity inf of joint 'joint'"));
 }

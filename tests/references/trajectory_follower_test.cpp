@@ -324,7 +324,7 @@ TEST_CASE("points that cannot be reached in time are left out, or refused") {
 
 TEST_CASE("a refusal says which figure of which joint breaks which rule") {
   Follower follower(zero, limits);
-  const auto why = [&] { return to_string(follower.refusal(), Q2d()); };
+  const auto why = [&] { return to_string(Q2d(), follower.refusal()); };
   CHECK(why().empty());
 
   CHECK(follower.start(there, {.path_velocity = {0, -1}}) == invalid_goal);
@@ -736,9 +736,9 @@ TEST_CASE("continuous joints take the short way round") {
   const auto knob = support::single_joint(JointType::continuous);
   using Knob = Model<1>;
   const auto one = [](double x) { return JointVector<1>(x); };
-  TrajectoryFollower<Knob> follower(one(20 * pi + 3), {one(5), one(10), one(100)},
-                                    {.tolerances = {.path_position = one(0.1)}}, knob);
-  const Trajectory<Knob> trajectory({{.time_from_start = 1, .position = one(-3)}}, {}, knob);
+  TrajectoryFollower<Knob> follower(knob, one(20 * pi + 3), {one(5), one(10), one(100)},
+                                    {.tolerances = {.path_position = one(0.1)}});
+  const Trajectory<Knob> trajectory(knob, {{.time_from_start = 1, .position = one(-3)}});
   REQUIRE(follower.start(trajectory) == active);
   static_cast<void>(follower.sample(0));
   CHECK(follower.check({one(3), one(0)}) == active);  // whole turns are no error

@@ -268,7 +268,7 @@ TEST_CASE("a named trajectory is put in the robot's order") {
                                 .accelerations = {5, 6},
                                 .effort = {7, 8}},
                                {.time_from_start = 2, .positions = {0.5, 0.25}}}};
-  const auto trajectory = arrange<4>(named, Q2d());
+  const auto trajectory = arrange<4>(Q2d(), named);
   const Point& p = trajectory.points()[0];
   CHECK(p.time_from_start == 1);
   CHECK(p.position == Vector(0.125, 1));
@@ -281,7 +281,7 @@ TEST_CASE("a named trajectory is put in the robot's order") {
 TEST_CASE("names that do not fit are invalid joints, arrays that do not an invalid goal") {
   const auto outcome = [](const NamedTrajectory& named, const char* what) {
     try {
-      static_cast<void>(arrange(named, Q2d()));
+      static_cast<void>(arrange(Q2d(), named));
     } catch (const TrajectoryError& error) {
       CHECK_THAT(error.what(), Contains(what));
       return error.outcome();
@@ -311,7 +311,7 @@ TEST_CASE("joints that are not named stay, where that is allowed") {
   const NamedTrajectory named{{"elbow_active_joint"},
                               {{.time_from_start = 1, .positions = {1}, .velocities = {0}}}};
   const auto trajectory =
-      arrange(named, Q2d(), {.allow_partial_joints = true, .from = JointReference<2>{{0.3, 0.4}}});
+      arrange(Q2d(), named, {.allow_partial_joints = true, .from = JointReference<2>{{0.3, 0.4}}});
   CHECK(trajectory.points()[0].position == Vector(0.3, 1));
   CHECK(trajectory.points()[0].velocity == Vector(0, 0));
 }
@@ -319,7 +319,7 @@ TEST_CASE("joints that are not named stay, where that is allowed") {
 TEST_CASE("what stays or is integrated needs to be told where it is") {
   const auto refusal = [](const NamedTrajectory& named, const ArrangeOptions<2>& options) {
     try {
-      static_cast<void>(arrange(named, Q2d(), options));
+      static_cast<void>(arrange(Q2d(), named, options));
     } catch (const TrajectoryError& error) {
       return std::string(to_string(error.outcome())) + ", " + error.what();
     }
@@ -342,17 +342,18 @@ TEST_CASE("what stays or is integrated needs to be told where it is") {
 TEST_CASE("positions are integrated where that is allowed") {
   const std::vector<std::string> names{"shoulder_active_joint", "elbow_active_joint"};
   const auto by_velocity =
-      arrange({names,
+      arrange(Q2d(),
+              {names,
                {{.time_from_start = 1, .velocities = {0.2, 0.4}},
                 {.time_from_start = 2, .velocities = {0, 0}}}},
-              Q2d(), {.allow_integration = true, .from = JointReference<2>{{0.1, 0}}});
+              {.allow_integration = true, .from = JointReference<2>{{0.1, 0}}});
   CHECK(near(by_velocity.points()[0].position, Vector(0.2, 0.2)));
   CHECK(near(by_velocity.points()[1].position, Vector(0.3, 0.4)));
-  const auto by_acceleration =
-      arrange({names,
-               {{.time_from_start = 1, .accelerations = {0.4, 0.8}},
-                {.time_from_start = 2, .accelerations = {-0.8, -1.6}}}},
-              Q2d(), {.allow_integration = true, .from = JointReference<2>{}});
+  const auto by_acceleration = arrange(Q2d(),
+                                       {names,
+                                        {{.time_from_start = 1, .accelerations = {0.4, 0.8}},
+                                         {.time_from_start = 2, .accelerations = {-0.8, -1.6}}}},
+                                       {.allow_integration = true, .from = JointReference<2>{}});
   CHECK(near(*by_acceleration.points()[0].velocity, Vector(0.2, 0.4)));
   CHECK(near(by_acceleration.points()[1].position, Vector(0.1 + 0.1, 0.4)));
 }

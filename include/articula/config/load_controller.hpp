@@ -147,7 +147,7 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
 ///     const auto arm = load_urdf<2>("arm.urdf", {.root = config.chain_root,
 ///                                                .tip = config.chain_tip,
 ///                                                .gravity = *config.gravity});
-///     PidPlusGravity<Model<2>> controller(pid_gains(config, arm).gains, arm);
+///     PidPlusGravity<Model<2>> controller(arm, pid_gains(arm, config).gains);
 ///
 /// Layouts, keys and their meaning: docs/configuration.md. Controllers of one joint each, as ROS 1
 /// has them, are put together.

@@ -28,14 +28,14 @@ struct PidConfig : ControllerConfig {
 };
 
 /// Puts gains in the order of a robot's joints, and makes sure that the file means this robot.
-/// @param config  from load_controller
 /// @param robot   whose joints they are
+/// @param config  from load_controller
 /// @param whose   gains there must be
 /// @throws ConfigError if the robot lacks a joint of the file, a joint of it has no gains, the
 ///         chain leaves a joint out, or the file's gravity is not the robot's
 /// Real-time: no (allocates, throws).
 template <Robot R>
-[[nodiscard]] PidConfig<joint_count<R>> pid_gains(ControllerConfig config, const R& robot,
+[[nodiscard]] PidConfig<joint_count<R>> pid_gains(const R& robot, ControllerConfig config,
                                                   GainsOf whose = GainsOf::all_joints) {
   PidConfig<joint_count<R>> result;
   const auto joints = detail::arranged_joints(config, robot);
@@ -96,7 +96,7 @@ template <Robot R>
     return detail::has_gains(section) || detail::is_joint(section, joints);
   };
   return pid_gains(
-      detail::load_controller(source, name, relevant, "controller with gains", &joints), robot,
+      robot, detail::load_controller(source, name, relevant, "controller with gains", &joints),
       whose);
 }
 

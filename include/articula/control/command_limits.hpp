@@ -56,7 +56,7 @@ template <Robot R>
 /// @throws std::invalid_argument naming limit, joint, value and what it was compared with
 /// Real-time: no (throws).
 template <Robot R>
-void validate(const CommandLimits<joint_count<R>>& limits, const R& robot) {
+void validate(const R& robot, const CommandLimits<joint_count<R>>& limits) {
   for (int j = 0; j < joint_count<R>; ++j) {
     const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
     const auto refuse = [&](detail::MessageParts parts) {

@@ -28,7 +28,7 @@ class ComputedTorqueLaw {
   ///               clamps in rad/s^2 or m/s^2
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   ComputedTorqueLaw(const R& robot, const JointPidGains<joint_count>& gains)
-      : robot_(robot), feedback_(gains, robot) {}
+      : robot_(robot), feedback_(robot, gains) {}
 
   /// Forgets the integral. Real-time: yes.
   void start(const JointState<joint_count>& state) noexcept { feedback_.start(state); }
@@ -95,14 +95,17 @@ class ComputedTorque : public EffortController<R, ComputedTorqueLaw<R>, Friction
   /// Critically damped errors that decay with exp(-20 t): 63 % of a step in about 0.1 s.
   ComputedTorque() requires DescribedRobot<R> : ComputedTorque(critically_damped(20)) {}
 
+  /// @param robot  its model does the work
   /// @param gains  of the feedback: proportional [1/s^2], integral [1/s^3], derivative [1/s],
   ///               clamps in rad/s^2 or m/s^2
-  /// @param robot  its model does the work
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  explicit ComputedTorque(const JointPidGains<joint_count>& gains, const R& robot = described<R>())
+  ComputedTorque(const R& robot, const JointPidGains<joint_count>& gains)
       : EffortController<R, ComputedTorqueLaw<R>, FrictionCompensation<R>,
                          EffortFeedforward<joint_count>>(robot, ComputedTorqueLaw<R>(robot, gains),
                                                          FrictionCompensation<R>(robot), {}) {}
+  /// For a robot known at compile time.
+  explicit ComputedTorque(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+      : ComputedTorque(R(), gains) {}
 
   /// Feedback gains for critically damped errors, the same for all joints: p = w^2, d = 2 w.
   /// @param bandwidth  w [rad/s], where every error decays as (1 + w t) exp(-w t)

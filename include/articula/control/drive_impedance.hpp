@@ -21,12 +21,14 @@ class DriveImpedance {
   static constexpr std::string_view name = "drive_impedance";
   static constexpr int joint_count = articula::joint_count<R>;
 
-  /// @param gains  of each joint
   /// @param robot  whose weight is carried and whose effort limits hold for what is added
+  /// @param gains  of each joint
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  explicit DriveImpedance(const JointImpedanceGains<joint_count>& gains,
-                          const R& robot = described<R>())
+  DriveImpedance(const R& robot, const JointImpedanceGains<joint_count>& gains)
       : gains_(gains, joint_names(robot)), added_(robot, GravityCompensation<R>(robot), {}) {}
+  /// For a robot known at compile time.
+  explicit DriveImpedance(const JointImpedanceGains<joint_count>& gains) requires DescribedRobot<R>
+      : DriveImpedance(R(), gains) {}
 
   /// Nothing to forget. Real-time: yes.
   void start(const JointState<joint_count>& state) noexcept { added_.start(state); }

@@ -44,7 +44,7 @@ class EffortLimiter {
   /// @param robot   its model foresees the motion
   /// @throws std::invalid_argument if a joint with position limits has neither acceleration nor
   ///         deceleration limited: nobody knows then when it must begin to brake
-  EffortLimiter(const CommandLimits<joint_count>& limits, const R& robot)
+  EffortLimiter(const R& robot, const CommandLimits<joint_count>& limits)
       : robot_(robot),
         limits_(limits),
         damping_(joint_values(robot, [](const JointProperties& joint) { return joint.damping; })) {

@@ -69,16 +69,16 @@ class Groups {
   static_assert((std::same_as<CommandOf<Controllers>, Command> && ...),
                 "the controllers of Groups have the same type of command");
 
+  /// @param robot        whose joints these are
   /// @param groups       of the joints
   /// @param controllers  one per group, in the same order
-  /// @param robot        whose joints these are
   /// @throws std::invalid_argument naming the joint that the robot does not have, that is in two
   ///         groups or in none, the divisor below 1, the name that is empty or there twice
-  explicit Groups(const std::array<JointGroup, group_count>& groups, Controllers... controllers,
-                  const R& robot = described<R>())
+  Groups(const R& robot, const std::array<JointGroup, group_count>& groups,
+         Controllers... controllers)
       : controllers_(std::move(controllers)...), robot_(robot) {
     const std::array<std::size_t, static_cast<std::size_t>(joint_count)> owners =
-        group_of_each_joint(groups, robot);
+        group_of_each_joint(robot, groups);
     for (std::size_t g = 0; g < group_count; ++g) {
       parts_[g].divisor = parts_[g].since = groups[g].divisor;
       for (int j = 0; j < joint_count; ++j) {
@@ -98,6 +98,10 @@ class Groups {
     }
     board_.validate();
   }
+  /// For a robot known at compile time.
+  explicit Groups(const std::array<JointGroup, group_count>& groups,
+                  Controllers... controllers) requires DescribedRobot<R>
+      : Groups(R(), groups, std::move(controllers)...) {}
 
   /// Starts all controllers anew. Real-time: yes.
   void start(const State& state) noexcept {

@@ -20,14 +20,14 @@ struct JointGroup {
 };
 
 /// The place of each joint's group in the list.
-/// @param groups  of which each joint is in one
 /// @param robot   whose joints these are
+/// @param groups  of which each joint is in one
 /// @throws std::invalid_argument naming the joint that the robot does not have, that is in two
 ///         groups or in none, the divisor below 1, the name that is empty or there twice
 /// Real-time: no (allocates).
-template <std::size_t GroupCount, Robot R>
+template <Robot R, std::size_t GroupCount>
 [[nodiscard]] std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> group_of_each_joint(
-    const std::array<JointGroup, GroupCount>& groups, const R& robot) {
+    const R& robot, const std::array<JointGroup, GroupCount>& groups) {
   std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> owners;
   owners.fill(GroupCount);
   for (std::size_t g = 0; g < GroupCount; ++g) {

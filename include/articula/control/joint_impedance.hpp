@@ -54,15 +54,17 @@ class JointImpedance
   static constexpr std::string_view name = "joint_impedance";
   static constexpr int joint_count = articula::joint_count<R>;
 
-  /// @param gains  of each joint
   /// @param robot  whose weight is carried and whose effort limits hold
+  /// @param gains  of each joint
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  explicit JointImpedance(const JointImpedanceGains<joint_count>& gains,
-                          const R& robot = described<R>())
+  JointImpedance(const R& robot, const JointImpedanceGains<joint_count>& gains)
       : EffortController<R, ImpedanceLaw<joint_count>, GravityCompensation<R>,
                          EffortFeedforward<joint_count>>(
             robot, ImpedanceLaw<joint_count>({gains, joint_names(robot)}),
             GravityCompensation<R>(robot), {}) {}
+  /// For a robot known at compile time.
+  explicit JointImpedance(const JointImpedanceGains<joint_count>& gains) requires DescribedRobot<R>
+      : JointImpedance(R(), gains) {}
 };
 
 }  // namespace articula

@@ -60,16 +60,20 @@ class Limited {
   Limited() requires DescribedRobot<R> && std::default_initializable<ControllerType> &&(!by_effort)
       : Limited(command_limits(R())) {}
 
+  /// @param robot       whose joints these are
   /// @param limits      to keep
   /// @param controller  whose commands are limited
-  /// @param robot       whose joints these are
   /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is
   ///         beyond what the description says, or is missing (see EffortLimiter)
-  explicit Limited(const CommandLimits<joint_count>& limits,
-                   ControllerType controller = ControllerType(), const R& robot = described<R>())
+  Limited(const R& robot, const CommandLimits<joint_count>& limits,
+          ControllerType controller = ControllerType())
       : controller_(std::move(controller)),
         limits_(limits),
-        limiter_(make_limiter(limits, robot)) {}
+        limiter_(make_limiter(robot, limits)) {}
+  /// For a robot known at compile time.
+  explicit Limited(const CommandLimits<joint_count>& limits,
+                   ControllerType controller = ControllerType()) requires DescribedRobot<R>
+      : Limited(R(), limits, std::move(controller)) {}
 
   /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
   void start(const State& state) noexcept {
@@ -148,11 +152,11 @@ class Limited {
     return static_cast<std::size_t>(j);
   }
 
-  [[nodiscard]] static Limiter make_limiter(const CommandLimits<joint_count>& limits,
-                                            const R& robot) {
-    validate(limits, robot);
+  [[nodiscard]] static Limiter make_limiter(const R& robot,
+                                            const CommandLimits<joint_count>& limits) {
+    validate(robot, limits);
     if constexpr (by_effort) {
-      return EffortLimiter<R>(limits, robot);
+      return EffortLimiter<R>(robot, limits);
     } else {
       OfJoints limiters;
       for (int j = 0; j < joint_count; ++j) limiters[index(j)] = OfJoint(limits, j);

@@ -23,13 +23,13 @@ namespace articula {
 template <int N, EffortLaw<N> Law>
 class OnJoints {
  public:
-  /// @param law     the part
   /// @param robot   whose joints these are
+  /// @param law     the part
   /// @param joints  names of those that the part acts on
   /// @throws std::invalid_argument if the robot has no such joint, or one is named twice
   template <Robot R>
   requires(joint_count<R> == N)
-      OnJoints(Law law, const R& robot, std::span<const std::string_view> joints)
+      OnJoints(const R& robot, Law law, std::span<const std::string_view> joints)
       : law_(std::move(law)) {
     for (const std::string_view name : joints) {
       const int j = joint_index(robot, name);

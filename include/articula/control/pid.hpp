@@ -23,9 +23,12 @@ class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward
   Pid() requires HasPidGains<R> : Pid(R::pid_gains) {}
 
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  explicit Pid(const JointPidGains<joint_count>& gains, const R& robot = described<R>())
+  Pid(const R& robot, const JointPidGains<joint_count>& gains)
       : EffortController<R, PidLaw<joint_count>, EffortFeedforward<joint_count>>(
-            robot, PidLaw<joint_count>(gains, robot), {}) {}
+            robot, PidLaw<joint_count>(robot, gains), {}) {}
+  /// For a robot known at compile time.
+  explicit Pid(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+      : Pid(R(), gains) {}
 };
 
 }  // namespace articula

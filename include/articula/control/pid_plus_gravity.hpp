@@ -25,10 +25,13 @@ class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, Gravit
   PidPlusGravity() requires HasPidGains<R> : PidPlusGravity(R::pid_gains) {}
 
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  explicit PidPlusGravity(const JointPidGains<joint_count>& gains, const R& robot = described<R>())
+  PidPlusGravity(const R& robot, const JointPidGains<joint_count>& gains)
       : EffortController<R, PidLaw<joint_count>, GravityCompensation<R>,
-                         EffortFeedforward<joint_count>>(robot, PidLaw<joint_count>(gains, robot),
+                         EffortFeedforward<joint_count>>(robot, PidLaw<joint_count>(robot, gains),
                                                          GravityCompensation<R>(robot), {}) {}
+  /// For a robot known at compile time.
+  explicit PidPlusGravity(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+      : PidPlusGravity(R(), gains) {}
 };
 
 }  // namespace articula

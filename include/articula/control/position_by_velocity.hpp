@@ -20,13 +20,15 @@ class PositionByVelocity
   static constexpr std::string_view name = "position_by_velocity";
   static constexpr int joint_count = articula::joint_count<R>;
 
-  /// @param gains  proportional [1/s], integral [1/s^2], derivative [1], clamps in rad/s or m/s
   /// @param robot  whose velocity limits hold
+  /// @param gains  proportional [1/s], integral [1/s^2], derivative [1], clamps in rad/s or m/s
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  explicit PositionByVelocity(const JointPidGains<joint_count>& gains,
-                              const R& robot = described<R>())
+  PositionByVelocity(const R& robot, const JointPidGains<joint_count>& gains)
       : VelocityController<R, PidLaw<joint_count>, VelocityFeedforward<joint_count>>(
-            robot, PidLaw<joint_count>(gains, robot), {}) {}
+            robot, PidLaw<joint_count>(robot, gains), {}) {}
+  /// For a robot known at compile time.
+  explicit PositionByVelocity(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+      : PositionByVelocity(R(), gains) {}
 };
 
 }  // namespace articula

@@ -33,15 +33,16 @@ class Standby {
   static constexpr int joint_count = articula::joint_count<R>;
 
   Standby() requires DescribedRobot<R> : Standby(0.1) {}
+  /// @param robot         whose weight is carried
   /// @param damping_time  T, in which the velocity falls to 1/e [s]; shorter than two periods it is
   ///                      taken for those
-  /// @param robot         whose weight is carried
   /// @throws std::invalid_argument if T is not a number > 0
-  explicit Standby(double damping_time, const R& robot = described<R>())
-      : robot_(robot), damping_time_(damping_time) {
+  Standby(const R& robot, double damping_time) : robot_(robot), damping_time_(damping_time) {
     if (is_finite(damping_time) && damping_time > 0) return;
     detail::refuse({"standby: damping_time ", damping_time, " s is not a number > 0"});
   }
+  /// For a robot known at compile time.
+  explicit Standby(double damping_time) requires DescribedRobot<R> : Standby(R(), damping_time) {}
 
   /// Takes the position that is to be held. Real-time: yes.
   void start(const JointState<joint_count>& state) noexcept { position_ = state.position; }

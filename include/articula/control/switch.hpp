@@ -71,17 +71,16 @@ class Switch {
       (std::default_initializable<Controllers>&&...)
       : Switch(options, Controllers()...) {}
 
+  /// @param robot        whose joints these are
   /// @param options      names, fallbacks, how to begin
   /// @param controllers  ready for use
-  /// @param robot        whose joints these are
   /// @throws std::invalid_argument if there are too many or too few names, a name twice, empty or
   ///         unknown, a controller its own fallback, a slew (of which joint) or time no number > 0
-  explicit Switch(const SwitchOptions<joint_count>& options, Controllers... controllers,
-                  const R& robot = described<R>())
+  Switch(const R& robot, const SwitchOptions<joint_count>& options, Controllers... controllers)
       : controllers_(std::move(controllers)...),
         robot_(robot),
         transfer_(robot, options.slew.value_or(Transfer::default_slew(robot))),
-        standby_(options.damping_time, robot) {
+        standby_(robot, options.damping_time) {
     std::size_t place = 0;
     board_.set_names(options.names, {detail::own_name<Controllers>(place++)...});
     for (const Fallback& fallback : options.fallbacks) {
@@ -95,6 +94,10 @@ class Switch {
     if (!first.empty()) board_.entries[board_.known(first)].active = true;
     set_active(board_.active_at(0));
   }
+  /// For a robot known at compile time.
+  explicit Switch(const SwitchOptions<joint_count>& options,
+                  Controllers... controllers) requires DescribedRobot<R>
+      : Switch(R(), options, std::move(controllers)...) {}
 
   /// Begins anew with the controller that is active, or was asked for. Real-time: yes.
   void start(const State& state) noexcept {

@@ -21,13 +21,15 @@ class VelocityByEffort : public EffortController<R, PidLaw<joint_count<R>, PidOf
   static constexpr int joint_count = articula::joint_count<R>;
   using Law = PidLaw<joint_count, PidOf::velocity>;
 
+  /// @param robot  whose effort limits hold
   /// @param gains  proportional [N m s/rad or N s/m], integral [N m/rad or N/m],
   ///               derivative [kg m^2 or kg], clamps in N m or N
-  /// @param robot  whose effort limits hold
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  explicit VelocityByEffort(const JointPidGains<joint_count>& gains,
-                            const R& robot = described<R>())
-      : EffortController<R, Law, EffortFeedforward<joint_count>>(robot, Law(gains, robot), {}) {}
+  VelocityByEffort(const R& robot, const JointPidGains<joint_count>& gains)
+      : EffortController<R, Law, EffortFeedforward<joint_count>>(robot, Law(robot, gains), {}) {}
+  /// For a robot known at compile time.
+  explicit VelocityByEffort(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+      : VelocityByEffort(R(), gains) {}
 };
 
 }  // namespace articula

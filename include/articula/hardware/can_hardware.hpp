@@ -40,17 +40,22 @@ class CanHardware {
   static constexpr int joint_count = articula::joint_count<R>;
   static_assert(Codec::joint_count == joint_count, "the codec is for another number of joints");
 
+  /// @param robot      whose joints the drives move
   /// @param codec      the drives' language
   /// @param transport  the way to the bus
   /// @throws std::invalid_argument as validate(options) says
-  explicit CanHardware(Codec codec, Transport transport, const CanHardwareOptions& options = {},
-                       const R& robot = described<R>())
+  CanHardware(const R& robot, Codec codec, Transport transport,
+              const CanHardwareOptions& options = {})
       : robot_(robot),
         codec_(std::move(codec)),
         transport_(std::move(transport)),
         options_(options) {
     validate(options);
   }
+  /// For a robot known at compile time.
+  CanHardware(Codec codec, Transport transport,
+              const CanHardwareOptions& options = {}) requires DescribedRobot<R>
+      : CanHardware(R(), std::move(codec), std::move(transport), options) {}
 
   /// The one that is moved from has no drives any more.
   CanHardware(CanHardware&& other) noexcept

@@ -57,12 +57,13 @@ class Cia402Codec {
   static_assert(joint_count < static_cast<int>(CanBatch::capacity) / 2,
                 "too many joints for one bus");
 
+  /// @param robot     whose joints the drives move
   /// @param drives    in the order of the joints
   /// @param period    of the loop [ms], 1 .. 255
   /// @param deadline  longest time without commands that the drives are to accept [ms]
   /// @throws std::invalid_argument as validate says, or if a time is 0
-  explicit Cia402Codec(const Cia402DriveList<joint_count>& drives, std::uint8_t period = 1,
-                       std::uint16_t deadline = 10, const R& robot = described<R>())
+  Cia402Codec(const R& robot, const Cia402DriveList<joint_count>& drives, std::uint8_t period = 1,
+              std::uint16_t deadline = 10)
       : drives_(drives),
         set_ups_(make_set_ups(drives, period, deadline,
                               std::make_index_sequence<static_cast<std::size_t>(joint_count)>())) {
@@ -70,6 +71,10 @@ class Cia402Codec {
     if (period == 0) throw std::invalid_argument("CiA 402: the period is 0 ms");
     if (deadline == 0) throw std::invalid_argument("CiA 402: the deadline is 0 ms");
   }
+  /// For a robot known at compile time.
+  explicit Cia402Codec(const Cia402DriveList<joint_count>& drives, std::uint8_t period = 1,
+                       std::uint16_t deadline = 10) requires DescribedRobot<R>
+      : Cia402Codec(R(), drives, period, deadline) {}
 
   /// Real-time: no (allocates).
   [[nodiscard]] CanSubscription subscription() const {

@@ -33,15 +33,19 @@ class MockHardware {
   using Command = CommandType;
   static constexpr int joint_count = articula::joint_count<R>;
 
+  /// @param robot   whose joints these are
   /// @param script  what goes wrong and when
   /// @param period  time from one command to the next [s]
   /// @throws std::invalid_argument if a fault names a joint that the robot does not have, or the
   ///         period is not a positive number
-  explicit MockHardware(std::vector<MockFault> script = {}, double period = 1e-3,
-                        const R& robot = described<R>())
+  explicit MockHardware(const R& robot, std::vector<MockFault> script = {}, double period = 1e-3)
       : robot_(robot), script_(std::move(script)), period_(period) {
     validate(script_, joint_count, period_);
   }
+  /// For a robot known at compile time.
+  explicit MockHardware(std::vector<MockFault> script = {},
+                        double period = 1e-3) requires DescribedRobot<R>
+      : MockHardware(R(), std::move(script), period) {}
 
   /// Status::hardware_fault if the script says so, else Status::ok. Real-time: yes.
   [[nodiscard]] Status activate() noexcept {

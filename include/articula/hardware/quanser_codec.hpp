@@ -28,12 +28,15 @@ class QuanserCodec {
   using Command = EffortCommand<joint_count>;
   static_assert(joint_count <= quanser::last_node, "the protocol has 31 nodes");
 
+  /// @param robot    whose joints the modules move
   /// @param modules  in the order of the joints
   /// @throws std::invalid_argument as validate says
-  explicit QuanserCodec(const QuanserModules<joint_count>& modules, const R& robot = described<R>())
-      : modules_(modules) {
+  QuanserCodec(const R& robot, const QuanserModules<joint_count>& modules) : modules_(modules) {
     validate(robot, modules);
   }
+  /// For a robot known at compile time.
+  explicit QuanserCodec(const QuanserModules<joint_count>& modules) requires DescribedRobot<R>
+      : QuanserCodec(R(), modules) {}
 
   /// Real-time: no (allocates).
   [[nodiscard]] CanSubscription subscription() const {

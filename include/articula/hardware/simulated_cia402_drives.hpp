@@ -30,12 +30,12 @@ class SimulatedCia402Drives {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 
+  /// @param robot   whose joints these are
   /// @param drives   in the order of the joints
   /// @param options  of the simulated arm
   /// @throws std::invalid_argument if either makes no sense
-  explicit SimulatedCia402Drives(const Cia402DriveList<joint_count>& drives,
-                                 const SimulatorOptions<joint_count>& options = {},
-                                 const R& robot = described<R>())
+  SimulatedCia402Drives(const R& robot, const Cia402DriveList<joint_count>& drives,
+                        const SimulatorOptions<joint_count>& options = {})
       : drives_(drives), simulator_(robot, options), effort_limits_(effort_limits(robot)) {
     validate(robot, drives);
     for (std::size_t j = 0; j < drives.size(); ++j) {
@@ -49,6 +49,10 @@ class SimulatedCia402Drives {
     friction_ = joint_values(robot, [](const JointProperties& joint) { return joint.damping; });
     show_joints();
   }
+  /// For a robot known at compile time.
+  explicit SimulatedCia402Drives(const Cia402DriveList<joint_count>& drives,
+                                 const SimulatorOptions<joint_count>& options = {}) requires
+      DescribedRobot<R> : SimulatedCia402Drives(R(), drives, options) {}
 
   /// Takes a frame from the bus. SYNC lets a period pass and is answered.
   /// @param frame    any frame

@@ -24,18 +24,22 @@ class SimulatedQuanserDrives {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 
+  /// @param robot   whose joints these are
   /// @param modules  in the order of the joints
   /// @param options  of the simulated arm
   /// @throws std::invalid_argument if either makes no sense
-  explicit SimulatedQuanserDrives(const QuanserModules<joint_count>& modules,
-                                  const SimulatorOptions<joint_count>& options = {},
-                                  const R& robot = described<R>())
+  SimulatedQuanserDrives(const R& robot, const QuanserModules<joint_count>& modules,
+                         const SimulatorOptions<joint_count>& options = {})
       : modules_(modules), simulator_(robot, options) {
     validate(robot, modules);
     effort_limits_ = effort_limits(robot);
     watchdog_periods_ = static_cast<int>(std::lround(watchdog / options.period));
     heartbeat_periods_ = static_cast<int>(std::lround(heartbeat_interval / options.period));
   }
+  /// For a robot known at compile time.
+  explicit SimulatedQuanserDrives(const QuanserModules<joint_count>& modules,
+                                  const SimulatorOptions<joint_count>& options = {}) requires
+      DescribedRobot<R> : SimulatedQuanserDrives(R(), modules, options) {}
 
   static constexpr double watchdog = 10e-3;             ///< longest time without efforts [s]
   static constexpr double heartbeat_interval = 100e-3;  ///< [s]

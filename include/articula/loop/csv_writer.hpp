@@ -28,8 +28,7 @@ class CsvWriter {
   using Record = CycleRecord<joint_count, CommandType>;
 
   /// @throws std::runtime_error if the file cannot be written
-  explicit CsvWriter(const std::filesystem::path& path, const R& robot = described<R>())
-      : path_(path.string()), file_(path) {
+  CsvWriter(const R& robot, const std::filesystem::path& path) : path_(path.string()), file_(path) {
     file_.precision(std::numeric_limits<double>::max_digits10);
     file_ << "cycle,time [s],status";
     for (const JointProperties& joint : model_of(robot).joints) {
@@ -61,6 +60,9 @@ class CsvWriter {
     file_ << ",latency [s],period [s],update [s]\n";
     check();
   }
+  /// For a robot known at compile time.
+  explicit CsvWriter(const std::filesystem::path& path) requires DescribedRobot<R>
+      : CsvWriter(R(), path) {}
 
   /// Writes one record.
   /// @throws std::runtime_error if it cannot be written

@@ -38,8 +38,7 @@ class JointStateSender {
   /// @throws std::invalid_argument if the address is none, the divisor is not positive, or the
   ///         robot has more joints than fit into a datagram
   /// @throws std::system_error if the system refuses a socket
-  explicit JointStateSender(const JointStateSenderOptions& options = {},
-                            const R& robot = described<R>())
+  explicit JointStateSender(const R& robot, const JointStateSenderOptions& options = {})
       : robot_(robot), divisor_(options.divisor) {
     if (options.divisor < 1) {
       detail::refuse({"joint state sender: divisor ", options.divisor, " is not at least 1"});
@@ -64,6 +63,9 @@ class JointStateSender {
       throw std::system_error(errno, std::generic_category(), "joint state sender: socket");
     }
   }
+  /// For a robot known at compile time.
+  explicit JointStateSender(const JointStateSenderOptions& options = {}) requires DescribedRobot<R>
+      : JointStateSender(R(), options) {}
   ~JointStateSender() { ::close(socket_); }
   JointStateSender(const JointStateSender&) = delete;
   JointStateSender& operator=(const JointStateSender&) = delete;

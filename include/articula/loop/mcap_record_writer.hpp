@@ -21,9 +21,12 @@ class McapRecordWriter {
   using Record = CycleRecord<joint_count<R>, CommandType>;
 
   /// @throws std::runtime_error if the file cannot be written
-  explicit McapRecordWriter(const std::filesystem::path& path, const R& robot = described<R>())
+  McapRecordWriter(const R& robot, const std::filesystem::path& path)
       : robot_(robot),
         writer_(path, "cycle", "articula.Cycle", schema_of(record_json(robot, Record())).dump()) {}
+  /// For a robot known at compile time.
+  explicit McapRecordWriter(const std::filesystem::path& path) requires DescribedRobot<R>
+      : McapRecordWriter(R(), path) {}
 
   /// Writes one record.
   /// @throws std::runtime_error if it cannot be written

@@ -15,8 +15,8 @@ namespace articula::detail {
 /// @param position  [rad or m], N x 1
 /// @throws std::invalid_argument naming joint, value and limits
 template <Robot R>
-void check_positions(std::string_view who, const JointVector<joint_count<R>>& position,
-                     const R& robot) {
+void check_positions(const R& robot, std::string_view who,
+                     const JointVector<joint_count<R>>& position) {
   for (int j = 0; j < joint_count<R>; ++j) {
     const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
     if (!is_finite(position[j])) {

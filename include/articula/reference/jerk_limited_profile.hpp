@@ -37,6 +37,7 @@ class JerkLimitedProfile {
   using Limits = MotionLimits<joint_count>;
 
   /// From rest to rest.
+  /// @param robot   whose joints these are
   /// @param from    where it begins [rad or m], N x 1; may be beyond the joints' limits, so that
   ///                there is a way back
   /// @param to      where it ends [rad or m], N x 1
@@ -44,10 +45,10 @@ class JerkLimitedProfile {
   /// @throws std::invalid_argument if a limit is out of range, a position is not finite, `to` is
   ///         beyond a joint's limits, or a joint is so slow that it would never arrive; the message
   ///         names joint, value and limit
-  JerkLimitedProfile(const JointVector<joint_count>& from, const JointVector<joint_count>& to,
-                     const Limits& limits, const R& robot = described<R>()) {
-    validate(limits, robot);
-    detail::check_positions("profile", to, robot);
+  JerkLimitedProfile(const R& robot, const JointVector<joint_count>& from,
+                     const JointVector<joint_count>& to, const Limits& limits) {
+    validate(robot, limits);
+    detail::check_positions(robot, "profile", to);
     *this = move(from, to, limits);
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(from[j]) && is_finite(duration_)) continue;
@@ -55,6 +56,10 @@ class JerkLimitedProfile {
                       joint_names(robot)[static_cast<std::size_t>(j)], "' never arrives"});
     }
   }
+  /// For a robot known at compile time.
+  JerkLimitedProfile(const JointVector<joint_count>& from, const JointVector<joint_count>& to,
+                     const Limits& limits) requires DescribedRobot<R>
+      : JerkLimitedProfile(R(), from, to, limits) {}
 
   /// From rest to rest, as the constructor does, for numbers known to be good.
   /// @param limits  that validate() accepts

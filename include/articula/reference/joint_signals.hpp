@@ -46,18 +46,18 @@ class JointSignals {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 
+  /// @param robot    whose joints these are
   /// @param signals  in any order; those of one joint add up
   /// @param around   what they are added to
   /// @throws std::invalid_argument if there are too many signals, a joint is unknown, a signal
   ///         cannot be evaluated, their sum overflows, or `around` is not finite or beyond a
   ///         joint's limits; the message names joint and signal
-  explicit JointSignals(std::span<const JointSignal> signals,
-                        const JointReference<joint_count>& around = {},
-                        const R& robot = described<R>())
+  JointSignals(const R& robot, std::span<const JointSignal> signals,
+               const JointReference<joint_count>& around = {})
       : around_(around),
         lower_(joint_values(robot, [](const auto& joint) { return joint.limits.lower; })),
         upper_(joint_values(robot, [](const auto& joint) { return joint.limits.upper; })) {
-    detail::check_positions("signals", around.position, robot);
+    detail::check_positions(robot, "signals", around.position);
     if (!is_finite(around)) detail::refuse({"signals: what they are added to is not finite"});
     if (signals.size() > entries_.size()) {
       detail::refuse({"signals: ", signals.size(), " are more than the capacity, ", Capacity});
@@ -79,10 +79,16 @@ class JointSignals {
       entries_[size_++] = entry;
     }
   }
+  JointSignals(const R& robot, std::initializer_list<JointSignal> signals,
+               const JointReference<joint_count>& around = {})
+      : JointSignals(robot, std::span(signals.begin(), signals.size()), around) {}
+  /// For a robot known at compile time.
+  explicit JointSignals(std::span<const JointSignal> signals,
+                        const JointReference<joint_count>& around = {}) requires DescribedRobot<R>
+      : JointSignals(R(), signals, around) {}
   explicit JointSignals(std::initializer_list<JointSignal> signals,
-                        const JointReference<joint_count>& around = {},
-                        const R& robot = described<R>())
-      : JointSignals(std::span(signals.begin(), signals.size()), around, robot) {}
+                        const JointReference<joint_count>& around = {}) requires DescribedRobot<R>
+      : JointSignals(R(), signals, around) {}
 
   /// The reference at a time [s]. Real-time: yes. O(N + number of signals).
   [[nodiscard]] JointReference<joint_count> sample(double time) const noexcept {

@@ -43,7 +43,7 @@ template <Robot R>
 /// @throws std::invalid_argument naming limit, joint and value
 /// Real-time: no (throws).
 template <Robot R>
-void validate(const MotionLimits<joint_count<R>>& limits, const R& robot) {
+void validate(const R& robot, const MotionLimits<joint_count<R>>& limits) {
   for (int j = 0; j < joint_count<R>; ++j) {
     const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
     const auto check = [&](std::string_view what, double value) {

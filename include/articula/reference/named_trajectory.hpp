@@ -32,7 +32,7 @@ struct NamedTrajectory {
 
 /// What is done about numbers that a named trajectory leaves out:
 ///
-///     arrange(named, Ur10(), {.allow_partial_joints = true, .from = loop.reference()});
+///     arrange(Ur10(), named, {.allow_partial_joints = true, .from = loop.reference()});
 template <int N>
 struct ArrangeOptions {
   TrajectoryOptions trajectory{};
@@ -54,7 +54,7 @@ struct ArrangeOptions {
 ///         names point and joint
 /// Real-time: no (throws, allocates).
 template <int Capacity = 32, Robot R>
-[[nodiscard]] Trajectory<R, Capacity> arrange(const NamedTrajectory& named, const R& robot,
+[[nodiscard]] Trajectory<R, Capacity> arrange(const R& robot, const NamedTrajectory& named,
                                               const ArrangeOptions<joint_count<R>>& options = {}) {
   constexpr int n = joint_count<R>;
   const auto refuse = [](TrajectoryOutcome outcome, detail::MessageParts parts) {
@@ -125,7 +125,7 @@ template <int Capacity = 32, Robot R>
     last = at_point(point);
     points.push_back(point);
   }
-  return Trajectory<R, Capacity>(points, options.trajectory, robot);
+  return Trajectory<R, Capacity>(robot, points, options.trajectory);
 }
 
 }  // namespace articula

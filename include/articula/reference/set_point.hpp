@@ -15,12 +15,16 @@ class SetPoint {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 
+  /// @param robot     whose joints these are
   /// @param position  q_ref [rad or m], N x 1
   /// @throws std::invalid_argument if a position is not finite or beyond the joint's limits
-  explicit SetPoint(const JointVector<joint_count>& position, const R& robot = described<R>()) {
-    detail::check_positions("set-point", position, robot);
+  SetPoint(const R& robot, const JointVector<joint_count>& position) {
+    detail::check_positions(robot, "set-point", position);
     reference_.position = position;
   }
+  /// For a robot known at compile time.
+  explicit SetPoint(const JointVector<joint_count>& position) requires DescribedRobot<R>
+      : SetPoint(R(), position) {}
 
   /// The same at any time. Real-time: yes.
   [[nodiscard]] JointReference<joint_count> sample(double /*time*/) const noexcept {

@@ -28,8 +28,8 @@ class StopAndReturn {
   /// @param position  finite [rad or m], N x 1
   /// @param limits    that validate() accepts
   /// Real-time: yes.
-  StopAndReturn(const Position& position, const MotionLimits<joint_count>& limits,
-                const R& robot) noexcept
+  StopAndReturn(const R& robot, const Position& position,
+                const MotionLimits<joint_count>& limits) noexcept
       : limits_(limits),
         lower_(joint_values(robot, [](const auto& joint) { return joint.limits.lower; })),
         upper_(joint_values(robot, [](const auto& joint) { return joint.limits.upper; })),

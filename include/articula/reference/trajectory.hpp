@@ -54,6 +54,7 @@ class Trajectory {
   static_assert(noexcept(Point{}) || true);
   static_assert(Capacity >= 1, "a trajectory has at least one point");
 
+  /// @param robot    whose joints these are
   /// @param points   in the order of time
   /// @param options  what lies between them
   /// @throws TrajectoryError (invalid_goal) if there is no point or too many, a time is negative or
@@ -61,8 +62,7 @@ class Trajectory {
   ///         the joint's limits, at a point or on the way to it, a velocity or the mean velocity to
   ///         a point above its limit, or the last velocity is not zero, or leads out of the limits
   ///         of a joint that stands at one; the message names point, joint, value and limit
-  explicit Trajectory(std::span<const Point> points, const TrajectoryOptions& options = {},
-                      const R& robot = described<R>())
+  Trajectory(const R& robot, std::span<const Point> points, const TrajectoryOptions& options = {})
       : options_(options), size_(points.size()) {
     if (points.empty()) refuse({"it has no point"});
     if (points.size() > points_.size()) {
@@ -76,9 +76,16 @@ class Trajectory {
     check_end(points.back(), options.allow_motion_at_end, robot);
     std::copy(points.begin(), points.end(), points_.begin());
   }
-  explicit Trajectory(std::initializer_list<Point> points, const TrajectoryOptions& options = {},
-                      const R& robot = described<R>())
-      : Trajectory(std::span(points.begin(), points.size()), options, robot) {}
+  Trajectory(const R& robot, std::initializer_list<Point> points,
+             const TrajectoryOptions& options = {})
+      : Trajectory(robot, std::span(points.begin(), points.size()), options) {}
+  /// For a robot known at compile time.
+  explicit Trajectory(std::span<const Point> points,
+                      const TrajectoryOptions& options = {}) requires DescribedRobot<R>
+      : Trajectory(R(), points, options) {}
+  explicit Trajectory(std::initializer_list<Point> points,
+                      const TrajectoryOptions& options = {}) requires DescribedRobot<R>
+      : Trajectory(R(), points, options) {}
 
   [[nodiscard]] std::span<const Point> points() const noexcept { return {points_.data(), size_}; }
   [[nodiscard]] Interpolation interpolation() const noexcept { return options_.interpolation; }

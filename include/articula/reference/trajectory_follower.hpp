@@ -60,23 +60,23 @@ class TrajectoryFollower {
   using Limits = MotionLimits<joint_count>;
   using Tolerances = TrajectoryTolerances<joint_count>;
 
+  /// @param robot     whose joints these are
   /// @param position  where the joints are asked to be until the first trajectory, usually where
   ///                  they are measured [rad or m], N x 1
   /// @param limits    of stops, ways back and bridges
   /// @throws std::invalid_argument if a position is not finite, or a limit, a tolerance or the rate
   ///         is out of range; the message names joint and value
-  TrajectoryFollower(const JointVector<joint_count>& position, const Limits& limits,
-                     const FollowerOptions<joint_count>& options = {},
-                     const R& robot = described<R>())
+  TrajectoryFollower(const R& robot, const JointVector<joint_count>& position, const Limits& limits,
+                     const FollowerOptions<joint_count>& options = {})
       : limits_(limits),
         set_tolerances_(options.tolerances),
         range_{joint_values(robot, [](const auto& joint) { return joint.limits.lower; }),
                joint_values(robot, [](const auto& joint) { return joint.limits.upper; }),
                JointVector<joint_count>::Zero()},
         speed_(options.speed_rate, options.highest_speed),
-        rest_(position, limits, robot) {
-    validate(limits, robot);
-    validate(options.tolerances, robot);
+        rest_(robot, position, limits) {
+    validate(robot, limits);
+    validate(robot, options.tolerances);
     for (int j = 0; j < joint_count; ++j) {
       const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
       if (!is_finite(position[j])) {
@@ -87,6 +87,10 @@ class TrajectoryFollower {
     }
     reference_.position = position;
   }
+  /// For a robot known at compile time.
+  TrajectoryFollower(const JointVector<joint_count>& position, const Limits& limits,
+                     const FollowerOptions<joint_count>& options = {}) requires DescribedRobot<R>
+      : TrajectoryFollower(R(), position, limits, options) {}
 
   /// Starts a trajectory in place of the one that is followed or waits.
   /// @param start_time  when its time 0 is, on the clock of sample() [s]; `now`: in motion at the
@@ -191,7 +195,7 @@ class TrajectoryFollower {
   /// What became of the last trajectory that was started. Real-time: yes.
   [[nodiscard]] TrajectoryOutcome outcome() const noexcept { return outcome_; }
   /// Why the last start() was refused, or why what it had accepted could not begin when it was due;
-  /// `to_string(follower.refusal(), robot)` is a line of it. Real-time: yes.
+  /// `to_string(robot, follower.refusal())` is a line of it. Real-time: yes.
   [[nodiscard]] const TrajectoryRefusal& refusal() const noexcept { return refusal_; }
   /// The last sample. Real-time: yes.
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }

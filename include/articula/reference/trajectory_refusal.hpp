@@ -25,7 +25,7 @@ struct TrajectoryRefusal {
 /// nothing was refused.
 /// Real-time: no (allocates).
 template <Robot R>
-[[nodiscard]] std::string to_string(const TrajectoryRefusal& refusal, const R& robot) {
+[[nodiscard]] std::string to_string(const R& robot, const TrajectoryRefusal& refusal) {
   if (refusal.what.empty()) return {};
   std::string text = detail::message_of({refusal.what, " ", refusal.value});
   if (refusal.joint >= 0) {

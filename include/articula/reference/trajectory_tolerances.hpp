@@ -55,8 +55,8 @@ template <int N>
 /// @throws std::invalid_argument naming tolerance, joint and value
 /// Real-time: no (throws).
 template <Robot R>
-void validate(const TrajectoryTolerances<joint_count<R>>& tolerances, const R& robot) {
-  const std::string text = to_string(refusal_of(tolerances), robot);
+void validate(const R& robot, const TrajectoryTolerances<joint_count<R>>& tolerances) {
+  const std::string text = to_string(robot, refusal_of(tolerances));
   if (!text.empty()) detail::refuse({"tolerances: ", text});
 }
 
