@@ -66,13 +66,17 @@ int cycles_at_the_clamp(ControlToolbox version) {
 
 TEST_CASE("the first outputs for a constant error") {
   using Texts = std::vector<std::string>;
-  CHECK(first_outputs(ControlToolbox::noetic) == Texts{"23.1464", "23.1928", "23.2392"});
-  CHECK(first_outputs(ControlToolbox::humble) == Texts{"26.1364", "23.1928", "23.2392"});
+  for (const auto version : {ControlToolbox::noetic, ControlToolbox::noetic_antiwindup,
+                             ControlToolbox::humble, ControlToolbox::humble_antiwindup,
+                             ControlToolbox::jazzy, ControlToolbox::jazzy_antiwindup}) {
+    CHECK(first_outputs(version) == Texts{"26.1364", "23.1928", "23.2392"});
+  }
   CHECK(first_outputs(ControlToolbox::current) == Texts{"26.09", "23.1464", "23.1928"});
 }
 
 TEST_CASE("the integral reaches its clamp after 0.602 s") {
-  for (const auto version : {ControlToolbox::noetic, ControlToolbox::humble}) {
+  for (const auto version :
+       {ControlToolbox::noetic, ControlToolbox::humble, ControlToolbox::jazzy}) {
     auto law = law_of(version);
     int cycles = 0;
     for (; law.integral()[0] < 27.94; ++cycles) static_cast<void>(output(law, 0.01));
@@ -85,10 +89,12 @@ TEST_CASE("how long the integral stays at its clamp when the error changes its s
   CHECK(cycles_at_the_clamp(ControlToolbox::noetic) == 1398);
   CHECK(cycles_at_the_clamp(ControlToolbox::humble_antiwindup) == 1);
   CHECK(cycles_at_the_clamp(ControlToolbox::noetic_antiwindup) == 1);
+  CHECK(cycles_at_the_clamp(ControlToolbox::jazzy) == 1398);
+  CHECK(cycles_at_the_clamp(ControlToolbox::jazzy_antiwindup) == 1);
   CHECK(cycles_at_the_clamp(ControlToolbox::current) == 2);
 }
 
-TEST_CASE("our own law has noetic's outputs, and no windup") {
+TEST_CASE("our own law has humble's outputs without the kick, and no windup") {
   PidGains g = course;
   g.anti_windup = AntiWindup::conditional_integration;
   PidLaw<1> law({g}, {"shoulder"});
@@ -190,8 +196,8 @@ TEST_CASE("what each does with a period of 0 and with an error that is no number
 }
 
 TEST_CASE("start forgets the past") {
-  for (const auto version :
-       {ControlToolbox::current, ControlToolbox::humble_antiwindup, ControlToolbox::noetic}) {
+  for (const auto version : {ControlToolbox::current, ControlToolbox::jazzy,
+                             ControlToolbox::humble_antiwindup, ControlToolbox::noetic}) {
     auto law = law_of(version);
     const double first = output(law, 0.01);
     static_cast<void>(output(law, 0.01));
@@ -200,11 +206,71 @@ TEST_CASE("start forgets the past") {
   }
 }
 
+TEST_CASE("start leaves the integrals of joints that keep them") {
+  for (const auto version : {ControlToolbox::current, ControlToolbox::jazzy, ControlToolbox::humble,
+                             ControlToolbox::noetic_antiwindup}) {
+    CAPTURE(static_cast<int>(version));
+    ControlToolboxPidLaw<2> law(version, {course, course}, {"shoulder", "elbow"}, {true, false});
+    JointReference<2> reference;
+    reference.position = JointVector<2>::Constant(0.01);
+    for (int k = 0; k < 10; ++k) static_cast<void>(law.effort({}, reference, 1e-3));
+    const double kept = law.integral()[0];
+    REQUIRE(kept == Approx(0.464).epsilon(1e-12));  // 10 cycles of 0.0464 N m
+    law.start({});
+    CHECK(law.integral()[0] == kept);
+    CHECK(law.integral()[1] == 0);
+    const auto next = law.effort({}, reference, 1e-3);
+    // Both have the kick of e/dt again, since all else is forgotten.
+    CHECK(next[0] - next[1] == Approx(kept).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("its gains are checked too") {
   PidGains g = course;
   g.integral = support::not_a_number;
   CHECK_THROWS_WITH(law_of(ControlToolbox::current, g), Catch::Matchers::Contains("'shoulder'") &&
                                                             Catch::Matchers::Contains("integral"));
+}
+
+TEST_CASE("output clamps without 0 between them are kept, and taken by these laws alone") {
+  PidGains g{.proportional = 1, .output_clamp_min = 2, .output_clamp_max = 5};
+  for (const auto version :
+       {ControlToolbox::current, ControlToolbox::jazzy, ControlToolbox::jazzy_antiwindup}) {
+    auto law = law_of(version, g);
+    CHECK(output(law, 0) == 2);
+    CHECK(output(law, 3) == 3);
+    CHECK(output(law, 9) == 5);
+  }
+  CHECK_THROWS_WITH(PidLaw<1>({g}, {"shoulder"}), Catch::Matchers::Contains("output_clamp_min 2"));
+  g.output_clamp_max = 1;
+  CHECK_THROWS_WITH(law_of(ControlToolbox::current, g),
+                    Catch::Matchers::Contains("'shoulder'") &&
+                        Catch::Matchers::Contains("output_clamp_min 2 is not below"));
+  g.output_clamp_max = support::not_a_number;
+  CHECK_THROWS_WITH(law_of(ControlToolbox::humble, g),
+                    Catch::Matchers::Contains("output_clamp_min 2 is not below"));
+}
+
+TEST_CASE("Jazzy has a dead-band and output clamps, and stands still where Humble gives 0") {
+  PidGains g{.proportional = 10,
+             .integral = 100,
+             .integral_clamp_min = -1,
+             .integral_clamp_max = 1,
+             .output_clamp_min = -4,
+             .output_clamp_max = 4,
+             .error_deadband = 0.1};
+  for (const auto version : {ControlToolbox::jazzy, ControlToolbox::jazzy_antiwindup}) {
+    CAPTURE(static_cast<int>(version));
+    auto law = law_of(version, g);
+    CHECK(output(law, 0.1, 0.1) == 1);   // within the dead-band nothing is added
+    CHECK(output(law, 0.2, 0.1) == 3);   // p e + the clamp: 100 x 0.2 x 0.1 is 2
+    CHECK(output(law, 0.35, 0.1) == 4);  // of 3.5 + 1
+    CHECK(output(law, -0.2, 0) == 4);    // a period of 0: the last output again
+    CHECK(std::isnan(output(law, support::not_a_number, 0.1)));
+    // 2 + 3.5 - 2 are left of the sum, 1 - 2 of the term that is kept between the clamps.
+    const bool keeps = version == ControlToolbox::jazzy_antiwindup;
+    CHECK(output(law, -0.2, 0.1) == Approx(keeps ? -3 : -1));
+  }
 }
 
 TEST_CASE("a velocity that is no number changes nothing but one output") {

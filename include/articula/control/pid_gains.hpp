@@ -30,7 +30,7 @@ enum class DerivativeOf : unsigned char {
 /// Which signs p, i and d may have.
 enum class GainSigns : unsigned char {
   not_negative,  ///< with a negative one a joint runs away from its reference
-  any,           ///< whatever another library takes
+  any,           ///< whatever control_toolbox takes: output clamps without 0 between them, too
 };
 
 /// The gains of one joint's PID. The output is N m (or N) where it is an effort. ROS users know the
@@ -70,7 +70,7 @@ using ValidPidGains = ValidGains<PidGains, N>;
 /// .. 1, back-calculation whose T_t nothing tells.
 /// @param gains  of all joints
 /// @param names  of the same joints, for the message
-/// @param signs  which p, i and d may have
+/// @param signs  which p, i and d may have; with `any` the output clamps need not contain 0
 /// @throws std::invalid_argument naming joint, gain and value
 /// Real-time: no (throws).
 template <std::size_t N>
@@ -103,7 +103,12 @@ void validate(const std::array<PidGains, N>& gains, const std::array<std::string
     check_gain("integral", g.integral);
     check_gain("derivative", g.derivative);
     check_clamps("integral_clamp", g.integral_clamp_min, g.integral_clamp_max);
-    check_clamps("output_clamp", g.output_clamp_min, g.output_clamp_max);
+    if (signs == GainSigns::not_negative) {
+      check_clamps("output_clamp", g.output_clamp_min, g.output_clamp_max);
+    } else if (!(g.output_clamp_min <= g.output_clamp_max)) {
+      refuse({"output_clamp_min ", g.output_clamp_min, " is not below output_clamp_max ",
+              g.output_clamp_max});
+    }
     if (g.anti_windup > AntiWindup::conditional_integration) {
       refuse({"anti_windup is none of these"});
     }
