@@ -94,6 +94,23 @@ TEST_CASE("waveforms of positions, and the other shapes") {
   CHECK(reference.effort[1] == 3);
 }
 
+TEST_CASE("a square has the keys of a sine, and its height is the drive's to give") {
+  const std::string square = "waveforms: {elbow_active_joint: {type: square, amplitude: 2, ";
+  for (const std::string rest :
+       {"frequency: 0.5}}", "period: 2}}", "angular_frequency: 3.14159}}"}) {
+    CHECK(sampled(square + rest, 0.9).effort[1] == 2);
+    CHECK(sampled(square + rest, 1.1).effort[1] == -2);
+  }
+  CHECK(sampled(square + "period: 2, offset: -1}}", 1.1).effort[1] == -3);
+  CHECK_THROWS_WITH(sampled(square + "period: 2, offset: 12}}", 0), Contains("an effort of 14"));
+  CHECK_THROWS_WITH(sampled(square + "period: 2, duty: 0.5}}", 0),
+                    Contains("unknown key 'duty', expected the keys of a square: amplitude, "));
+  const std::string again = "{type: square, amplitude: 7, period: 2}";
+  CHECK_THROWS_WITH(
+      load_signals(Q2d(), yaml("waveforms: {elbow_active_joint: [" + again + ", " + again + "]}")),
+      Contains("add up to 14 "));
+}
+
 TEST_CASE("waveforms that cannot be are refused") {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
@@ -113,7 +130,8 @@ TEST_CASE("waveforms that cannot be are refused") {
              Contains("robot 'q2d' has no joint 'elbow'"));
   CHECK_THAT(
       complaint("waveforms: {elbow_active_joint: {type: sawtooth, amplitude: 1}}"),
-      Contains("the word 'sawtooth', expected one of sine, sin, sinusoid, step, ramp, chirp"));
+      Contains("the word 'sawtooth', expected one of sine, sin, sinusoid, step, ramp, chirp, "
+               "square"));
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1}}"),
              Contains("the key 'frequency' is missing"));
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1, period: 1}}"),

@@ -202,7 +202,30 @@ TEST_CASE("no signal exceeds its peak") {
     check(RampSignal{.height = a, .duration = T});
     check(SineSignal{.amplitude = a, .frequency = random.number(-9, 9), .offset = a - f});
     check(ChirpSignal{.amplitude = a, .first_frequency = f, .last_frequency = g, .duration = T});
+    check(SquareSignal{.amplitude = a, .frequency = random.number(-9, 9), .offset = a - f});
   }
+}
+
+TEST_CASE("a square is the sign of the sine, and its halves have the same number of cycles") {
+  const SquareSignal square{.amplitude = 2, .frequency = 0.7, .phase = 0.3, .offset = 1};
+  const SineSignal sine{.amplitude = 1, .frequency = 0.7, .phase = 0.3};
+  for (int k = -1000; k < 1000; ++k) {
+    const double t = 0.0123 * k, s = sine.sample(t).value;
+    if (std::abs(s) < 1e-9) continue;  // an edge, on either side of which it may be by rounding
+    CHECK(square.sample(t).value == (s > 0 ? 3 : -1));
+    CHECK(square.sample(t).rate == 0);
+    CHECK(square.sample(t).acceleration == 0);
+  }
+  for (const double frequency : {2.5, 0.1, 5.0, 12.5}) {
+    const SquareSignal wave{.amplitude = 1, .frequency = frequency};
+    const int half = static_cast<int>(std::lround(500 / frequency));  // cycles of 1 ms
+    for (int k = 0; k < 100 * half; ++k) {
+      CAPTURE(frequency, k);
+      REQUIRE(wave.sample(k * 1e-3).value == (k / half % 2 == 0 ? 1 : -1));
+    }
+  }
+  CHECK(SquareSignal{.amplitude = 1e308, .offset = 1e308}.fault() ==
+        "the sum of amplitude and offset is infinite");
 }
 
 TEST_CASE("unknown joints, too many signals and impossible poses are refused") {

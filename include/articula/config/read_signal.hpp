@@ -62,10 +62,21 @@ class SignalShapeReader {
         static_cast<void>(type->word());
         map_.note(*type, "not used: a plugin's name, no waveform's; this one is a sine");
       } else {
-        shape = type->one_of({"sine", "sin", "sinusoid", "step", "ramp", "chirp"});
+        shape = type->one_of({"sine", "sin", "sinusoid", "step", "ramp", "chirp", "square"});
       }
     }
-    return shape == 3 ? step() : shape == 4 ? ramp() : shape == 5 ? chirp() : sine();
+    switch (shape) {
+      case 3:
+        return step();
+      case 4:
+        return ramp();
+      case 5:
+        return chirp();
+      case 6:
+        return wave<SquareSignal>("a square");
+      default:
+        return wave<SineSignal>("a sine");
+    }
   }
 
  private:
@@ -90,17 +101,20 @@ class SignalShapeReader {
                        .duration = positive("duration"),
                        .start = number("start")};
   }
-  [[nodiscard]] Signal sine() {
+  /// A sine or a square, which have the same keys.
+  template <class Wave>
+  [[nodiscard]] Signal wave(const std::string& name) {
     map_.allow_only({"amplitude", "frequency", "period", "angular_frequency", "phase", "offset"},
-                    "the keys of a sine: amplitude, frequency [Hz], period [s] or "
-                    "angular_frequency [rad/s], phase [rad], offset");
-    SineSignal sine{
+                    "the keys of " + name +
+                        ": amplitude, frequency [Hz], period [s] or "
+                        "angular_frequency [rad/s], phase [rad], offset");
+    Wave wave{
         .amplitude = height("amplitude"), .frequency = any_frequency(), .phase = number("phase")};
     if (const auto offset = map_.find("offset")) {
-      sine.offset = offset->number();
-      static_cast<void>(limited(*offset, std::abs(sine.offset) + std::abs(sine.amplitude)));
+      wave.offset = offset->number();
+      static_cast<void>(limited(*offset, std::abs(wave.offset) + std::abs(wave.amplitude)));
     }
-    return sine;
+    return wave;
   }
 
   [[nodiscard]] double number(std::string_view key) {

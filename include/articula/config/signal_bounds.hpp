@@ -34,6 +34,9 @@ struct SignalBounds {
     } else if (const auto* sine = std::get_if<SineSignal>(&signal)) {
       waves.high += sine->offset + std::abs(sine->amplitude);
       waves.low += sine->offset - std::abs(sine->amplitude);
+    } else if (const auto* square = std::get_if<SquareSignal>(&signal)) {
+      waves.high += square->offset + std::abs(square->amplitude);
+      waves.low += square->offset - std::abs(square->amplitude);
     }
   }
   for (const double corner : corners) {

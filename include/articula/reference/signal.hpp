@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Functions of time to excite or move a joint with: step, ramp, sine, chirp.
+/// @file Functions of time to excite or move a joint with: step, ramp, sine, square,
+/// chirp.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 #include <string_view>
 #include <variant>
@@ -100,6 +102,37 @@ struct SineSignal {
   }
 };
 
+/// x(t) = offset + amplitude in the first half of each period, offset - amplitude in the second, at
+/// all times: the sign of the sine of the same frequency and phase. It jumps, as a step does.
+struct SquareSignal {
+  double amplitude = 0;  ///< [unit]
+  double frequency = 0;  ///< [Hz]
+  double phase = 0;      ///< [rad]
+  double offset = 0;     ///< [unit]
+
+  /// Real-time: yes.
+  [[nodiscard]] SignalValue sample(double time) const noexcept {
+    const double shift = phase / (2 * std::numbers::pi);
+    const double turns = frequency * time + shift - std::floor(shift);
+    // The time of an edge is often a product of numbers that are rounded: what is nearer than that
+    // counts as the edge, so that all halves have the same number of cycles.
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * (1 + std::abs(turns));
+    const double share = turns + rounding - std::floor(turns + rounding);
+    return {offset + (share < 0.5 ? amplitude : -amplitude)};
+  }
+  /// What its sizes never exceed. Real-time: yes.
+  [[nodiscard]] SignalValue peak() const noexcept {
+    return {std::abs(offset) + std::abs(amplitude)};
+  }
+  /// What is wrong with it; empty if nothing.
+  [[nodiscard]] std::string_view fault() const noexcept {
+    for (const double x : {amplitude, frequency, phase, offset}) {
+      if (!is_finite(x)) return "a member is not a finite number";
+    }
+    return is_finite(peak()) ? "" : "the sum of amplitude and offset is infinite";
+  }
+};
+
 /// A sine whose frequency grows (or falls) exponentially, a logarithmic sweep [Farina 2000]: with
 /// t from the start, w1 = 2 pi first_frequency, k = ln(last_frequency / first_frequency)/duration,
 ///
@@ -163,6 +196,6 @@ struct ChirpSignal {
 };
 
 /// Any of them.
-using Signal = std::variant<StepSignal, RampSignal, SineSignal, ChirpSignal>;
+using Signal = std::variant<StepSignal, RampSignal, SineSignal, ChirpSignal, SquareSignal>;
 
 }  // namespace articula
