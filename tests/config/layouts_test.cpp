@@ -2,8 +2,10 @@
 #include <articula/config/load_controller_manager.hpp>
 #include <articula/config/load_pid_gains.hpp>
 #include <articula/config/load_signals.hpp>
+#include <articula/config/load_trajectory_tolerances.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -71,13 +73,153 @@ TEST_CASE("a wildcard counts in its namespace") {
         "test:1: /left/**.ros__parameters: not used, no section is in this namespace");
 }
 
-TEST_CASE("of two wildcards the one that is nearer to the controller is stronger") {
-  for (const std::string text :
-       {"/**: {ros__parameters: {priority: 10}}\n/left/**: {ros__parameters: {priority: 20}}\n",
-        "/left/**: {ros__parameters: {priority: 20}}\n/**: {ros__parameters: {priority: 10}}\n"}) {
-    CHECK(loaded(text + "/left/arm: " + controller("1")).priority == 20);
-    CHECK(loaded(text + "/right/arm: " + controller("1")).priority == 10);
+TEST_CASE("of several sections that mean a controller the later one is stronger, as in ROS 2") {
+  const std::string all = "/**: {ros__parameters: {priority: 10}}\n";
+  const std::string left = "/left/**: {ros__parameters: {priority: 20}}\n";
+  const std::string arms = "/**/arm: {ros__parameters: {priority: 30}}\n";
+  const std::string own = "/left/arm: " + controller("1");
+  CHECK(loaded(all + left + arms + own).priority == 30);
+  CHECK(loaded(arms + all + left + own).priority == 20);
+  CHECK(loaded(own + arms + left + all).priority == 10);
+  CHECK(loaded(arms + own + left).priority == 20);
+  CHECK(loaded(all + left + "/right/arm: " + controller("1")).priority == 10);
+  CHECK(loaded(arms + own + left).notes.empty());  // no value of its own was replaced
+
+  // The order is that of ros__parameters, not of the keys around them.
+  CHECK(
+      loaded("/**: {arm: {ros__parameters: {priority: 1}}, ros__parameters: {priority: 2}}\n" + own)
+          .priority == 2);
+  CHECK(
+      loaded("/**: {ros__parameters: {priority: 2}, arm: {ros__parameters: {priority: 1}}}\n" + own)
+          .priority == 1);
+
+  // A controller's own value that a later section replaces is noted; other entries of a map stay.
+  const auto config = loaded(own +
+                             "/**:\n  ros__parameters:\n    elbow_active_joint: {p: 7, d: 2}\n"
+                             "    shoulder_active_joint: {p: 1}\n");
+  CHECK(config.gains[0].proportional == 1);
+  CHECK(config.gains[1].proportional == 7);
+  CHECK(config.gains[1].derivative == 2);
+  CHECK(config.notes ==
+        std::vector<std::string>{
+            "test:1: /left/arm.ros__parameters.elbow_active_joint.p: not used: "
+            "/**.ros__parameters.elbow_active_joint.p in line 4 comes later and counts, as in "
+            "ROS 2"});
+}
+
+TEST_CASE("the forms of wildcards mean the controllers that they mean in ROS 2") {
+  struct Case {
+    std::string pattern;
+    std::vector<std::string> covered, others;
+  };
+  const std::vector<Case> cases = {
+      {"/**", {"arm", "/left/arm", "/left/upper/arm"}, {}},
+      {"/*", {"arm"}, {"/left/arm"}},
+      {"/**/arm", {"arm", "/left/arm", "/left/upper/arm"}, {"/left/leg"}},
+      {"/*/arm", {"/left/arm"}, {"arm", "/left/upper/arm", "/left/leg"}},
+      {"/left/**", {"/left/arm", "/left/upper/arm"}, {"/right/arm", "/lefty/arm", "arm"}},
+      {"/left/*", {"/left/arm"}, {"/left/upper/arm", "arm"}},
+      {"/left/**/arm", {"/left/arm", "/left/upper/arm"}, {"arm", "/left/leg"}},
+      {"/**/upper/*", {"/upper/arm", "/left/upper/arm"}, {"/left/arm", "arm"}},
+      {"/*/*/arm", {"/left/upper/arm"}, {"/left/arm"}},
+      {"arm", {"arm"}, {"/left/arm", "/army"}},
+      {"/left/arm", {"/left/arm"}, {"arm"}},
+  };
+  for (const Case& each : cases) {
+    for (const bool covered : {true, false}) {
+      for (const std::string& name : covered ? each.covered : each.others) {
+        CAPTURE(each.pattern, name);
+        CHECK(detail::SectionName(each.pattern).covers(detail::SectionName(name)) == covered);
+        if (each.pattern.find('*') == std::string::npos) continue;
+        // In a file that has both, whichever comes first; and with the key in two parts.
+        const std::string own = name + ": " + controller("1");
+        const std::string parameters = "{ros__parameters: {priority: 5}}";
+        const std::string key = each.pattern + ": ";
+        const std::size_t slash = each.pattern.rfind('/');
+        for (const std::string& text :
+             {key + parameters + "\n" + own, own + key + parameters + "\n",
+              own + (slash == 0
+                         ? key + parameters + "\n"
+                         : each.pattern.substr(0, slash) + ": {\"" +
+                               each.pattern.substr(slash + 1) + "\": " + parameters + "}\n")}) {
+          CHECK(loaded(text, name).priority.has_value() == covered);
+        }
+      }
+    }
   }
+}
+
+TEST_CASE("a controller may be there by a wildcard alone") {
+  for (const std::string key : {"/**/arm", "/*/arm", "/left/**/arm", "/*/*/arm"}) {
+    INFO(key);
+    const std::string text = key + ": " + controller("3");
+    CHECK(loaded(text).gains[1].proportional == 3);
+    CHECK(loaded(text, "arm").name == "arm");
+    CHECK_THAT(complaint("/**: {ros__parameters: {priority: 1}}\n" + text, "leg"),
+               Contains("no controller with gains called 'leg'"));
+  }
+  // It is asked for in a namespace: what is of that namespace counts.
+  const std::string text = "/**/arm: " + controller("3") +
+                           "/left/**: {ros__parameters: {priority: 4}}\n"
+                           "/right/*: {ros__parameters: {priority: 5}}\n";
+  CHECK(loaded(text, "/left/arm").priority == 4);
+  CHECK(loaded(text, "right/arm").priority == 5);
+  CHECK_FALSE(loaded(text, "arm").priority);
+  // One of that name that has a section is meant by it, whatever its namespace.
+  CHECK(loaded(text + "/left/arm: {ros__parameters: {gravity: {z: -9.8}}}\n", "arm").priority == 4);
+  // Both forms mean the same arm.
+  CHECK(loaded("/**/arm: {ros__parameters: {priority: 6}}\n/*/arm: " + controller("1")).priority ==
+        6);
+  CHECK(loaded("/*/arm: " + controller("1") + "/**/arm: {ros__parameters: {priority: 6}}\n")
+            .priority == 6);
+  // The controller manager lists it, and /** has its parameters.
+  const std::string listed =
+      "controller_manager: {ros__parameters: {update_rate: 5, j: {type: a/StateBroadcaster},\n"
+      "  arm: {type: pid_controller/PidController}}}\n/**: " +
+      controller("8");
+  CHECK(loaded(listed).gains[0].proportional == 8);
+  CHECK(loaded(listed).type == "pid_controller/PidController");
+  CHECK(loaded(listed, "arm").name == "arm");
+  // A slip in the section of an arm is one, in that of everybody it is noted.
+  CHECK_THAT(complaint("/**/arm: {ros__parameters: {priorit: 1, joints: [elbow_active_joint], "
+                       "elbow_active_joint: {p: 1}}}\n"),
+             Contains("/**/arm.ros__parameters.priorit: unknown key"));
+}
+
+TEST_CASE("constraints of a wildcard count, and what is for joints of others is noted") {
+  const auto file = support::config_file("wildcard_controllers.yaml");
+  const auto left = load_trajectory_tolerances(Q2d(), file, "/left/arm_controller");
+  CHECK(left.tolerances.goal_time == 2);
+  CHECK(left.tolerances.path_position[0] == 0.2);
+  CHECK(left.tolerances.path_position[1] == 0.1);
+  CHECK(left.tolerances.goal_position[0] == 0.02);
+  const auto right = load_trajectory_tolerances(Q2d(), file, "/right/arm_controller");
+  CHECK(right.tolerances.path_position[0] == 0.2);
+  CHECK(right.tolerances.path_position[1] == 0);
+  const auto gains = load_pid_gains(Q2d(), file);
+  CHECK(gains.gains[0].anti_windup == AntiWindup::none);
+  CHECK(gains.gains[1].anti_windup == AntiWindup::conditional_integration);
+  CHECK(gains.gains[1].derivative == 0.25);
+  for (const auto& notes : {left.notes, right.notes, gains.notes}) {
+    for (const std::string part : {"gains", "constraints"}) {
+      CHECK(std::find(notes.begin(), notes.end(),
+                      support::config_file("wildcard_controllers.yaml").name() +
+                          (part == "gains" ? ":7" : ":10") + ": /**.ros__parameters." + part +
+                          ".wrist_joint: not used: joint 'wrist_joint' is not this "
+                          "controller's") != notes.end());
+    }
+  }
+  // The controller's own words for joints that it lacks are slips.
+  CHECK_THAT(complaint("arm:\n  ros__parameters:\n    joints: [elbow_active_joint]\n"
+                       "    gains: {elbow_active_joint: {p: 1}, elbow_activ_joint: {p: 1}}\n"),
+             Contains("test:4:41: arm.ros__parameters.gains.elbow_activ_joint: unknown key"));
+  // So is what is no joint, and what is no gain, wherever it stands.
+  CHECK_THAT(
+      complaint("/**: {ros__parameters: {constraints: {goal_tim: 1}}}\narm: " + controller("1")),
+      Contains("/**.ros__parameters.constraints.goal_tim: unknown key"));
+  CHECK_THAT(
+      complaint("/**: {ros__parameters: {elbow_active_joint: {dd: 1}}}\narm: " + controller("1")),
+      Contains("/**.ros__parameters.elbow_active_joint.dd: unknown key"));
 }
 
 TEST_CASE("what a section inherits and does not know is noted with its own place") {

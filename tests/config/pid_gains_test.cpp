@@ -220,7 +220,7 @@ TEST_CASE("every key of pid_controller means what it says") {
   CHECK(elbow.anti_windup == AntiWindup::back_calculation);
   CHECK(elbow.tracking_time == 0.02);
   CHECK(config.type == "pid_controller/PidController");  // from the controller manager
-  CHECK(config.notes.size() == 4);
+  CHECK(config.notes.size() == 5);
 }
 
 TEST_CASE("what our gains have beyond ROS's can be given, too") {

@@ -372,11 +372,12 @@ TEST_CASE("placeholders that were not filled in are told") {
     CHECK_THAT(p(value), Contains("test:3:6: shoulder_active_joint.p: the placeholder '") &&
                              Contains(unfilled + "a number"));
   }
+  const std::string its_value = "its value: ConfigSource(file, {{\"kp\", \"...\"}})";
   for (const std::string value : {"{{ kp }}", "{{kp}}"}) {
     CHECK(p(value) ==
-          "test:3:7: shoulder_active_joint.p: the placeholder '" + value + unfilled + "its value");
+          "test:3:7: shoulder_active_joint.p: the placeholder '" + value + unfilled + its_value);
     CHECK(in_braces(value) ==
-          "test:3:26: elbow_active_joint.p: the placeholder '" + value + unfilled + "its value");
+          "test:3:26: elbow_active_joint.p: the placeholder '" + value + unfilled + its_value);
   }
   for (const std::string value : {"@kp@", "%kp%"}) {
     const std::string expected = "expected the placeholder '" + value +
@@ -390,7 +391,8 @@ TEST_CASE("placeholders that were not filled in are told") {
              Contains("test:1:2: it is not YAML") && Contains("'{% for j in joints %}' in line 1"));
   // YAML passes over lines that begin with % and hold no %YAML.
   CHECK(of_gains(joints + "%gains%\n") ==
-        "test:2:1: the placeholder '%gains%" + unfilled + "its value");
+        "test:2:1: the placeholder '%gains%" + unfilled +
+            "its value: ConfigSource(file, {{\"gains\", \"...\"}})");
   CHECK_THAT(of_gains("% gains of the arm\n" + shoulder),
              Contains("test:1:1: a % at the beginning of the line"));
   CHECK(of_gains("%YAML 1.2\n---\n" + shoulder + "elbow_active_joint: {p: 1}\n") == "none");

@@ -40,7 +40,7 @@ inline void check_directive(const std::string& file, int line, std::string_view 
   throw ConfigError({file, line, 1, ""},
                     has_placeholder(here) ? unfilled_text(placeholder_in(here))
                                           : "a % at the beginning of the line",
-                    has_placeholder(here) ? "its value" : "a key");
+                    has_placeholder(here) ? "its value" + value_example(here) : "a key");
 }
 
 /// What YAML parsers disagree on: NUL, and tabs as indentation; and UTF-16.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/config/robot_joints.hpp"
+#include "articula/config/scalar.hpp"
 #include "articula/config/section.hpp"
 
 #include <algorithm>
@@ -41,19 +42,26 @@ namespace articula::detail {
                         section.group.starts_with(std::string(name) + "/");
     if (within && relevant(section)) {
       chosen.push_back(section);
+    } else if (name.empty() && section.fault) {
+      left_out.push_back(std::string(section.fault->what()) + ": not used");
     } else if (name.empty()) {
       left_out.push_back(all.file + ":" + std::to_string(section.line()) + ": " + section.path +
                          ": not used, it is no " + what);
     }
   }
-  if (!full.empty()) return full;
-  if (!exact.empty()) return exact;
+  for (std::vector<ConfigSection>* sections : {&full, &exact, &chosen}) {
+    for (const ConfigSection& section : *sections) section.check();
+    if (!sections->empty() && sections != &chosen) return *sections;
+  }
   // A file that is nothing but parameters is anybody's.
   if (chosen.empty() && all.sections.size() == 1 && all.sections[0].name.empty()) {
     return all.sections;
   }
   notes.insert(notes.end(), left_out.begin(), left_out.end());
   if (!chosen.empty()) return chosen;
+  for (const ConfigSection& section : all.sections) {
+    if (name.empty()) section.check();  // it may be what was meant
+  }
   if (name.empty()) {
     constexpr std::size_t most = 8;
     std::string list;  // of what is there instead

@@ -33,7 +33,9 @@ class ConfigValue {
     throw ConfigError(place(), reason, expected);
   }
   /// @throws ConfigError: what stands there, and what should
-  [[noreturn]] void refuse(const std::string& expected) const { refuse(what_is(*node_), expected); }
+  [[noreturn]] void refuse(const std::string& expected) const {
+    refuse(what_is(*node_), expected + value_hint(node_->text));
+  }
 
   /// A finite number.
   [[nodiscard]] double number() const {

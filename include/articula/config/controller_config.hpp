@@ -21,6 +21,7 @@ struct ConfiguredJoint {
   double goal_tolerance = 0;  ///< constraints.<joint>.goal [rad or m]; 0: not checked
   /// angle_wraparound: the error is that of the short way round
   std::optional<bool> short_way{};
+  bool keeps_integral = false;  ///< save_i_term, for ControlToolboxPidLaw
   ConfigPlace place{};
   ConfigPlace short_way_place{};
 };

@@ -4,6 +4,7 @@
 
 #include "articula/config/characters.hpp"
 #include "articula/config/error.hpp"
+#include "articula/config/filled_text.hpp"
 #include "articula/config/node.hpp"
 #include "articula/config/odd_character.hpp"
 #include "articula/config/parse_hint.hpp"
@@ -36,7 +37,7 @@ class ConfigBuilder final : public YAML::EventHandler {
   static constexpr std::size_t most_nodes = 20000;  ///< with those that aliases repeat
 
   /// @param text  what is parsed; it must live on
-  ConfigBuilder(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
+  ConfigBuilder(std::string file, const FilledText& text) : file_(std::move(file)), text_(&text) {}
 
   /// The root of the document.
   [[nodiscard]] ConfigNode take() { return std::move(root_); }
@@ -94,8 +95,8 @@ class ConfigBuilder final : public YAML::EventHandler {
     ConfigMark key_mark{};
   };
 
-  [[nodiscard]] static ConfigMark at(const YAML::Mark& mark) {
-    return {std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
+  [[nodiscard]] ConfigMark at(const YAML::Mark& mark) const {
+    return text_->in_file({std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1});
   }
   [[noreturn]] void refuse(ConfigMark mark, const std::string& reason,
                            const std::string& expected) const {
@@ -152,8 +153,10 @@ class ConfigBuilder final : public YAML::EventHandler {
   }
   void open(ConfigNode node, YAML::anchor_t anchor) {
     if (awaits_key()) {
-      const std::string_view unfilled = placeholder_in(line_of(text_, node.mark.line));
-      if (unfilled.starts_with('{')) refuse(node.mark, unfilled_text(unfilled), "its value");
+      const std::string_view unfilled = placeholder_in(line_of(text_->text(), node.mark.line));
+      if (unfilled.starts_with('{')) {
+        refuse(node.mark, unfilled_text(unfilled), "its value" + value_example(unfilled));
+      }
       refuse(node.mark, what_is(node) + " as a key", "a word");
     }
     check_depth(stack_.size() + 1, node.mark);
@@ -206,7 +209,7 @@ class ConfigBuilder final : public YAML::EventHandler {
   }
 
   std::string file_;
-  std::string_view text_;
+  const FilledText* text_;
   bool started_ = false;
   std::size_t nodes_ = 0;
   std::vector<Open> stack_{};
@@ -214,20 +217,22 @@ class ConfigBuilder final : public YAML::EventHandler {
   ConfigNode root_{};
 };
 
-/// Reads the one document of a YAML file. Equal keys, nesting without end and aliases that multiply
+/// Reads the one document of a YAML file, values in place of placeholders. Equal keys, nesting without end and aliases that multiply
 /// are refused.
 /// @throws ConfigError with file, line and column
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ConfigNode read_document(const ConfigSource& source) {
-  const std::string text = with_line_feeds(source.contents());
+  const FilledText filled(source.name(), with_line_feeds(source.contents()), source.values());
+  const std::string& text = filled.text();
   check_characters(source.name(), text);
   std::istringstream stream(text);
-  ConfigBuilder builder(source.name(), text);
+  ConfigBuilder builder(source.name(), filled);
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) continue;
   } catch (const YAML::Exception& error) {
-    const int line = std::max(error.mark.line, 0) + 1, column = std::max(error.mark.column, 0) + 1;
+    const auto [line, column] =
+        filled.in_file({std::max(error.mark.line, 0) + 1, std::max(error.mark.column, 0) + 1});
     throw ConfigError({source.name(), line, column, ""}, "it is not YAML: " + shown(error.msg),
                       parse_hint(text, line));
   }

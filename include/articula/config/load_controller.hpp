@@ -5,6 +5,7 @@
 
 #include "articula/config/chosen_sections.hpp"
 #include "articula/config/controller_config.hpp"
+#include "articula/config/find_sections.hpp"
 #include "articula/config/read_controller.hpp"
 #include "articula/config/robot_joints.hpp"
 #include "articula/config/section.hpp"
@@ -44,7 +45,7 @@ namespace detail {
 
 [[nodiscard]] inline bool has_joints(const ConfigSection& section) {
   return has_gains(section) || has_constraints(section) ||
-         (section.parameters.find("joints") != nullptr && !is_broadcaster(section));
+         section.parameters.find("joints") != nullptr;
 }
 
 /// Adds what another controller says to a configuration. There is one robot and one control thread:
@@ -109,12 +110,16 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
 /// @param relevant  see chosen_sections
 /// @param what      is looked for, for messages
 /// @param robot     whose joints they are; nullptr: of any robot
+/// @param signs     which its gains may have
 [[nodiscard]] inline ControllerConfig load_controller(
     const ConfigSource& source, std::string_view name,
     const std::function<bool(const ConfigSection&)>& relevant, const std::string& what,
-    const RobotJoints* robot = nullptr) {
-  ConfigSections all = find_sections(source);
-  const std::vector<ConfigSection> chosen = chosen_sections(all, name, relevant, what, all.notes);
+    const RobotJoints* robot = nullptr, GainSigns signs = GainSigns::not_negative) {
+  ConfigSections all = find_sections(source, name);
+  const auto controls = [&](const ConfigSection& section) {
+    return !is_broadcaster(section) && relevant(section);
+  };
+  const std::vector<ConfigSection> chosen = chosen_sections(all, name, controls, what, all.notes);
   std::vector<std::string> names;
   std::string found;
   bool single_joints = true;
@@ -131,9 +136,9 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
     throw ConfigError({all.file, second.line(), second.parameters.key_mark.column, second.path},
                       "there are several: " + found, choice_text(names, "") + " by name");
   }
-  ControllerConfig config = ControllerReader(all.file, chosen.front(), robot).take();
+  ControllerConfig config = ControllerReader(all.file, chosen.front(), robot, signs).take();
   for (std::size_t k = 1; k < chosen.size(); ++k) {
-    put_together(config, ControllerReader(all.file, chosen[k], robot).take());
+    put_together(config, ControllerReader(all.file, chosen[k], robot, signs).take());
   }
   config.notes.insert(config.notes.end(), all.notes.begin(), all.notes.end());
   return config;
@@ -154,12 +159,15 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
 /// @param source  a file, or a ConfigSource::text
 /// @param name    of the controller, of a namespace, or the type of the controllers that are meant;
 ///                need not be given where there is but one
+/// @param signs   which p, i and d may have; with `any` output clamps need not contain 0: for
+///                ControlToolboxPidLaw
 /// @throws ConfigError with file, line, key and what was expected: no YAML, no such controller or
 ///         several, an unknown or missing key, a wrong type, a value out of range
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ControllerConfig load_controller(const ConfigSource& source,
-                                                      std::string_view name = {}) {
-  return detail::load_controller(source, name, detail::has_joints, "controller");
+                                                      std::string_view name = {},
+                                                      GainSigns signs = GainSigns::not_negative) {
+  return detail::load_controller(source, name, detail::has_joints, "controller", nullptr, signs);
 }
 
 }  // namespace articula

@@ -3,6 +3,7 @@
 /// articula::config (yaml-cpp).
 #pragma once
 
+#include "articula/config/find_sections.hpp"
 #include "articula/config/reader.hpp"
 #include "articula/config/section.hpp"
 #include "articula/config/source.hpp"
@@ -79,6 +80,7 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
 [[nodiscard]] inline ControllerManagerConfig load_controller_manager(const ConfigSource& source) {
   using detail::ConfigMap;
   using detail::ConfigSection;
+  using detail::Inherited;
   const detail::ConfigSections all = detail::find_sections(source);
   const ConfigSection* section = nullptr;
   for (const ConfigSection& each : all.sections) {
@@ -104,8 +106,10 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
                           : "one, in place of '" + detail::shown(slip->name) + "'");
   }
 
-  ControllerManagerConfig config;
-  ConfigMap map(detail::ConfigValue(all.file, section->parameters, section->path), config.notes);
+  section->check();
+  ControllerManagerConfig config{.notes = section->notes};
+  ConfigMap map(detail::ConfigValue(all.file, section->parameters, section->path), config.notes,
+                Inherited::may_be_unknown);
   if (const auto rate = map.find("update_rate")) {
     config.update_rate = rate->integer(1, 1000000);
   } else {

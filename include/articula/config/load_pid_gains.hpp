@@ -6,6 +6,7 @@
 #include "articula/config/load_controller.hpp"
 #include "articula/core/name.hpp"
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -25,6 +26,8 @@ template <int N>
 struct PidConfig : ControllerConfig {
   JointPidGains<N> gains{};   ///< in the order of the robot's joints; 0 where the file has none
   std::vector<Name> group{};  ///< joints that have gains in the file, for Groups and OnJoints
+  /// save_i_term, for ControlToolboxPidLaw, in the order of the robot's joints
+  std::array<bool, static_cast<std::size_t>(N)> keeps_integral{};
 };
 
 /// Puts gains in the order of a robot's joints, and makes sure that the file means this robot.
@@ -50,6 +53,7 @@ template <Robot R>
                         "them, such as " + detail::shown(joint->name) + ": {p: ...}");
     }
     result.gains[j] = *joint->gains;
+    result.keeps_integral[j] = joint->keeps_integral;
     result.group.emplace_back(joint->name);
     const bool turns = model_of(robot).joints[j].type == JointType::continuous;
     if (joint->short_way && *joint->short_way != turns) {
@@ -84,19 +88,23 @@ template <Robot R>
 /// @param name    of the controller, of a namespace, or the type of the controllers that are meant;
 ///                need not be given where there is but one with gains
 /// @param whose   gains there must be
+/// @param signs   which p, i and d may have; with `any` output clamps need not contain 0: for
+///                ControlToolboxPidLaw
 /// @throws ConfigError with file, line, key and what was expected, see load_controller and
 /// pid_gains
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] PidConfig<joint_count<R>> load_pid_gains(const R& robot, const ConfigSource& source,
                                                        std::string_view name = {},
-                                                       GainsOf whose = GainsOf::all_joints) {
+                                                       GainsOf whose = GainsOf::all_joints,
+                                                       GainSigns signs = GainSigns::not_negative) {
   const detail::RobotJoints joints = detail::joints_of(robot);
   const auto relevant = [&](const detail::ConfigSection& section) {
     return detail::has_gains(section) || detail::is_joint(section, joints);
   };
   return pid_gains(
-      robot, detail::load_controller(source, name, relevant, "controller with gains", &joints),
+      robot,
+      detail::load_controller(source, name, relevant, "controller with gains", &joints, signs),
       whose);
 }
 

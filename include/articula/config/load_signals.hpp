@@ -4,6 +4,7 @@
 #pragma once
 
 #include "articula/config/chosen_sections.hpp"
+#include "articula/config/find_sections.hpp"
 #include "articula/config/read_signals.hpp"
 #include "articula/config/robot_joints.hpp"
 #include "articula/config/signal_config.hpp"
@@ -33,7 +34,7 @@ namespace articula {
 template <Robot R>
 [[nodiscard]] SignalConfig load_signals(const R& robot, const ConfigSource& source,
                                         std::string_view name = {}) {
-  detail::ConfigSections all = detail::find_sections(source);
+  detail::ConfigSections all = detail::find_sections(source, name);
   const detail::RobotJoints joints = detail::joints_of(robot);
   const auto relevant = [&](const detail::ConfigSection& section) {
     const auto has = [&](const char* key) { return section.parameters.find(key) != nullptr; };

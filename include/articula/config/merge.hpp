@@ -8,25 +8,62 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace articula::detail {
 
+/// Says of a map's entries, and of all below them, that they come from another section.
+inline void mark_inherited(ConfigNode& map, const std::string& path) {
+  for (ConfigNode& item : map.items) {
+    item.from = path + "." + shown(item.key);
+    item.inherited = true;
+    mark_inherited(item, item.from);
+  }
+}
+
 /// Entries of `weak` that `strong` does not have are added to it; maps are merged. Both are maps.
-/// @param path   of `weak`
-/// @param depth  0 at the parameters themselves
-inline void merge_into(ConfigNode& strong, const ConfigNode& weak, const std::string& path,
-                       std::size_t depth = 0) {
+inline void add_missing(ConfigNode& strong, const ConfigNode& weak) {
   for (const ConfigNode& item : weak.items) {
-    const std::string here = path + "." + shown(item.key);
     const auto same = std::find_if(strong.items.begin(), strong.items.end(),
                                    [&](const ConfigNode& mine) { return mine.key == item.key; });
     if (same == strong.items.end()) {
       strong.items.push_back(item);
-      strong.items.back().from = here;
-      strong.items.back().inherited = depth == 0;
     } else if (same->is_map() && item.is_map()) {
-      merge_into(*same, item, here, depth + 1);
+      add_missing(*same, item);
     }
+  }
+}
+
+/// An entry that has become another one.
+struct Replacement {
+  std::string path;  ///< of what it was
+  ConfigMark mark;   ///< likewise, of its key
+  std::string by;    ///< the path of what it is
+  int line;          ///< likewise
+};
+
+/// Entries of `strong`, which are inherited, take the place of those of `weak`; maps are merged.
+/// Both are maps.
+/// @param path      of `weak`
+/// @param replaced  receives the entries that are others now
+inline void replace_entries(ConfigNode& weak, const ConfigNode& strong, const std::string& path,
+                            std::vector<Replacement>& replaced) {
+  for (const ConfigNode& item : strong.items) {
+    const auto same = std::find_if(weak.items.begin(), weak.items.end(),
+                                   [&](const ConfigNode& mine) { return mine.key == item.key; });
+    if (same == weak.items.end()) {
+      weak.items.push_back(item);
+      continue;
+    }
+    const std::string here = same->from.empty() ? path + "." + shown(item.key) : same->from;
+    if (same->is_map() && item.is_map()) {
+      replace_entries(*same, item, here, replaced);
+      continue;
+    }
+    if (!same_value(*same, item)) {
+      replaced.push_back({here, same->key_mark, item.from, item.key_mark.line});
+    }
+    *same = item;
   }
 }
 

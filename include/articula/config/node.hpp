@@ -25,7 +25,7 @@ struct ConfigNode {
   std::string text{};      ///< of a scalar
   std::string key{};       ///< in a map
   std::string from{};      ///< the keys from the top where it comes from another section, /** or so
-  bool inherited = false;  ///< likewise, and a parameter that the section may not know
+  bool inherited = false;  ///< likewise: something that the section may not know
   ConfigMark mark{};
   ConfigMark key_mark{};
   std::vector<ConfigNode> items{};  ///< of a list or map
@@ -47,6 +47,15 @@ struct ConfigNode {
   std::size_t count = 1;
   for (const ConfigNode& item : node.items) count += node_count(item);
   return count;
+}
+
+/// True if two trees say the same.
+[[nodiscard]] inline bool same_value(const ConfigNode& a, const ConfigNode& b) noexcept {
+  return a.kind == b.kind && a.quoted == b.quoted && a.text == b.text &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(),
+                    [](const ConfigNode& x, const ConfigNode& y) {
+                      return x.key == y.key && same_value(x, y);
+                    });
 }
 
 /// How many levels a tree has.

@@ -46,7 +46,7 @@ namespace articula::detail {
   }
   if (unfilled.empty()) return "";
   return "the placeholder '" + shown(unfilled) + "' in line " + std::to_string(last) +
-         " to be filled in by a template tool before";
+         " to be filled in by a template tool before" + value_hint(unfilled);
 }
 
 }  // namespace articula::detail

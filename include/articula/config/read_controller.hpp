@@ -24,8 +24,14 @@ namespace articula::detail {
 class ControllerReader {
  public:
   /// @param robot  whose joints they are; nullptr: of any robot
-  ControllerReader(const std::string& file, const ConfigSection& section, const RobotJoints* robot)
-      : robot_(robot), map_(ConfigValue(file, section.parameters, section.path), config_.notes) {
+  /// @param signs  which its gains may have
+  ControllerReader(const std::string& file, const ConfigSection& section, const RobotJoints* robot,
+                   GainSigns signs = GainSigns::not_negative)
+      : config_{.notes = section.notes},
+        robot_(robot),
+        map_(ConfigValue(file, section.parameters, section.path), config_.notes,
+             Inherited::may_be_unknown),
+        context_{.signs = signs} {
     config_.name = section.name;
     config_.type = section.type;
     config_.place = map_.value().place();
@@ -71,6 +77,8 @@ class ControllerReader {
     if (const ConfigNode* gains = node.find("gains"); gains != nullptr && gains->is_map()) {
       const ConfigValue by_joint = map_.value().at(*gains);
       for (const ConfigNode& item : gains->items) {
+        // Whose gains the controller gives itself are its joints, if it gives any.
+        if (item.inherited && !gains->inherited) continue;
         config_.joints.push_back({.name = item.key, .place = by_joint.at(item).place()});
       }
     } else if (!section.empty() && (node.find("p") != nullptr || node.find("pid") != nullptr ||
@@ -80,18 +88,26 @@ class ControllerReader {
   }
 
   /// Takes the gains of a joint from a map, which must have no other keys.
-  void give(ConfiguredJoint& joint, ConfigMap map, bool has_velocity = false) {
+  void give(ConfiguredJoint& joint, ConfigMap map) {
     refuse_second(joint, map.value());
     static_cast<void>(map.expect("p"));
-    read_gains(map, joint, has_velocity);
+    read_gains(map, joint, context_);
     map.finish();
   }
   static void refuse_second(const ConfiguredJoint& joint, const ConfigValue& where) {
     if (!joint.gains) return;
     where.refuse("gains of '" + shown(joint.name) + "' a second time", "one place");
   }
-  /// Ends a map whose keys are joints. Without joints it is they that are missing.
-  void finish_by_joint(const ConfigMap& map) {
+  /// Ends a map whose keys are joints. Without joints it is they that are missing. What a wildcard
+  /// says about joints of other controllers is noted.
+  /// @param kind  of what the map has for a joint; anything else is a slip
+  void finish_by_joint(ConfigMap& map, ConfigNode::Kind kind = ConfigNode::Kind::map) {
+    for (const ConfigNode& item : map.value().node().items) {
+      const bool others = item.inherited && item.kind == kind && !map.knows(item.key);
+      if (!others || config_.joints.empty()) continue;
+      map.note(*map.find(item.key),
+               "not used: joint '" + shown(item.key) + "' is not this controller's");
+    }
     if (config_.joints.empty() && map.has_unknown()) {
       static_cast<void>(map_.expect("joints"));
     } else {
@@ -110,17 +126,17 @@ class ControllerReader {
   }
 
   void read_all_gains() {
-    bool has_velocity = false;
+    if (const auto value = map_.find("enable_feedforward")) context_.feedforward = value->truth();
     if (const auto value = map_.find("reference_and_state_interfaces")) {
       const auto items = value->list();
       for (const ConfigValue& item : items) static_cast<void>(item.word());
-      has_velocity =
+      context_.has_velocity =
           items.size() == 2 && items[0].word() == "position" && items[1].word() == "velocity";
       if (items.empty() || items.size() > 2) value->refuse("one or two names of interfaces");
     }
     if (auto gains = map_.find_map("gains")) {
       for (ConfiguredJoint& joint : config_.joints) {
-        if (const auto one = gains->find_map(joint.name)) give(joint, *one, has_velocity);
+        if (const auto one = gains->find_map(joint.name)) give(joint, *one);
       }
       finish_by_joint(*gains);
     }
@@ -146,7 +162,7 @@ class ControllerReader {
           value->refuse("a factor without gains", "gains of the joint, too");
         if (value) joint.gains->velocity_feedforward = value->number();
       }
-      finish_by_joint(*feedforward);
+      finish_by_joint(*feedforward, ConfigNode::Kind::scalar);
     }
   }
 
@@ -154,7 +170,7 @@ class ControllerReader {
   void read_own_gains(ConfiguredJoint& joint) {
     ConfiguredJoint own{.name = joint.name};
     const std::size_t before = map_.found();
-    read_gains(map_, own, false);
+    read_gains(map_, own, context_);
     if (map_.found() == before) return;
     refuse_second(joint, map_.value());
     static_cast<void>(map_.expect("p"));
@@ -241,9 +257,10 @@ class ControllerReader {
     finish_by_joint(*constraints);
   }
 
-  ControllerConfig config_{};
+  ControllerConfig config_;
   const RobotJoints* robot_;
   ConfigMap map_;
+  GainContext context_;
 };
 
 }  // namespace articula::detail

@@ -9,22 +9,33 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace articula::detail {
 
+/// What else decides what the gains of a joint mean.
+struct GainContext {
+  bool has_velocity = false;          ///< of the reference, which feedforward_gain then multiplies
+  std::optional<bool> feedforward{};  ///< enable_feedforward, where the controller says it
+  GainSigns signs = GainSigns::not_negative;
+};
+
 /// A pair of clamps: `name`_min and `name`_max. Without 0 between them a joint would be pushed at
 /// rest.
-inline void read_clamps(ConfigMap& map, const std::string& name, double& low, double& high) {
+/// @param around_zero  0 must be between them
+inline void read_clamps(ConfigMap& map, const std::string& name, double& low, double& high,
+                        bool around_zero = true) {
   if (const auto value = map.find(name + "_min")) {
     low = value->number_or_infinity();
-    if (low > 0) value->refuse("a number <= 0, or -.inf");
+    if (around_zero && low > 0) value->refuse("a number <= 0, or -.inf");
   }
   if (const auto value = map.find(name + "_max")) {
     high = value->number_or_infinity();
-    if (high < 0) value->refuse("a number >= 0, or .inf");
+    if (around_zero && high < 0) value->refuse("a number >= 0, or .inf");
+    if (high < low) value->refuse("a number that is not below that of " + name + "_min");
   }
 }
 
@@ -60,21 +71,45 @@ inline void read_short_way(ConfigMap& map, ConfiguredJoint& joint) {
   }
 }
 
+/// The gain of the feed-forward of ROS's PID controller, which a switch of its own may turn off.
+inline void read_feedforward(ConfigMap& map, PidGains& gains, const GainContext& context) {
+  const auto value = map.find("feedforward_gain");
+  if (!value) return;
+  const double gain = value->number();
+  if (gain == 0) return;
+  if (context.feedforward == false) {
+    map.note(*value, "not used: enable_feedforward is false");
+    return;
+  }
+  if (!context.has_velocity) {
+    value->refuse("0, or position and velocity in reference_and_state_interfaces");
+  }
+  gains.velocity_feedforward = gain;
+  if (!context.feedforward) {
+    map.note(*value,
+             "no enable_feedforward is given: true here, as in ROS without that parameter; "
+             "Humble and Jazzy take false");
+  }
+}
+
 /// Reads the gains of one joint.
-/// @param map           what else is in it stays unknown; who needs p expects it
-/// @param joint         receives them
-/// @param has_velocity  the reference has a velocity, which feedforward_gain then multiplies
-inline void read_gains(ConfigMap& map, ConfiguredJoint& joint, bool has_velocity) {
+/// @param map    what else is in it stays unknown; who needs p expects it
+/// @param joint  receives them
+inline void read_gains(ConfigMap& map, ConfiguredJoint& joint, const GainContext& context) {
   PidGains gains;
+  const bool any_sign = context.signs == GainSigns::any;
   const auto read = [&](std::string_view key, double& to) {
     if (const auto value = map.find(key)) to = value->number();
   };
   const auto read_not_negative = [&](std::string_view key, double& to) {
     if (const auto value = map.find(key)) to = value->not_negative();
   };
-  read_not_negative("p", gains.proportional);
-  read_not_negative("i", gains.integral);
-  read_not_negative("d", gains.derivative);
+  const auto read_gain = [&](std::string_view key, double& to) {
+    any_sign ? read(key, to) : read_not_negative(key, to);
+  };
+  read_gain("p", gains.proportional);
+  read_gain("i", gains.integral);
+  read_gain("d", gains.derivative);
 
   if (const auto clamp = map.find("i_clamp")) {
     gains.integral_clamp_max = clamp->number_or_infinity();
@@ -88,7 +123,7 @@ inline void read_gains(ConfigMap& map, ConfiguredJoint& joint, bool has_velocity
              "no i_clamp is given: none here, as from ROS 2 Jazzy on; ROS 1 and Humble "
              "take 0, that is no integral");
   }
-  read_clamps(map, "u_clamp", gains.output_clamp_min, gains.output_clamp_max);
+  read_clamps(map, "u_clamp", gains.output_clamp_min, gains.output_clamp_max, !any_sign);
   if (const auto saturation = map.find("saturation"); saturation && !saturation->truth()) {
     gains.output_clamp_min = -PidGains::infinity;
     gains.output_clamp_max = PidGains::infinity;
@@ -98,13 +133,7 @@ inline void read_gains(ConfigMap& map, ConfiguredJoint& joint, bool has_velocity
   read_not_negative("error_deadband", gains.error_deadband);
 
   read("ff_velocity_scale", gains.velocity_feedforward);
-  if (const auto value = map.find("feedforward_gain")) {
-    const double gain = value->number();
-    if (gain != 0 && !has_velocity) {
-      value->refuse("0, or position and velocity in reference_and_state_interfaces");
-    }
-    if (has_velocity) gains.velocity_feedforward = gain;
-  }
+  read_feedforward(map, gains, context);
   read("velocity_feedforward", gains.velocity_feedforward);
   read("acceleration_feedforward", gains.acceleration_feedforward);
   read_not_negative("derivative_filter_time", gains.derivative_filter_time);
@@ -118,15 +147,22 @@ inline void read_gains(ConfigMap& map, ConfiguredJoint& joint, bool has_velocity
   read_weight("velocity_weight", gains.velocity_weight);
 
   read_short_way(map, joint);
-  for (const std::string_view key :
-       {"save_i_term", "save_iterm", "activate_state_publisher", "publish_state"}) {
+  for (const std::string_view key : {"save_i_term", "save_iterm"}) {
+    const auto value = map.find(key);
+    if (!value) continue;
+    joint.keeps_integral = value->truth();
+    if (joint.keeps_integral) {
+      map.note(*value, "not used, but by ControlToolboxPidLaw: a start sets the integral to 0");
+    }
+  }
+  for (const std::string_view key : {"activate_state_publisher", "publish_state"}) {
     if (const auto value = map.find(key)) {
       static_cast<void>(value->truth());
       map.note(*value, "not used");
     }
   }
   try {
-    validate<1>({gains}, {joint.name});
+    validate<1>({gains}, {joint.name}, context.signs);
   } catch (const std::invalid_argument& error) {
     map.value().refuse(error.what(), "gains of a controller");
   }

@@ -35,7 +35,9 @@ class SignalReader {
 
   /// All waveforms of a section: a map by joint, a list, or the section itself is one.
   void read(const ConfigSection& section) {
-    ConfigMap map(ConfigValue(file_, section.parameters, section.path), config_.notes);
+    config_.notes.insert(config_.notes.end(), section.notes.begin(), section.notes.end());
+    ConfigMap map(ConfigValue(file_, section.parameters, section.path), config_.notes,
+                  Inherited::may_be_unknown);
     const ConfigNode& node = map.value().node();
     if (const ConfigNode* joint = misplaced_waveforms(node, robot_)) {
       throw ConfigError(

@@ -18,14 +18,24 @@
 
 namespace articula::detail {
 
+/// What becomes of a key that nobody asked for and that comes from another section, /** or so.
+enum class Inherited : unsigned char {
+  must_be_known,   ///< it is refused, as any other
+  may_be_unknown,  ///< it is noted, since it may be for others
+};
+
 /// A map of a configuration. It remembers what was asked for: what is left over in the end is
 /// unknown.
 class ConfigMap {
  public:
-  /// @param notes  receives what is known and not used
+  /// @param notes      receives what is known and not used
+  /// @param inherited  what becomes of unknown keys from elsewhere
   /// @throws ConfigError if the value is no map
-  ConfigMap(ConfigValue value, std::vector<std::string>& notes)
-      : value_(std::move(value)), notes_(&notes) {
+  ConfigMap(ConfigValue value, std::vector<std::string>& notes,
+            Inherited inherited = Inherited::must_be_known)
+      : value_(std::move(value)),
+        notes_(&notes),
+        tolerant_(inherited == Inherited::may_be_unknown) {
     const ConfigNode& node = value_.node();
     if (node.is_map()) return;
     const std::string hint = node.kind == ConfigNode::Kind::scalar ? key_hint(node.text) : "";
@@ -80,7 +90,7 @@ class ConfigMap {
   void finish() const {
     constexpr std::size_t listed = 3, tried = 16;
     for (const ConfigNode& item : value_.node().items) {
-      if (item.inherited && !knows(item.key)) note(value_.at(item), "not used here");
+      if (tolerant_ && item.inherited && !knows(item.key)) note(value_.at(item), "not used here");
     }
     const auto others = unknown();
     refuse_slips(others);
@@ -160,13 +170,14 @@ class ConfigMap {
   [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
     std::vector<const ConfigNode*> items;
     for (const ConfigNode& item : value_.node().items) {
-      if (!item.inherited && !knows(item.key)) items.push_back(&item);
+      if (!(tolerant_ && item.inherited) && !knows(item.key)) items.push_back(&item);
     }
     return items;
   }
 
   ConfigValue value_;
   std::vector<std::string>* notes_;
+  bool tolerant_;
   std::vector<std::string> known_{}, missing_{};
   std::size_t found_ = 0;
 };

@@ -41,7 +41,7 @@ struct RobotJoints {
                           ? robot + " has no joint '" + shown(name) + "'" +
                                 (has_placeholder(name) ? ", a placeholder" : "")
                           : "joint '" + shown(name) + "' of " + robot + " " + other->second,
-                      choice_text(names, name));
+                      choice_text(names, name) + value_hint(name));
   }
 };
 

@@ -95,9 +95,23 @@ struct ParsedNumber {
   return "the placeholder '" + shown(placeholder) + "', which a template tool was to fill in";
 }
 
+/// How to give the value of the first placeholder in a text; empty if there is none.
+[[nodiscard]] inline std::string value_example(std::string_view text) {
+  const std::string_view placeholder = placeholder_in(text);
+  if (placeholder.empty()) return "";
+  return ": ConfigSource(file, {{\"" + shown(placeholder_name(placeholder)) + "\", \"...\"}})";
+}
+
+/// Likewise, to be said behind what was expected in its place.
+[[nodiscard]] inline std::string value_hint(std::string_view text) {
+  return has_placeholder(text) ? ", or a value for it" + value_example(text) : "";
+}
+
 /// What is likely to be wrong with a key; empty if that is not known.
 [[nodiscard]] inline std::string key_hint(std::string_view key) {
-  if (has_placeholder(key)) return "this placeholder to be filled in by a template tool before";
+  if (has_placeholder(key)) {
+    return "this placeholder to be filled in by a template tool before" + value_hint(key);
+  }
   if (!odd_character_in(key).empty()) return "an ordinary blank, or none";
   if (key.find("\xEF\xBC\x9A") != std::string_view::npos) return "an ordinary colon and a blank";
   if (key.find(':') != std::string_view::npos) return "a blank behind the colon";
@@ -128,7 +142,7 @@ struct ParsedNumber {
     return "the quoted text '" + shown(node.text) + "'";
   }
   if (has_placeholder(node.text)) {
-    return unfilled_text(node.text);
+    return unfilled_text(placeholder_in(node.text));
   }
   const ParsedNumber number = parse_number(node.text);
   if (!number.is_number) {

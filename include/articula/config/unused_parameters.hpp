@@ -12,7 +12,7 @@ namespace articula::detail {
 
 /// A parameter that ROS's controllers have and that has no effect here.
 struct UnusedParameter {
-  enum class Kind : unsigned char { number, truth, word, words, any_map };
+  enum class Kind : unsigned char { number, truth, word, words, text, any_map };
   std::string_view key;
   Kind kind;
   std::string_view why;
@@ -35,6 +35,9 @@ inline void take_unused(ConfigMap& map, const std::vector<UnusedParameter>& para
         break;
       case UnusedParameter::Kind::words:
         for (const ConfigValue& item : value->list()) static_cast<void>(item.word());
+        break;
+      case UnusedParameter::Kind::text:  // which may be empty, or nothing
+        if (value->node().is_map() || value->node().is_list()) value->refuse("a name");
         break;
       case UnusedParameter::Kind::any_map:
         if (!value->node().is_map()) value->refuse("a map");
@@ -75,6 +78,12 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
                     {"start_with_holding", truth, "it always does"},
                     {"goal_tolerance", number, gripper},
                     {"max_effort", number, gripper},
+                    {"max_effort_interface", text, gripper},
+                    {"max_velocity", number, gripper},
+                    {"max_velocity_interface", text, gripper},
+                    {"use_effort_interface", truth, gripper},
+                    {"use_speed_interface", truth, gripper},
+                    {"default", truth, gripper},
                     {"stall_velocity_threshold", number, gripper},
                     {"stall_timeout", number, gripper},
                     {"allow_stalling", truth, gripper},
@@ -84,6 +93,8 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
                     {"stop_trajectory_duration", number, follower},
                     {"cmd_timeout", number, follower},
                     {"speed_scaling", any_map, follower},
+                    {"speed_scaling_interface_name", text, follower},
+                    {"tf_prefix", text, topics},
                     {"positions_upsampling", any_map, follower}});
 }
 
