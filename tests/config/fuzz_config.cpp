@@ -35,10 +35,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string text(reinterpret_cast<const char*>(data),
                          size);  // NOLINT: bytes are characters
   const ConfigSource source = ConfigSource::text(text, "fuzz");
+  const ConfigSource filled =
+      ConfigSource::text(text, "fuzz", {{"x", "2"}, {"y", ""}, {"z", "elbow_active_joint"}});
   const Q2d robot;
   load([&] { static_cast<void>(PidPlusGravity<Q2d>(load_pid_gains(robot, source).gains)); });
   load([&] { static_cast<void>(load_pid_gains(robot, source, "pid_controller")); });
   load([&] { static_cast<void>(load_controller(source)); });
+  load([&] { static_cast<void>(load_controller(filled, "left/arm")); });
+  load([&] {
+    const auto any = load_pid_gains(robot, filled, "", GainsOf::all_joints, GainSigns::any);
+    validate(any.gains, joint_names(robot), GainSigns::any);
+  });
   load([&] {
     const auto some = load_pid_gains(robot, source, "", GainsOf::some_joints);
     if (some.group.empty()) __builtin_trap();

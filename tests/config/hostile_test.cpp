@@ -177,13 +177,14 @@ TEST_CASE("hostile values in every other parameter of a controller") {
         "allow_nonzero_velocity_at_trajectory_end", "use_sim_time", "is_async",
         "interpolate_from_desired_state", "open_loop_control", "allow_trajectory_replacement",
         "use_external_measured_states", "set_current_state_as_first_setpoint", "start_with_holding",
-        "allow_stalling", "set_last_command_interface_value_as_state_on_activation"}) {
+        "allow_stalling", "use_effort_interface", "use_speed_interface", "default",
+        "enable_feedforward", "set_last_command_interface_value_as_state_on_activation"}) {
     check_field(load_gains, {both, key, "\n", {"true"}});
   }
   check_field(load_gains, {both, "interpolation_method", "\n"});
   for (const std::string key :
        {"publish_rate", "state_publish_rate", "action_monitor_rate", "update_rate",
-        "stop_trajectory_duration", "cmd_timeout", "goal_tolerance", "max_effort",
+        "stop_trajectory_duration", "cmd_timeout", "goal_tolerance", "max_effort", "max_velocity",
         "stall_velocity_threshold", "stall_timeout"}) {
     check_field(load_gains, {both, key, "\n", not_negative});
   }
@@ -194,6 +195,12 @@ TEST_CASE("hostile values in every other parameter of a controller") {
   for (const std::string key :
        {"robot_description", "command_interface", "interface_name", "params_file"}) {
     check_field(load_gains, {both, key, "\n", words});
+  }
+  for (const std::string key : {"max_effort_interface", "max_velocity_interface",
+                                "speed_scaling_interface_name", "tf_prefix"}) {
+    check_field(load_gains,
+                {both, key, "\n",
+                 without(hostile, {"[]", "[1]", "{}", "{a: 1}", "!x 1", "[[1, 2], [3]]"})});
   }
   for (const std::string key : {"async_parameters", "speed_scaling", "positions_upsampling"}) {
     check_field(load_gains, {both, key, "\n", {"{}", "{a: 1}"}});

@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
+#include "random.hpp"
 
 using namespace articula;
 
@@ -203,6 +204,26 @@ TEST_CASE("start forgets the past") {
     static_cast<void>(output(law, 0.01));
     law.start({});
     CHECK(output(law, 0.01) == first);
+  }
+}
+
+TEST_CASE(
+    "without output clamps and dead-band Jazzy has Humble's numbers, Noetic has them always") {
+  constexpr unsigned seed = 3;
+  CAPTURE(seed);
+  support::Random random(seed);
+  using enum ControlToolbox;
+  ControlToolboxPidLaw<1> laws[][3] = {
+      {law_of(humble), law_of(noetic), law_of(jazzy)},
+      {law_of(humble_antiwindup), law_of(noetic_antiwindup), law_of(jazzy_antiwindup)}};
+  for (int k = 0; k < 5000; ++k) {
+    const double error = random.number(-0.02, 0.05), period = random.number(1e-4, 2e-3);
+    for (auto& [h, n, j] : laws) {
+      const double expected = output(h, error, period);
+      REQUIRE(output(n, error, period) == expected);
+      // i E and the sum of i e dt round differently, some 1e-16 of 40 N m in each cycle.
+      REQUIRE(output(j, error, period) == Approx(expected).margin(1e-10));
+    }
   }
 }
 
