@@ -90,7 +90,8 @@ TEST_CASE("no controller of any command interface touches the heap") {
 TEST_CASE("nor do the laws that a controller can be put together from") {
   const auto robot = support::model<support::TiltedQ2d>();
   const std::array<std::string_view, 1> elbow{"elbow_active_joint"};
-  for (const auto version : {ControlToolbox::current, ControlToolbox::humble_antiwindup}) {
+  for (const auto version :
+       {ControlToolbox::current, ControlToolbox::jazzy, ControlToolbox::humble_antiwindup}) {
     using Law = OnJoints<2, ControlToolboxPidLaw<2>>;
     const ControlToolboxPidLaw<2> law(version, Q2d::pid_gains, joint_names(robot));
     CHECK(heap_calls_of<2>(EffortController<Model<2>, Law>(robot, Law(robot, law, elbow))) == 0);

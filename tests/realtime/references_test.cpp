@@ -26,6 +26,7 @@ TEST_CASE("sampling does not touch the heap") {
       {{"shoulder_active_joint", SineSignal{.amplitude = 0.5, .frequency = 1}},
        {"shoulder_active_joint", StepSignal{.height = 0.1, .start = 1}},
        {"elbow_active_joint", RampSignal{.height = 0.1, .duration = 1}},
+       {"elbow_active_joint", SquareSignal{.amplitude = 1, .frequency = 2}, SignalTarget::effort},
        {"elbow_active_joint", ChirpSignal{.amplitude = 1, .last_frequency = 5},
         SignalTarget::effort}});
   const JerkLimitedProfile<Q2d> profile({0, 0}, {1, -1}, limits);
