@@ -6,6 +6,7 @@
 #include "articula/config/decimal_commas.hpp"
 #include "articula/config/read_gains.hpp"
 #include "articula/config/read_lists.hpp"
+#include "articula/config/read_mechanics.hpp"
 #include "articula/config/reader.hpp"
 #include "articula/config/robot_joints.hpp"
 #include "articula/config/section.hpp"
@@ -38,7 +39,7 @@ class ControllerReader {
     if (const auto type = map_.find("type")) config_.type = type->word();
     read_joints(section.name);
     read_all_gains();
-    read_mechanics();
+    read_mechanics(map_, config_);
     read_trajectory();
     take_unused_controller_parameters(map_);
     refuse_common_gains();
@@ -203,26 +204,6 @@ class ControllerReader {
     for (std::size_t k = 0; k < n; ++k) {
       refuse_second(config_.joints[k], *proportional);
       config_.joints[k].gains = PidGains{.proportional = p[k], .derivative = d[k]};
-    }
-  }
-
-  void read_mechanics() {
-    if (const auto value = map_.find("gravity")) {
-      config_.gravity = read_vector(*value, config_.notes);
-      config_.gravity_place = value->place();
-    }
-    if (auto chain = map_.find_map("chain")) {
-      const auto read = [&](std::string_view key, std::string& to, ConfigPlace& place) {
-        const auto value = chain->find(key);
-        if (value) to = value->name(), place = value->place();
-      };
-      read("root", config_.chain_root, config_.chain_root_place);
-      read("tip", config_.chain_tip, config_.chain_tip_place);
-      chain->finish();
-    }
-    if (const auto value = map_.find("priority")) {
-      config_.priority = value->integer(0, 99);
-      config_.priority_place = value->place();
     }
   }
 
