@@ -2,7 +2,7 @@
 
 # articula_add_robot(<Name> URDF <file> [ROOT <link>] [TIP <link>] [NAMESPACE <namespace>]
 #                    [LOCK <joint>[=<position>]...] [GRAVITY <x> <y> <z>]
-#                    [RIGHT_ANGLE_TOLERANCE <number>] [ALLOW_UNPHYSICAL])
+#                    [RIGHT_ANGLE_TOLERANCE <number>] [ALLOW_UNPHYSICAL] [KINEMATIC])
 #
 # Makes an INTERFACE target <Name>. Who links it can include <name>.hpp (the name in snake case:
 # LbrIiwa is in lbr_iiwa.hpp), which defines `struct <Name>`, in the namespace if one is given, with
@@ -19,16 +19,18 @@
 #                     takes for those of right angles written with few digits, 1e-7 if not given; 0
 #                     takes every angle as it is written, 0.1 is the largest
 #   ALLOW_UNPHYSICAL  accept inertias that no real body has, with a warning for each
+#   KINEMATIC         leave out all masses: the robot has kinematics, and no dynamics. For files without
+#                     masses
 #
 # The program that reads the URDF is built along, for the machine that builds. When cross-compiling,
 # set ARTICULA_URDF_TO_ROBOT to one that was built before.
 function(articula_add_robot name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "ALLOW_UNPHYSICAL"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "ALLOW_UNPHYSICAL;KINEMATIC"
                         "URDF;ROOT;TIP;NAMESPACE;RIGHT_ANGLE_TOLERANCE" "LOCK;GRAVITY")
   if(DEFINED arg_UNPARSED_ARGUMENTS) # the text OFF is something, too
     message(FATAL_ERROR "articula_add_robot(${name}): unknown: ${arg_UNPARSED_ARGUMENTS}; options: "
                         "URDF, ROOT, TIP, NAMESPACE, LOCK, GRAVITY, RIGHT_ANGLE_TOLERANCE, "
-                        "ALLOW_UNPHYSICAL")
+                        "ALLOW_UNPHYSICAL, KINEMATIC")
   endif()
   if(DEFINED arg_KEYWORDS_MISSING_VALUES)
     message(FATAL_ERROR "articula_add_robot(${name}): without value: ${arg_KEYWORDS_MISSING_VALUES}")
@@ -77,6 +79,9 @@ function(articula_add_robot name)
   endif()
   if(arg_ALLOW_UNPHYSICAL)
     list(APPEND options --allow-unphysical)
+  endif()
+  if(arg_KINEMATIC)
+    list(APPEND options --kinematic)
   endif()
 
   add_custom_command(

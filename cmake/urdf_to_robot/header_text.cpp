@@ -199,14 +199,17 @@ std::string header_text(const UrdfDescription& description, const HeaderNames& n
           "      .gravity = " + vector_text(description.gravity) + ",\n" +
           "      .links = " + array_text("Link", description.links, link_text) + ",\n" +
           "      .joints = " + array_text("Joint", description.joints, joint_text);
+  // Compilers that deduce the description's type want no member left out before another one.
+  const auto truth = [](bool is_true) { return is_true ? "true" : "false"; };
   const bool own_tolerance = description.right_angle_tolerance != default_right_angle_tolerance;
-  if (description.allow_unphysical) text += ",\n      .allow_unphysical = true";
-  if (own_tolerance) {
-    // Compilers that deduce the description's type want no member left out before this one.
-    if (!description.allow_unphysical) text += ",\n      .allow_unphysical = false";
+  if (description.allow_unphysical || own_tolerance || description.kinematic) {
+    text += std::string(",\n      .allow_unphysical = ") + truth(description.allow_unphysical);
+  }
+  if (own_tolerance || description.kinematic) {
     text += ",\n      .right_angle_tolerance = ";
     text += constant_text(description.right_angle_tolerance);
   }
+  if (description.kinematic) text += ",\n      .kinematic = true";
   text += "};\n};\n";
   if (!space.empty()) text += "\n}  // namespace " + space + "\n";
   return text;

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* usage =
     "usage: urdf_to_robot --urdf FILE --output FILE --type NAME [--namespace NAME] [--root LINK]\n"
     "                     [--tip LINK] [--lock JOINT[=POSITION]]... [--gravity X Y Z]\n"
-    "                     [--right-angle-tolerance NUMBER] [--allow-unphysical]";
+    "                     [--right-angle-tolerance NUMBER] [--allow-unphysical] [--kinematic]";
 
 struct Arguments {
   std::string urdf{};
@@ -69,6 +69,8 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.options.right_angle_tolerance = number("RIGHT_ANGLE_TOLERANCE", value());
     } else if (word == "--allow-unphysical") {
       arguments.options.allow_unphysical = true;
+    } else if (word == "--kinematic") {
+      arguments.options.kinematic = true;
     } else {
       throw std::invalid_argument("unknown option '" + word + "'\n" + usage);
     }

@@ -36,6 +36,7 @@ struct CarriedBody {
 template <Robot R>
 [[nodiscard]] CarriedBody carried_body(const R& robot, const JointVector<joint_count<R>>& q,
                                        int joint) {
+  static_assert(detail::has_masses<R, CarriedBody>);
   detail::check_joint_and_positions(robot, q, joint);
   const auto& mechanism = model_of(robot).mechanism;
   constexpr int n = joint_count<R>;

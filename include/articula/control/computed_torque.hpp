@@ -20,6 +20,8 @@ namespace articula {
 /// @tparam R  the robot
 template <Robot R>
 class ComputedTorqueLaw {
+  static_assert(detail::has_masses<R, ComputedTorqueLaw>);
+
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 

@@ -36,6 +36,8 @@ namespace articula {
 /// @tparam R  the robot
 template <Robot R>
 class EffortLimiter {
+  static_assert(detail::has_masses<R, EffortLimiter>);
+
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using Vector = JointVector<joint_count>;

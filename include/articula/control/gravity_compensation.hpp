@@ -13,6 +13,8 @@ namespace articula {
 /// @tparam R  the robot
 template <Robot R>
 class GravityCompensation {
+  static_assert(detail::has_masses<R, GravityCompensation>);
+
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 

@@ -9,6 +9,7 @@ namespace articula {
 /// Where every body stands in the base frame: X_0i = X_0p X_pi, from the base outwards.
 struct BodyPlacements {
   static constexpr bool needs_own_frames = true;
+  static constexpr bool needs_no_masses = true;
 
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointArray<Placement<S>, B> evaluate(

@@ -27,6 +27,21 @@ inline constexpr bool needs_own_frames = requires {
   requires Algorithm::needs_own_frames;
 };
 
+/// True for algorithms of kinematics: robots have them whose masses are not known, too. They say so
+/// by a member `needs_no_masses`.
+template <class Algorithm>
+inline constexpr bool needs_no_masses = requires {
+  requires Algorithm::needs_no_masses;
+};
+
+/// Refuses, in the compiler, an algorithm of dynamics for a robot whose masses are not known.
+template <class Algorithm, Robot R>
+consteval void check_masses() {
+  if constexpr (!needs_no_masses<Algorithm>) {
+    static_assert(articula::detail::has_masses<R, Algorithm>);
+  }
+}
+
 /// The mechanism of a robot on which an algorithm is run. Real-time: yes.
 template <class Algorithm, Robot R>
 [[nodiscard]] constexpr const auto& mechanism_for(const R& robot) noexcept {
@@ -151,6 +166,7 @@ template <class Algorithm, DescribedRobot R>
 
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval const auto& cheapest_program() {
+  check_masses<Algorithm, R>();
   if constexpr (has_cheaper_alternative<Algorithm, R>()) {
     return best_program<typename Algorithm::Alternative, R>;
   } else {

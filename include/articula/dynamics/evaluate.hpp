@@ -75,6 +75,7 @@ template <class Algorithm, Robot R, class Input, class... Inputs>
   if constexpr (DescribedRobot<R>) {
     return compiled::run<Algorithm, R>(q, inputs...);
   } else {
+    compiled::check_masses<Algorithm, R>();
     using S = std::remove_cvref_t<decltype(q[0])>;
     constexpr int n = R::joint_count, b = R::body_count;
     const Mechanism<n, b>& mechanism = compiled::mechanism_for<Algorithm>(robot);

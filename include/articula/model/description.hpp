@@ -36,17 +36,21 @@ struct RobotDescription {
   /// What dynamics takes for a right angle that was written with few digits, see canonical_form;
   /// 0 takes every angle as it is written
   double right_angle_tolerance = default_right_angle_tolerance;
+  /// The masses are not known: those of the links do not count, and no dynamics are to be had (see
+  /// DynamicRobot). Kinematics, profiles and loops of positions and velocities need none
+  bool kinematic = false;
 };
 
 template <std::size_t Links, std::size_t Joints>
 RobotDescription(Name, Vector3<double>, std::array<Link, Links>, std::array<Joint, Joints>,
-                 bool = false, double = default_right_angle_tolerance)
+                 bool = false, double = default_right_angle_tolerance, bool = false)
     -> RobotDescription<Links, Joints>;
 
 // Without `.gravity`: compilers deduce from the initialisers' order, not from their names.
 template <std::size_t Links, std::size_t Joints>
 RobotDescription(Name, std::array<Link, Links>, std::array<Joint, Joints>, bool = false,
-                 double = default_right_angle_tolerance) -> RobotDescription<Links, Joints>;
+                 double = default_right_angle_tolerance, bool = false)
+    -> RobotDescription<Links, Joints>;
 
 /// True for the types that RobotDescription makes.
 template <class T>

@@ -28,6 +28,7 @@ template <int N, int Bodies = N, class LinkFrames = std::vector<LinkFrame>>
 struct Model {
   static constexpr int joint_count = N;
   static constexpr int body_count = Bodies;
+  static constexpr bool kinematic = false;  ///< true for a KinematicModel
 
   Name name{};
   Mechanism<N, Bodies> mechanism{};  ///< the bodies as described; link frames refer to it
@@ -36,6 +37,13 @@ struct Model {
   /// Names of the joints that carry the bodies, those that mimic others included
   std::array<Name, static_cast<std::size_t>(Bodies)> moving_joints{};
   LinkFrames links{};  ///< all links of the description, those welded to others included
+};
+
+/// A Model of a robot whose masses are not known. Kinematics, profiles, loops of positions and
+/// velocities, and mocks take it as any robot. What needs dynamics does not compile with it.
+template <int N, int Bodies = N, class LinkFrames = std::vector<LinkFrame>>
+struct KinematicModel : Model<N, Bodies, LinkFrames> {
+  static constexpr bool kinematic = true;
 };
 
 }  // namespace articula

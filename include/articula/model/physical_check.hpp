@@ -38,7 +38,8 @@ struct RobotIsNotPhysical {
   static_assert(Broken == Rule::none,
                 "articula: this robot cannot exist. The first template argument of "
                 "RobotIsNotPhysical is the link or joint at fault, the second is "
-                "the rule that it breaks.");
+                "the rule that it breaks. (A robot whose masses are not known is described with "
+                ".kinematic = true.)");
 };
 
 /// Instantiates the message. (Deduced arguments are printed as values, given ones as expressions.)

@@ -25,20 +25,29 @@ template <class T>
 inline constexpr bool is_model = false;
 template <int N, int Bodies, class LinkFrames>
 inline constexpr bool is_model<Model<N, Bodies, LinkFrames>> = true;
+template <int N, int Bodies, class LinkFrames>
+inline constexpr bool is_model<KinematicModel<N, Bodies, LinkFrames>> = true;
 
 /// The model of a described robot, made and checked by the compiler.
 template <DescribedRobot R>
 [[nodiscard]] consteval auto compile_model() {
   constexpr const auto& description = R::description;
-  constexpr auto fault = find_fault(description.name, description.gravity, description.links,
-                                    description.joints, description.allow_unphysical);
+  constexpr auto fault =
+      find_fault(description.name, description.gravity, description.links, description.joints,
+                 description.allow_unphysical, description.kinematic);
   if constexpr (fault.rule != Rule::none) {
     return reject(printable<fault.element>(), std::integral_constant<Rule, fault.rule>{});
   } else {
     constexpr ModelSize size = model_size(description.joints);
-    return build_model<size.joints, size.bodies>(
-        description.name, description.gravity, description.links, description.joints,
-        std::array<LinkFrame, description.links.size()>{}, description.right_angle_tolerance);
+    using LinkFrames = std::array<LinkFrame, description.links.size()>;
+    const auto model = build_model<size.joints, size.bodies>(
+        description.name, description.gravity, description.links, description.joints, LinkFrames{},
+        description.right_angle_tolerance);
+    if constexpr (description.kinematic) {
+      return KinematicModel<size.joints, size.bodies, LinkFrames>{model};
+    } else {
+      return model;
+    }
   }
 }
 
@@ -62,6 +71,37 @@ template <Robot R>
     return robot;
   }
 }
+
+/// True for a robot whose masses are not known: a RobotDescription says `.kinematic = true`, or it
+/// is a KinematicModel.
+template <Robot R>
+inline constexpr bool is_kinematic =
+    std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::kinematic;
+
+/// A robot whose masses are known, so that it has dynamics.
+template <class R>
+concept DynamicRobot = Robot<R> && !is_kinematic<R>;
+
+namespace detail {
+
+/// Its instantiation is the error message where dynamics are asked of a robot that has none.
+/// @tparam R      the robot
+/// @tparam Asked  what was asked of it: an algorithm, or a class that needs one
+template <Robot R, class Asked>
+struct RobotHasNoMasses {
+  static_assert(!is_kinematic<R>,
+                "articula: this robot is kinematic: it was described with .kinematic = true or "
+                "loaded by load_kinematic_urdf, so its masses are not known and it has no "
+                "dynamics. The first template argument of RobotHasNoMasses is the robot, the "
+                "second is what was asked of it.");
+  static constexpr bool found = true;
+};
+
+/// True; what needs a robot's masses says `static_assert(detail::has_masses<R, Asked>)`.
+template <Robot R, class Asked>
+inline constexpr bool has_masses = RobotHasNoMasses<R, Asked>::found;
+
+}  // namespace detail
 
 /// The value of a robot known at compile time: the default where a robot is asked for. A robot
 /// loaded at run time has no default.

@@ -48,6 +48,13 @@ enum class Rule {
          rule == Rule::inertia_breaks_the_triangle_inequality;
 }
 
+/// True for the rules that need masses: those of links, and that every joint moves some. A kinematic
+/// robot may break them.
+[[nodiscard]] constexpr bool concerns_mass(Rule rule) noexcept {
+  return concerns_inertia(rule) || rule == Rule::link_has_negative_mass ||
+         rule == Rule::joint_moves_no_mass;
+}
+
 /// The broken rule in words, for messages at run time.
 [[nodiscard]] constexpr std::string_view to_string(Rule rule) noexcept {
   switch (rule) {

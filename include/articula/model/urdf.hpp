@@ -31,30 +31,50 @@ namespace detail {
          "> is right";
 }
 
+/// The model of a description, of either kind.
+template <int N, int Bodies>
+[[nodiscard]] Model<N, Bodies> any_model_of_urdf(const UrdfDescription& description,
+                                                 bool kinematic) {
+  const ModelSize size = model_size(description.joints);
+  if (size.joints != N || size.bodies != Bodies) {
+    throw UrdfError(description.file, size_text(description, N, Bodies));
+  }
+  const DescriptionFault fault =
+      find_fault(description.name, description.gravity, description.links, description.joints,
+                 description.allow_unphysical,  // what was changed since it was read is not known
+                 kinematic);
+  if (fault.rule != Rule::none) {
+    throw UrdfError(description.file, fault_text(fault, description.links, description.joints));
+  }
+  return build_model<N, Bodies>(
+      description.name, description.gravity, description.links, description.joints,
+      std::vector<LinkFrame>(description.links.size()), description.right_angle_tolerance);
+}
+
 }  // namespace detail
 
 /// The model of a description read from URDF.
 /// @tparam N       number of joints that can be commanded
 /// @tparam Bodies  number of moving bodies: N and one for each mimic joint
-/// @throws UrdfError if the robot is of another size (it says which), or if the description was
-///         changed so that it breaks a Rule
+/// @throws UrdfError if the robot is of another size (it says which), if its description is
+///         kinematic, or if the description was changed so that it breaks a Rule
 /// Real-time: no (allocates, throws).
 template <int N, int Bodies = N>
 [[nodiscard]] Model<N, Bodies> model_of_urdf(const UrdfDescription& description) {
-  const ModelSize size = model_size(description.joints);
-  if (size.joints != N || size.bodies != Bodies) {
-    throw UrdfError(description.file, detail::size_text(description, N, Bodies));
-  }
-  const DescriptionFault fault =
-      find_fault(description.name, description.gravity, description.links, description.joints,
-                 description.allow_unphysical);  // what was changed since it was read is not known
-  if (fault.rule != Rule::none) {
+  if (description.kinematic) {
     throw UrdfError(description.file,
-                    detail::fault_text(fault, description.links, description.joints));
+                    "it was read as kinematic, without masses: call load_kinematic_urdf or "
+                    "kinematic_model_of_urdf, or read it without UrdfOptions::kinematic");
   }
-  return build_model<N, Bodies>(
-      description.name, description.gravity, description.links, description.joints,
-      std::vector<LinkFrame>(description.links.size()), description.right_angle_tolerance);
+  return detail::any_model_of_urdf<N, Bodies>(description, false);
+}
+
+/// The model of a description of which the masses do not count, see KinematicModel.
+/// @copydetails model_of_urdf
+template <int N, int Bodies = N>
+[[nodiscard]] KinematicModel<N, Bodies> kinematic_model_of_urdf(
+    const UrdfDescription& description) {
+  return {detail::any_model_of_urdf<N, Bodies>(description, true)};
 }
 
 /// Loads a robot:
@@ -75,6 +95,22 @@ template <int N, int Bodies = N>
 [[nodiscard]] Model<N, Bodies> load_urdf(const UrdfSource& source,
                                          const UrdfOptions& options = {}) {
   return model_of_urdf<N, Bodies>(read_urdf(source, options));
+}
+
+/// Loads a robot whose masses are not known, or not needed: many files have none. Masses and
+/// inertias of the file do not count.
+///
+///     const auto arm = articula::load_kinematic_urdf<6>("scara.urdf");
+///     articula::forward_kinematics(arm, q, "tool");
+///
+/// Kinematics, profiles, loops of positions and velocities, and mocks take it. What needs dynamics
+/// does not compile with it.
+/// @copydetails load_urdf
+template <int N, int Bodies = N>
+[[nodiscard]] KinematicModel<N, Bodies> load_kinematic_urdf(const UrdfSource& source,
+                                                            UrdfOptions options = {}) {
+  options.kinematic = true;
+  return kinematic_model_of_urdf<N, Bodies>(read_urdf(source, options));
 }
 
 }  // namespace articula

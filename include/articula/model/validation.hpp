@@ -219,10 +219,13 @@ constexpr Rule broken_rotor_rule(std::span<const Joint> joints, const Joint& joi
 
 /// The first broken rule of single links or joints, and names that are used twice.
 template <class Element>
-constexpr DescriptionFault element_fault(std::span<const Element> elements, bool allow_unphysical) {
+constexpr DescriptionFault element_fault(std::span<const Element> elements, bool allow_unphysical,
+                                         bool kinematic) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const Rule rule = broken_rule(elements[i]);
-    if (rule != Rule::none && !(allow_unphysical && concerns_inertia(rule))) {
+    const bool is_waived =
+        (allow_unphysical && concerns_inertia(rule)) || (kinematic && concerns_mass(rule));
+    if (rule != Rule::none && !is_waived) {
       return {elements[i].name, rule};
     }
     if (index_of(elements, elements[i].name) != static_cast<int>(i)) {
@@ -241,16 +244,15 @@ constexpr DescriptionFault element_fault(std::span<const Element> elements, bool
 /// @param links    all links
 /// @param joints   all joints
 /// @param allow_unphysical  waives the rules that concern inertia, see concerns_inertia
+/// @param kinematic         waives the rules that concern mass, see concerns_mass
 /// @return         element and rule, or Rule::none
 /// Real-time: no (quadratic in the number of links; meant for compile time and set-up).
-[[nodiscard]] constexpr DescriptionFault find_fault(const Name& name,
-                                                    const Vector3<double>& gravity,
-                                                    std::span<const Link> links,
-                                                    std::span<const Joint> joints,
-                                                    bool allow_unphysical = false) {
+[[nodiscard]] constexpr DescriptionFault find_fault(
+    const Name& name, const Vector3<double>& gravity, std::span<const Link> links,
+    std::span<const Joint> joints, bool allow_unphysical = false, bool kinematic = false) {
   if (!detail::are_usable(gravity)) return {name, Rule::number_is_not_finite};
-  DescriptionFault fault = detail::element_fault(links, allow_unphysical);
-  if (fault.rule == Rule::none) fault = detail::element_fault(joints, allow_unphysical);
+  DescriptionFault fault = detail::element_fault(links, allow_unphysical, kinematic);
+  if (fault.rule == Rule::none) fault = detail::element_fault(joints, allow_unphysical, kinematic);
   detail::TreeIndex tree;
   if (fault.rule == Rule::none) fault = detail::index_tree(links, joints, tree);
   if (fault.rule != Rule::none) return fault;
@@ -263,7 +265,7 @@ constexpr DescriptionFault element_fault(std::span<const Element> elements, bool
     if (rule != Rule::none) return {joint.name, rule};
     if (joint.type == JointType::fixed) continue;
     moves = true;
-    if (detail::is_free(joint) && !detail::moves_mass(joints, j, movers)) {
+    if (!kinematic && detail::is_free(joint) && !detail::moves_mass(joints, j, movers)) {
       return {joint.name, Rule::joint_moves_no_mass};
     }
     const JointLimits limits = properties_of(joints, joint).limits;

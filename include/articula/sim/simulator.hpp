@@ -26,6 +26,8 @@ namespace articula {
 /// @tparam R  the robot
 template <Robot R>
 class Simulator {
+  static_assert(detail::has_masses<R, Simulator>);
+
  public:
   using RobotType = R;
   static constexpr int joint_count = articula::joint_count<R>;

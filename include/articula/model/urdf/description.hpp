@@ -32,6 +32,7 @@ struct UrdfDescription {
   std::vector<Joint> joints{};    ///< likewise, locked ones as fixed; the limits are those of
                                   ///< <limit>, narrowed by <ros2_control>
   bool allow_unphysical = false;  ///< as asked for
+  bool kinematic = false;         ///< likewise; then no link has mass
   std::vector<UrdfTransmission> transmissions{};              ///< all of the file
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint, from <ros2_control>
   std::vector<std::string> notices{};  ///< what the user should know, a line each:
@@ -54,7 +55,7 @@ namespace detail {
 class UrdfReader {
  public:
   UrdfReader(const UrdfDocument& document, const UrdfOptions& options)
-      : document_(document), options_(options), notices_(document) {}
+      : document_(document), options_(options), notices_(document, options.kinematic) {}
 
   [[nodiscard]] UrdfDescription read() {
     check_options();
@@ -63,11 +64,12 @@ class UrdfReader {
                .gravity = options_.gravity,
                .right_angle_tolerance = options_.right_angle_tolerance,
                .allow_unphysical = options_.allow_unphysical,
+               .kinematic = options_.kinematic,
                .transmissions = document_.transmissions,
                .initial_values = document_.initial_values};
     select();
     lock();
-    if (!options_.tip.empty()) {
+    if (!options_.tip.empty() && !options_.kinematic) {
       notices_.add_tip(options_.tip, left_out_by(document_, selected_, held_));
     }
     for (const urdf::Joint* joint : selected_) add(*joint);
@@ -103,8 +105,8 @@ class UrdfReader {
   void select() {
     const urdf::Link& root =
         options_.root.empty() ? *document_.robot->getRoot() : link(options_.root, "root");
-    result_.links.push_back(link_of(document_, root));
-    notices_.add_root(root, options_.gravity);
+    add(root);
+    if (!options_.kinematic) notices_.add_root(root, options_.gravity);
     if (!options_.tip.empty()) return select_chain(root, link(options_.tip, "tip"));
     std::vector<urdf::JointSharedPtr> open;                        // the next one last
     const auto add_children = [&open](const urdf::Link& parent) {  // urdfdom has sorted them
@@ -168,7 +170,13 @@ class UrdfReader {
                                        leader.offset};
       }
     }
-    result_.links.push_back(link_of(document_, *document_.robot->links_.at(joint.child_link_name)));
+    add(*document_.robot->links_.at(joint.child_link_name));
+  }
+
+  void add(const urdf::Link& link) {
+    const bool has_mass = !options_.kinematic;
+    result_.links.push_back(has_mass ? link_of(document_, link)
+                                     : Link{.name = name_of(document_, link.name)});
   }
 
   /// Without its leader, nothing says where a joint is.
@@ -182,13 +190,19 @@ class UrdfReader {
   }
 
   void check() const {
-    const DescriptionFault fault = find_fault(result_.name, result_.gravity, result_.links,
-                                              result_.joints, options_.allow_unphysical);
+    const DescriptionFault fault =
+        find_fault(result_.name, result_.gravity, result_.links, result_.joints,
+                   options_.allow_unphysical, options_.kinematic);
     if (fault.rule == Rule::none) return;
     std::string text = fault_text(fault, result_.links, result_.joints);
     if (concerns_inertia(fault.rule)) {
       text +=
           "; allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it" + others_like(fault.element);
+    }
+    if (concerns_mass(fault.rule)) {
+      text +=
+          "; without dynamics, load_kinematic_urdf (KINEMATIC in CMake) loads the robot and leaves "
+          "out all masses";
     }
     fail(text + perhaps_because_of(document_.unknown_words, text));
   }

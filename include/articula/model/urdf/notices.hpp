@@ -24,8 +24,8 @@ namespace articula::detail {
 class UrdfNotices {
  public:
   /// Begins with words that are not known and what stands twice: they may be why there are others.
-  explicit UrdfNotices(const UrdfDocument& document)
-      : document_(document), notices_(document.unknown_words) {
+  UrdfNotices(const UrdfDocument& document, bool kinematic)
+      : document_(document), kinematic_(kinematic), notices_(document.unknown_words) {
     notices_.insert(notices_.end(), document.repeated_elements.begin(),
                     document.repeated_elements.end());
     notices_.insert(notices_.end(), document.unread_limits.begin(), document.unread_limits.end());
@@ -124,6 +124,7 @@ class UrdfNotices {
   /// An <inertial> in other units. In kg mm^2 a body seems a thousand times as large as it is; a
   /// crane's jib has a radius of gyration of 20 m.
   void add_odd_units(const Link& link) {
+    if (kinematic_) return;
     constexpr double largest_radius = 50;  // of gyration [m]
     const std::string where = "link '" + std::string(link.name.view()) + "': <inertial>: ";
     const auto orientation = document_.inertia_orientations.find(std::string(link.name.view()));
@@ -164,7 +165,7 @@ class UrdfNotices {
       const double position = *initial->second.position;
       add_position(written, "its initial_value is " + rounded_text(position), position);
     }
-    if (!document_.robot->links_.at(child)->inertial) {
+    if (!kinematic_ && !document_.robot->links_.at(child)->inertial) {
       add("link '" + child + "': it has no <inertial>, so it counts as massless, though joint '" +
           name + "' moves it");
     }
@@ -241,6 +242,7 @@ class UrdfNotices {
   }
 
   const UrdfDocument& document_;
+  bool kinematic_;  ///< masses do not count
   std::vector<std::string> notices_;
 };
 

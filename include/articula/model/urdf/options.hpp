@@ -36,6 +36,8 @@ struct UrdfOptions {
   std::vector<LockedJoint> locked{};
   bool allow_unphysical = false;  ///< accept inertias that no real body has; see
                                   ///< UrdfDescription::notices. Masses < 0 are never accepted
+  bool kinematic = false;  ///< leave out all masses: the robot has kinematics, and no dynamics; see
+                           ///< load_kinematic_urdf, which sets it
   /// Acceleration of free fall in the root link's frame [m/s^2], 3 x 1
   Vector3<double> gravity{0, 0, -9.81};
   /// What dynamics takes for a right angle that was written with few digits, see canonical_form;
