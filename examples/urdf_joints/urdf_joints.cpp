@@ -5,7 +5,8 @@
 ///                 [--model [--root LINK] [--tip LINK] [--lock JOINT]... [--allow-unphysical]]
 ///
 /// With --model it also says what the file, or that part of it, is to articula: the size to load it
-/// with, the joints in their order, and what should be known about it.
+/// with, the joints in their order, and what should be known about it. A robot without masses is
+/// shown as load_kinematic_urdf loads it.
 ///
 /// Exit status 0; 1 if the file cannot be read or is no URDF, 2 if the options are wrong.
 #include <articula/model/build_model.hpp>
@@ -16,6 +17,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -109,10 +111,10 @@ void list_transmissions(const articula::UrdfDocument& document) {
   }
 }
 
-/// Prints what load_urdf makes of the file.
+/// Prints what load_urdf, or load_kinematic_urdf, makes of the file.
 void describe(const articula::UrdfDescription& description) {
   const articula::ModelSize size = articula::model_size(description.joints);
-  std::printf("load_urdf<%d", size.joints);
+  std::printf("%s<%d", description.kinematic ? "load_kinematic_urdf" : "load_urdf", size.joints);
   if (size.bodies != size.joints) std::printf(", %d", size.bodies);
   const char* separator = ">: ";
   for (const articula::Joint& joint : description.joints) {
@@ -122,6 +124,23 @@ void describe(const articula::UrdfDescription& description) {
   }
   std::printf("\n");
   for (const std::string& notice : description.notices) std::printf("%s\n", notice.c_str());
+}
+
+/// Describes a file; where load_urdf refuses it for its masses, as a robot without them.
+void describe(const std::filesystem::path& file, articula::UrdfOptions options) {
+  std::string reason;
+  try {
+    return describe(articula::read_urdf(file, options));
+  } catch (const articula::UrdfError& error) {
+    reason = error.what();
+  }
+  options.kinematic = true;
+  try {
+    describe(articula::read_urdf(file, options));
+  } catch (const articula::UrdfError&) {  // masses are not all that is wrong
+    throw std::runtime_error(reason);
+  }
+  std::printf("load_urdf refuses it: %s\n", reason.c_str());
 }
 
 }  // namespace
@@ -135,7 +154,7 @@ int main(int count, char** words) {
   app.add_option("file", file, "the URDF")->required();
   app.add_flag("--moving", moving_only, "leave out fixed joints");
   app.add_flag("--transmissions", transmissions, "list the transmissions, too");
-  app.add_flag("--model", model, "say what the file is to load_urdf");
+  app.add_flag("--model", model, "say how to load the file");
   app.add_option("--root", options.root, "the model's root link")->needs("--model");
   app.add_option("--tip", options.tip, "the link at which a chain ends")->needs("--model");
   app.add_option("--lock", locked, "a joint to be held at 0")
@@ -157,7 +176,7 @@ int main(int count, char** words) {
     list(document, *document.robot->getRoot(), moving_only);
     if (transmissions) list_transmissions(document);
     options.locked.assign(locked.begin(), locked.end());
-    if (model) describe(articula::read_urdf(path, options));
+    if (model) describe(path, options);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "urdf_joints: %s\n", error.what());

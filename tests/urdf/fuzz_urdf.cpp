@@ -27,6 +27,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (text.starts_with("<<")) text.erase(0, 1);
   load<1>(text, {});
   load<2>(text, {.root = "a", .allow_unphysical = true});
+  try {
+    static_cast<void>(articula::load_kinematic_urdf<1>(text));
+  } catch (const articula::UrdfError&) {  // the right answer
+  }
   load<1>(text, {.tip = "b", .locked = {{"i", 0.5}}, .allow_unphysical = true});
   return 0;
 }

@@ -50,7 +50,7 @@ class Bits {
 template <class Description>
 [[nodiscard]] bool same(const Description& a, const articula::UrdfDescription& b) {
   if (!(a.name == b.name) || !((Bits{} << a.gravity) == (Bits{} << b.gravity)) ||
-      a.allow_unphysical != b.allow_unphysical ||
+      a.allow_unphysical != b.allow_unphysical || a.kinematic != b.kinematic ||
       a.right_angle_tolerance != b.right_angle_tolerance || a.links.size() != b.links.size() ||
       a.joints.size() != b.joints.size()) {
     return false;

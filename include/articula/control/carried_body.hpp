@@ -6,6 +6,7 @@
 #include "articula/core/refuse.hpp"
 #include "articula/dynamics/configuration.hpp"
 #include "articula/dynamics/evaluate.hpp"
+#include "articula/model/dynamic_robot.hpp"
 #include "articula/model/robot.hpp"
 
 #include <cmath>

@@ -9,6 +9,7 @@
 #include "articula/dynamics/forward_dynamics.hpp"
 #include "articula/dynamics/gravity.hpp"
 #include "articula/dynamics/inverse_dynamics.hpp"
+#include "articula/model/dynamic_robot.hpp"
 
 #include <string_view>
 

@@ -5,6 +5,7 @@
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/dynamics/gravity.hpp"
+#include "articula/model/dynamic_robot.hpp"
 
 namespace articula {
 

@@ -4,6 +4,7 @@
 
 #include "articula/dynamics/configuration.hpp"
 #include "articula/dynamics/gravity_efforts.hpp"
+#include "articula/model/dynamic_robot.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/symbolic/assembler.hpp"
 #include "articula/symbolic/run_program.hpp"

@@ -5,6 +5,7 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/dynamics/friction_effort.hpp"
+#include "articula/model/dynamic_robot.hpp"
 #include "articula/sim/joint_dynamics.hpp"
 #include "articula/sim/joint_sensors.hpp"
 #include "articula/sim/servo_drives.hpp"

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// A robot whose masses are not known has kinematics and motion, and no dynamics.
+#include <articula/control/carried_body.hpp>
+#include <articula/control/computed_torque.hpp>
+#include <articula/control/equivalent_inertia.hpp>
+#include <articula/control/forward_position.hpp>
+#include <articula/control/forward_velocity.hpp>
+#include <articula/control/groups.hpp>
+#include <articula/control/limited.hpp>
+#include <articula/control/pid.hpp>
+#include <articula/control/pid_plus_gravity.hpp>
+#include <articula/control/switch.hpp>
+#include <articula/dynamics/dynamics.hpp>
+#include <articula/hardware/mock_hardware.hpp>
+#include <articula/loop/supervised_loop.hpp>
+#include <articula/reference/trajectory_follower.hpp>
+#include <articula/sim/simulator.hpp>
+
+using namespace articula;
+
+struct Scara {
+  static constexpr auto description = RobotDescription{
+      .name = "scara",
+      .links = std::to_array<Link>({{.name = "base"}, {.name = "arm"}, {.name = "tool"}}),
+      .joints = std::to_array<Joint>({{.name = "shoulder",
+                                       .type = JointType::revolute,
+                                       .parent = "base",
+                                       .child = "arm",
+                                       .axis = {0, 0, 1},
+                                       .limits = {.lower = -1, .upper = 1, .velocity = 2}},
+                                      {.name = "elbow",
+                                       .type = JointType::revolute,
+                                       .parent = "arm",
+                                       .child = "tool",
+                                       .origin = {0.4, 0, 0},
+                                       .axis = {0, 0, 1},
+                                       .limits = {.lower = -1, .upper = 1, .velocity = 2}}}),
+      .kinematic = true};
+};
+using Loaded = KinematicModel<2>;
+
+static_assert(Robot<Scara> && Robot<Loaded> && DescribedRobot<Scara>);
+static_assert(!DynamicRobot<Scara> && !DynamicRobot<Loaded> && DynamicRobot<Model<2>>);
+
+// What needs no masses.
+template <Robot R>
+using Positions = MockHardware<R, PositionCommand<2>>;
+template <Robot R>
+using Velocities = MockHardware<R, VelocityCommand<2>>;
+template <class R>
+using LimitedPosition = Limited<R, ForwardPosition>;
+template <class R>
+using LimitedVelocity = Limited<R, ForwardVelocity>;
+
+template class articula::TrajectoryFollower<Scara>;
+template class articula::TrajectoryFollower<Loaded>;
+
+template <Robot R>
+void motion(const R& robot) {
+  const CommandLimits<2> limits = command_limits(robot);
+  Loop<Positions<R>, LimitedPosition> positions(
+      Positions<R>({}, 1e-3, robot), LimitedPosition<R>(limits, ForwardPosition<R>(robot), robot));
+  Loop<Velocities<R>, LimitedVelocity> velocities(
+      Velocities<R>({}, 1e-3, robot), LimitedVelocity<R>(limits, ForwardVelocity<R>(robot), robot));
+  SupervisedLoop<Positions<R>, ForwardPosition> supervised(Positions<R>({}, 1e-3, robot),
+                                                           ForwardPosition<R>(robot));
+  static_cast<void>(positions.update() == velocities.update() &&
+                    positions.update() == supervised.update());
+  TrajectoryFollower<R> follower({0, 0}, {{1, 1}, {1, 1}, {1, 1}}, {}, robot);
+  static_cast<void>(follower.sample(0.0));
+}
+
+template <Robot R>
+double kinematics(const R& robot) {
+  const JointVector<2> q(0.1, 0.2);
+  return forward_kinematics(robot, q, "tool")(0, 3) + jacobian(robot, q, "tool")(0, 0) +
+         friction_effort(robot, q)[0] + moving_joint_positions(robot, q)[0];
+}
+
+// What does.
+template <Robot R>
+void dynamics(const R& robot) {
+  const JointVector<2> q(0.1, 0.2);
+  static_cast<void>(inverse_dynamics(robot, q, q, q));
+  static_cast<void>(nonlinear_effects(robot, q, q));
+  static_cast<void>(mass_matrix(robot, q));
+  static_cast<void>(gravity(robot, q));
+  static_cast<void>(potential_energy(robot, q));
+  static_cast<void>(kinetic_energy(robot, q, q));
+  static_cast<void>(carried_body(robot, q, 0));
+}
+
+int main() {
+  const Loaded loaded{};
+  motion(Scara{});
+  motion(loaded);
+  double sum = kinematics(Scara{}) + kinematics(loaded);
+#ifdef DESCRIBED
+  dynamics(Scara{});
+  sum += operations<InverseDynamics, Scara>().additions;
+#endif
+#ifdef LOADED
+  dynamics(loaded);
+  static_cast<void>(forward_dynamics(loaded, {0.1, 0.2}, {0, 0}, {0, 0}));
+#endif
+#ifdef PARTS
+  Simulator<Scara> simulator;
+  GravityCompensation<Scara> gravity_compensation;
+  ComputedTorqueLaw<Loaded> computed_torque(loaded, {});
+  EffortLimiter<Scara> limiter({}, Scara{});
+#endif
+#ifdef EFFORT_LOOP
+  Loop<MockHardware<Loaded>, Pid> loop(MockHardware<Loaded>({}, 1e-3, loaded),
+                                       Pid<Loaded>({}, loaded));
+  static_cast<void>(loop.update());
+#endif
+#ifdef INERTIA
+  sum += equivalent_inertia(loaded, JointVector<2>(0.1, 0.2), 0);
+#endif
+  return sum > 0 ? 0 : 1;
+}
