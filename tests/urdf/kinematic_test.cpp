@@ -100,6 +100,17 @@ TEST_CASE("Masses that are not to count leave no trace and no notice") {
   }
 }
 
+TEST_CASE("What is wrong with masses that do not count is no reason to refuse a robot") {
+  for (const char* inside :
+       {"", "<mass value=\"heavy\"/>", "<mass value=\"1\"/>", "<mass value=\"nan\"/>"}) {
+    const std::string text =
+        pendulum(std::string("<link name=\"rod\"><inertial>") + inside + "</inertial></link>");
+    CAPTURE(text);
+    CHECK(!refusal(text, {.allow_unphysical = true}).empty());
+    CHECK(load_kinematic_urdf<1>(text).links.size() == 2);
+  }
+}
+
 TEST_CASE("A kinematic description makes no model with dynamics, a full one makes either") {
   CHECK_THROWS_WITH(
       (load_urdf<3, 4>(file, {.kinematic = true})),

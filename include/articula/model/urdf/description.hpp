@@ -105,7 +105,7 @@ class UrdfReader {
   void select() {
     const urdf::Link& root =
         options_.root.empty() ? *document_.robot->getRoot() : link(options_.root, "root");
-    add(root);
+    result_.links.push_back(link_of(document_, root));
     if (!options_.kinematic) notices_.add_root(root, options_.gravity);
     if (!options_.tip.empty()) return select_chain(root, link(options_.tip, "tip"));
     std::vector<urdf::JointSharedPtr> open;                        // the next one last
@@ -170,13 +170,7 @@ class UrdfReader {
                                        leader.offset};
       }
     }
-    add(*document_.robot->links_.at(joint.child_link_name));
-  }
-
-  void add(const urdf::Link& link) {
-    const bool has_mass = !options_.kinematic;
-    result_.links.push_back(has_mass ? link_of(document_, link)
-                                     : Link{.name = name_of(document_, link.name)});
+    result_.links.push_back(link_of(document_, *document_.robot->links_.at(joint.child_link_name)));
   }
 
   /// Without its leader, nothing says where a joint is.
@@ -234,7 +228,7 @@ class UrdfReader {
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline UrdfDescription read_urdf(const UrdfSource& source,
                                                const UrdfOptions& options = {}) {
-  const UrdfDocument document = parse_urdf(source);
+  const UrdfDocument document = parse_urdf(source, options.kinematic);
   return detail::UrdfReader(document, options).read();
 }
 

@@ -144,14 +144,17 @@ inline void blank_white_space(std::string& text) {
 }  // namespace detail
 
 /// Reads a URDF as it is written.
-/// @param source  a file or XML
+/// @param source          a file or XML
+/// @param without_masses  passes over all <inertial>, whatever they say
 /// @throws UrdfError if it cannot be read, is not URDF, or its links form no tree
 /// Real-time: no (reads a file, allocates, throws).
-[[nodiscard]] inline UrdfDocument parse_urdf(const UrdfSource& source) {
+[[nodiscard]] inline UrdfDocument parse_urdf(const UrdfSource& source,
+                                             bool without_masses = false) {
   UrdfDocument result{.file = source.name()};
   detail::XmlDocument document;
   detail::XmlElement& robot = detail::parse_xml(result.file, source.text(), document);
   detail::refuse_xacro(result.file, robot);
+  if (without_masses) detail::remove_inertials(robot);
 
   detail::ControlReader control(result.file);
   control.read(robot);

@@ -124,7 +124,6 @@ class UrdfNotices {
   /// An <inertial> in other units. In kg mm^2 a body seems a thousand times as large as it is; a
   /// crane's jib has a radius of gyration of 20 m.
   void add_odd_units(const Link& link) {
-    if (kinematic_) return;
     constexpr double largest_radius = 50;  // of gyration [m]
     const std::string where = "link '" + std::string(link.name.view()) + "': <inertial>: ";
     const auto orientation = document_.inertia_orientations.find(std::string(link.name.view()));

@@ -123,6 +123,14 @@ inline void keep_only(XmlElement& parent, std::initializer_list<std::string_view
   }
 }
 
+/// Takes the masses out of a robot.
+inline void remove_inertials(XmlElement& robot) {
+  for (XmlElement* link = robot.FirstChildElement("link"); link;
+       link = link->NextSiblingElement("link")) {
+    while (XmlElement* inertial = link->FirstChildElement("inertial")) remove(*link, *inertial);
+  }
+}
+
 /// Leaves of a robot what its mechanics need: what urdfdom would refuse elsewhere, such as a colour
 /// that is not defined, is no concern of ours.
 /// @throws UrdfError if one is written <Link> or so, which would be left out in silence
