@@ -129,6 +129,11 @@ std::string joint_text(const Joint& joint) {
   limits.add("upper", joint.limits.upper, bare.limits.upper);
   limits.add("velocity", joint.limits.velocity, bare.limits.velocity);
   limits.add("effort", joint.limits.effort, bare.limits.effort);
+  limits.add("acceleration", joint.limits.acceleration, bare.limits.acceleration);
+  limits.add("jerk", joint.limits.jerk, bare.limits.jerk);
+  limits.add("soft_lower", joint.limits.soft_lower, bare.limits.soft_lower);
+  limits.add("soft_upper", joint.limits.soft_upper, bare.limits.soft_upper);
+  limits.add("soft_rate", joint.limits.soft_rate, bare.limits.soft_rate);
   if (!limits.empty()) {
     members.add("limits", limits.text(member_indent + std::string_view(".limits = ").size()));
   }

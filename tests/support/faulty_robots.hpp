@@ -76,6 +76,9 @@ inline constexpr articula::RobotDescription pendulum_and_table{
     case Rule::lower_limit_is_above_upper_limit:
     case Rule::velocity_limit_is_negative:
     case Rule::effort_limit_is_negative:
+    case Rule::acceleration_limit_is_not_positive:
+    case Rule::jerk_limit_is_not_positive:
+    case Rule::soft_limits_leave_no_position:
     case Rule::damping_is_negative:
     case Rule::friction_is_negative:
     case Rule::reflected_inertia_is_negative:
@@ -156,6 +159,16 @@ template <articula::Rule rule>
         break;
       case Rule::effort_limit_is_negative:
         knee.limits.effort = -1;
+        break;
+      case Rule::acceleration_limit_is_not_positive:
+        knee.limits.acceleration = 0;
+        break;
+      case Rule::jerk_limit_is_not_positive:
+        knee.limits.jerk = 0;
+        break;
+      case Rule::soft_limits_leave_no_position:
+        knee.limits.upper = 1;
+        knee.limits.soft_lower = 2;
         break;
       case Rule::damping_is_negative:
         knee.damping = -0.1;

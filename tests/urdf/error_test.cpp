@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "urdf_text.hpp"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -34,6 +35,11 @@ std::string refusal(const std::string& source, const UrdfOptions& options = {}) 
   }
   return "";
 }
+
+/// The end of a message about a mass that is missing.
+const std::string kinematic =
+    "; without dynamics, load_kinematic_urdf (KINEMATIC in CMake) loads the robot and leaves out "
+    "all masses";
 
 /// A pendulum whose joint has that inside.
 std::string with_joint(const std::string& inside, const std::string& type = "continuous") {
@@ -196,7 +202,8 @@ TEST_CASE("Inertias that cannot be") {
   CHECK(refusal(inertial("-1"), {.allow_unphysical = true}) ==
         "URDF: link 'rod': the mass is negative (-1 kg)");
   CHECK(refusal(pendulum("<link name='rod'/>")) ==
-        "URDF: joint 'pivot': the joint moves no link that has mass (lock it, or give rod a mass)");
+        "URDF: joint 'pivot': the joint moves no link that has mass (lock it, or give rod a mass)" +
+            kinematic);
 }
 
 TEST_CASE("Numbers that are none") {
@@ -475,7 +482,16 @@ TEST_CASE("Limits in ros2_control that cannot be") {
                    "</param>");
   };
   CHECK(bounds("-0.2", "0.2").empty());
-  CHECK(bounds("0", "0.2").empty());
+  CHECK(bounds("0", "0").empty());  // no effort at all, and a notice says so
+  for (const auto& [min, max, said] : {std::array{"0", "0.2", "(min 0, max 0.2)"},
+                                       std::array{"-27.94", "0", "(min -27.94, max 0)"},
+                                       std::array{"-0.2", "-0.0", "(min -0.2, max -0)"}}) {
+    CHECK(bounds(min, max) ==
+          std::string("URDF: <ros2_control>: joint 'pivot': effort: its limits ") + said +
+              " leave one direction alone, and a joint has one limit for both: give min and max "
+              "of both signs, or <limits enable=\"false\"/>");
+  }
+  CHECK_THAT(control("<param name=\"max\">0</param>"), Contains("(min -inf, max 0) leave one"));
   CHECK(bounds("0.2", "-0.2") ==
         "URDF: <ros2_control>: joint 'pivot': effort: 0 is not within its limits (min 0.2, max "
         "-0.2)");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are odd, but sane: as programs and people write them.
+#include <articula/control/command_limits.hpp>
 #include <articula/dynamics/dynamics.hpp>
 #include <articula/model/urdf.hpp>
 
@@ -7,6 +8,7 @@
 #include "urdf_text.hpp"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace articula;
@@ -34,6 +36,8 @@ std::string param(const std::string& name, const std::string& text) {
   return "<param name=\"" + name + "\">" + text + "</param>";
 }
 
+using Notices = std::vector<std::string>;
+
 }  // namespace
 
 TEST_CASE("numbers of commands with comments, infinities and white space") {
@@ -45,17 +49,248 @@ TEST_CASE("numbers of commands with comments, infinities and white space") {
                     Contains("effort max: 'much' is not a finite number"));
 }
 
-TEST_CASE("a drive that runs one way can move; of two bounds the narrower counts") {
-  CHECK(limits_with("\"velocity\">" + param("min", "0") + param("max", "1")).velocity == 1);
-  CHECK(limits_with("\"velocity\">" + param("min", "-1") + param("max", "0")).velocity == 1);
-  CHECK(limits_with("\"velocity\">" + param("min", "-1") + param("max", "2")).velocity == 1);
-  CHECK(limits_with("\"velocity\">" + param("min", "-2") + param("max", "1.5")).velocity == 1.5);
+TEST_CASE("a joint has one limit for both directions: the narrower counts, and a notice says so") {
+  const auto notices = [](const std::string& bounds) {
+    return read_urdf(UrdfSource(controlled("<command_interface name=\"velocity\">" + bounds +
+                                           "</command_interface>")))
+        .notices;
+  };
+  const std::string velocity = "<ros2_control>: joint 'pivot': velocity: ";
+  const auto both = [](const char* min, const char* max) {
+    return param("min", min) + param("max", max);
+  };
+  CHECK(limits_with("\"velocity\">" + both("-1", "2")).velocity == 1);
+  CHECK(notices(both("-1", "2")) ==
+        Notices{velocity + "min -1 and max 2 differ; 1 counts in both directions"});
+  CHECK(limits_with("\"velocity\">" + both("-2", "1.5")).velocity == 1.5);
+  CHECK(notices(param("max", "1.5")) ==
+        Notices{velocity + "min -inf and max 1.5 differ; 1.5 counts in both directions"});
+  CHECK(notices(both("-2", "2.0")).empty());
+  CHECK(limits_with("\"velocity\">" + both("0", "0")).velocity == 0);
+  for (const auto& [min, max] : {std::pair{"0", "1"}, std::pair{"-1", "0"}}) {
+    CHECK_THROWS_WITH(limits_with("\"velocity\">" + both(min, max)),
+                      Contains("<ros2_control>: joint 'pivot': velocity: its limits (min ") &&
+                          Contains(") leave one direction alone"));
+  }
 }
 
-TEST_CASE("commands that are switched off for a whole joint bind nobody") {
-  const std::string off = "<limits enable=\"false\"/><command_interface name=\"effort\">" +
-                          param("max", "1") + "</command_interface>";
-  CHECK(load_urdf<1>(UrdfSource(controlled(off))).joints[0].limits.effort == 100);
+TEST_CASE("torque and force are other words for effort") {
+  for (const std::string kind : {"torque", "force"}) {
+    const std::string command = "\"" + kind + "\">";
+    CHECK(limits_with(command + param("min", "-5") + param("max", "5")).effort == 5);
+    CHECK(limits_with(command + param("max", "auto")).effort == 100);  // a notice says so
+    CHECK_THROWS_WITH(limits_with(command + param("min", "-5") + param("max", "0")),
+                      Contains(kind + ": its limits (min -5, max 0) leave one direction alone"));
+  }
+}
+
+TEST_CASE("limits of acceleration and jerk are read") {
+  const std::string both = param("min", "-20") + param("max", "20");
+  CHECK(limits_with("\"acceleration\">" + both).acceleration == 20);
+  CHECK(limits_with("\"acceleration\">" + param("max", "15")).acceleration == 15);
+  CHECK(limits_with("\"acceleration\">" + param("min", "-15")).acceleration == 15);
+  CHECK(limits_with("\"acceleration\">" + param("min", "-8") + param("max", "15")).acceleration ==
+        8);
+  CHECK(limits_with("\"jerk\">" + param("max", "900")).jerk == 900);
+  CHECK(limits_with("\"velocity\">").acceleration == JointLimits::infinity);
+  CHECK(limits_with("\"acceleration\">" + param("max", "0")).acceleration == JointLimits::infinity);
+
+  const auto notices = [](const std::string& command) {
+    return read_urdf(UrdfSource(
+                         controlled("<command_interface name=" + command + "</command_interface>")))
+        .notices;
+  };
+  const std::string owner = "<ros2_control>: joint 'pivot': ";
+  CHECK(notices("\"acceleration\">" + both).empty());
+  CHECK(notices("\"jerk\">" + param("max", "900")).empty());
+  CHECK(notices("\"acceleration\">" + param("min", "-8") + param("max", "15")) ==
+        Notices{owner + "acceleration: min -8 and max 15 differ; 8 counts in both directions"});
+  CHECK(notices("\"jerk\">" + param("max", "0")) ==
+        Notices{owner + "jerk: a limit of 0 does not count, for the joint could not move"});
+  CHECK(notices("\"jerk\">" + param("max", "much")) ==
+        Notices{owner + "jerk max: 'much' is no number and does not count"});
+
+  const Model<1> model = load_urdf<1>(UrdfSource(controlled(
+      "<command_interface name=\"acceleration\">" + both + "</command_interface>" +
+      "<command_interface name=\"jerk\">" + param("max", "9") + "</command_interface>")));
+  CHECK(command_limits(model).acceleration[0] == 20);
+  CHECK(command_limits(model).jerk[0] == 9);
+  CommandLimits<1> beyond = command_limits(model);
+  beyond.acceleration[0] = 21;
+  CHECK_THROWS_WITH(validate(beyond, model), Contains("acceleration 21 is above the limit 20"));
+}
+
+TEST_CASE("limits of acceleration and jerk are read from URDF 1.2, too") {
+  const auto pivot = [](const std::string& rates) {
+    return read_urdf(UrdfSource(support::pendulum(
+        solid("rod"), joint("pivot", "continuous", "base", "rod",
+                            "<limit effort=\"1\" velocity=\"1\" " + rates + "/>"))));
+  };
+  const JointLimits limits =
+      pivot("acceleration=\"7\" deceleration=\"5\" jerk=\"60\"").joints[0].limits;
+  CHECK(limits.acceleration == 5);
+  CHECK(limits.jerk == 60);
+  CHECK(pivot("jerk=\"0\"").notices ==
+        Notices{"joint 'pivot': <limit>: jerk '0' is no number > 0 and does not count"});
+}
+
+TEST_CASE("what is odd in ros2_control, or refused by it, is reported") {
+  const auto notices = [](const std::string& component, const std::string& mechanics = "") {
+    return read_urdf(UrdfSource(robot(
+                         "<link name=\"base\"/>" + solid("rod") + solid("end") +
+                         joint("pivot", "continuous", "base", "rod") +
+                         (mechanics.empty() ? joint("weld", "fixed", "rod", "end") : mechanics) +
+                         component)))
+        .notices;
+  };
+  const auto component = [&](const std::string& inside) {
+    return notices("<ros2_control name=\"c\" type=\"system\">" + inside + "</ros2_control>");
+  };
+  const auto pivot = [&](const std::string& inside, const std::string& attributes = "") {
+    return component("<joint name=\"pivot\"" + attributes + ">" + inside + "</joint>");
+  };
+  const auto command = [&](const std::string& kind, const std::string& inside) {
+    return pivot("<command_interface name=\"" + kind + "\">" + inside + "</command_interface>");
+  };
+  const std::string owner = "<ros2_control>: joint 'pivot': ",
+                    effort = owner + "<command_interface name=\"effort\">: ",
+                    unknown = " is not known there and does not count",
+                    meant_max = "; did you mean 'max'?";
+  CHECK(command("effort", param("min", "-5") + param("max", "5")).empty());
+
+  SECTION("limits under another name") {
+    CHECK(command("effort", param("maximum", "5")) ==
+          Notices{effort + "the parameter 'maximum'" + unknown + meant_max});
+    CHECK(command("effort", param("Max", "5")) ==
+          Notices{effort + "the parameter 'Max'" + unknown + meant_max});
+    CHECK(command("effort", param("upper_limit", "5")) ==
+          Notices{effort + "the parameter 'upper_limit'" + unknown + meant_max});
+    CHECK(command("effort", param("bound", "5")) ==
+          Notices{effort + "the parameter 'bound'" + unknown});
+    CHECK(command("efort", param("max", "5")) ==
+          Notices{owner +
+                  "<command_interface name=\"efort\">: its max does not count; limits are read for "
+                  "position, velocity, effort (or torque, force), acceleration and jerk; did you "
+                  "mean 'effort'?"});
+    CHECK(pivot("<state_interface name=\"effort\">" + param("max", "5") + "</state_interface>") ==
+          Notices{owner + "<state_interface name=\"effort\">: its max does not count; limits are "
+                          "those of commands"});
+    CHECK(pivot(param("max_effort", "5")) ==
+          Notices{owner + "<joint>: the parameter 'max_effort'" + unknown});
+    CHECK(pivot(param("can_id", "5")).empty());
+    CHECK(pivot("<command_interface name=\"effort\" max=\"5\"/>") ==
+          Notices{effort + "<command_interface>: the attribute 'max'" + unknown});
+    CHECK(pivot("<command_interface name=\"effort\"><max>5</max></command_interface>") ==
+          Notices{effort + "<command_interface>: the element <max>" + unknown});
+    CHECK(pivot("<comand_interface name=\"effort\"/>") ==
+          Notices{owner + "<joint>: the element <comand_interface>" + unknown +
+                  "; did you mean 'command_interface'?"});
+  }
+  SECTION("limits that are switched off") {
+    const std::string off =
+        ": <limits enable=\"false\"/>: no min and max count there; <limit> does";
+    CHECK(pivot("<limits enable=\"false\"/>") == Notices{"<ros2_control>: joint 'pivot'" + off});
+    CHECK(command("effort", "<limits enable=\"False\"/>" + param("max", "5")) ==
+          Notices{owner + "effort" + off});
+    CHECK(command("effort", "<limits/>") == Notices{effort + "<limits> has no enable, so the "
+                                                             "limits count"});
+    CHECK(command("effort", "<limits enable=\"no\"/>") ==
+          Notices{effort + "<limits>: enable 'no' is neither true nor false and does not count"});
+  }
+  SECTION("parts without name, text or sense") {
+    CHECK(notices("<ros2_control/>") ==
+          Notices{"<ros2_control>: it has no name", "<ros2_control>: it has no type"});
+    CHECK(notices("<ros2_control name=\"c\" type=\"robot\" is_async=\"1\" rw_rate=\"-2\"/>") ==
+          Notices{"<ros2_control> 'c': type 'robot' is none of system, actuator, sensor",
+                  "<ros2_control> 'c': is_async '1' is neither true nor false and does not count",
+                  "<ros2_control> 'c': rw_rate '-2' is no whole number >= 0"});
+    CHECK(component("<hardware/>") ==
+          Notices{"<ros2_control> 'c': its <hardware> has no <plugin>"});
+    CHECK(component("<joints/>") == Notices{"<ros2_control> 'c': <ros2_control>: the element "
+                                            "<joints>" +
+                                            unknown + "; did you mean 'joint'?"});
+    CHECK(component("<sensor/>") == Notices{"<ros2_control> 'c': sensor '': it has no name"});
+    CHECK(pivot("<command_interface/>") == Notices{owner + "a <command_interface> has no name"});
+    CHECK(command("effort", "<param>5</param>") ==
+          Notices{effort + "a <param> has no name, so it does not count"});
+    CHECK(command("effort", "<param name=\"initial_value\"/>") ==
+          Notices{effort + "the parameter 'initial_value' says nothing"});
+    CHECK(component("<transmission name=\"t\"><joint name=\"pivot\"/></transmission>") ==
+          Notices{"transmission 't': it has no <plugin>", "transmission 't': a <joint> has no role",
+                  "transmission 't': joint 'pivot' is no joint of its <ros2_control>"});
+  }
+  SECTION("joints that cannot be commanded, or are twice") {
+    CHECK(component("<joint name=\"weld\"><command_interface name=\"position\"/></joint>") ==
+          Notices{"<ros2_control>: joint 'weld': it is fixed, so its commands move nothing"});
+    CHECK(component("<joint name=\"weld\"/>") ==
+          Notices{"<ros2_control>: joint 'weld': it is fixed"});
+    CHECK(pivot("", " mimic=\"true\"") ==
+          Notices{owner + "mimic=\"true\", but it has no <mimic>, so it follows nobody"});
+    const std::string taken =
+        "<joint name=\"pivot\"><command_interface name=\"position\"/></joint>";
+    CHECK(component(taken + taken) == Notices{owner + "it stands there twice"});
+    CHECK(notices("<ros2_control name=\"c\" type=\"system\">" + taken +
+                  "</ros2_control><ros2_control name=\"d\" type=\"system\">" + taken +
+                  "</ros2_control>") ==
+          Notices{owner + "it stands in two <ros2_control>; the narrower limits count"});
+    const std::string both =
+        "<ros2_control name=\"c\" type=\"system\"><joint name=\"pivot\"/><joint name=\"end\">"
+        "<command_interface name=\"position\"/></joint></ros2_control>";
+    CHECK(notices(both, joint("end", "continuous", "rod", "end", "<mimic joint=\"pivot\"/>")) ==
+          Notices{"<ros2_control>: joint 'end': it mimics 'pivot', so its commands do not count"});
+  }
+  SECTION("the same in many joints is one line") {
+    CHECK(component("<joint name=\"pivot\"><command_interface name=\"effort\">" +
+                    param("maximum", "5") +
+                    "</command_interface></joint><joint name=\"weld\"><command_interface "
+                    "name=\"effort\">" +
+                    param("maximum", "5") + "</command_interface></joint>")[0] ==
+          effort + "the parameter 'maximum'" + unknown + meant_max + " 1 other has it, too");
+  }
+}
+
+TEST_CASE("soft limits of a safety controller are read where they can be used") {
+  const auto description = [](const std::string& safety, const std::string& type = "revolute") {
+    return read_urdf(UrdfSource(support::pendulum(
+        solid("rod"),
+        joint("pivot", type, "base", "rod",
+              "<limit lower=\"-2\" upper=\"2\" effort=\"1\" velocity=\"1\"/><safety_controller " +
+                  safety + "/>"))));
+  };
+  const std::string range = "soft_lower_limit=\"-1.9\" soft_upper_limit=\"1.8\" ";
+  const UrdfDescription pivot = description(range + "k_position=\"20\" k_velocity=\"0\"");
+  CHECK(pivot.notices.empty());
+  const CommandLimits<1> limits = command_limits(model_of_urdf<1>(pivot));
+  CHECK(limits.soft_lower[0] == -1.9);
+  CHECK(limits.soft_upper[0] == 1.8);
+  CHECK(limits.soft_rate[0] == 20);
+  CHECK(description(range).joints[0].limits.soft_rate == JointLimits::infinity);
+
+  const std::string owner = "joint 'pivot': ", safety = owner + "<safety_controller>: ";
+  const auto unused = [&](const std::string& text, const std::string& type = "revolute") {
+    const UrdfDescription read = description(text, type);
+    CHECK(read.joints[0].limits.soft_lower == -JointLimits::infinity);
+    CHECK(read.joints[0].limits.soft_rate == JointLimits::infinity);
+    REQUIRE(!read.notices.empty());
+    return read.notices.back();
+  };
+  CHECK(description("").notices.empty());
+  CHECK(unused("k_velocity=\"5\"") == safety + "k_velocity does not count");
+  CHECK(unused("k_position=\"5\"") == safety + "k_position does not count without soft limits");
+  CHECK(unused("soft_lower_limit=\"-1\"") ==
+        safety + "soft limits -1 .. (none) do not count: one of them is missing");
+  CHECK(unused("soft_lower_limit=\"0\" soft_upper_limit=\"0\"") ==
+        safety + "soft limits 0 .. 0 do not count: they leave the joint no room to move");
+  CHECK(unused(range + "k_position=\"-1\"") ==
+        safety + "soft limits -1.9 .. 1.8 do not count: k_position is negative");
+  CHECK(unused("soft_lower_limit=\"low\" soft_upper_limit=\"0\"") ==
+        safety + "soft_lower_limit 'low' is no number, so it does not count");
+  CHECK(unused("soft_lower_limit=\"3\" soft_upper_limit=\"4\"") ==
+        owner + "its soft limits, 3 .. 4, do not count: they are beyond its limits, -2 .. 2");
+  CHECK(unused("soft_lower=\"-1\"") ==
+        owner +
+            "<safety_controller>: the attribute 'soft_lower' is not known there and does not "
+            "count");
 }
 
 TEST_CASE("tabs and line ends between the numbers of an attribute") {
@@ -253,13 +488,16 @@ TEST_CASE("angles of more than a turn and inertias of giants are reported") {
 TEST_CASE("limits that are expressions in braces do not count and are reported") {
   std::string file = support::pendulum();
   file.insert(file.rfind("</robot>"),
-              "<ros2_control><joint name='pivot'><command_interface name='effort'><param "
-              "name='min'>{-2*pi}</param><param name='max'>3</param></command_interface></joint>"
+              "<ros2_control name='c' type='system'><joint name='pivot'><command_interface "
+              "name='effort'><param name='min'>{-2*pi}</param><param "
+              "name='max'>3</param></command_interface></joint>"
               "</ros2_control>");
   const UrdfDescription pendulum = read_urdf(UrdfSource(file));
   CHECK(pendulum.notices ==
         std::vector<std::string>{"<ros2_control>: joint 'pivot': effort min: '{-2*pi}' is no "
-                                 "number and does not count"});
+                                 "number and does not count",
+                                 "<ros2_control>: joint 'pivot': effort: min -inf and max 3 "
+                                 "differ; 3 counts in both directions"});
   CHECK(pendulum.joints[0].limits.effort == 3);
 }
 
@@ -326,8 +564,9 @@ TEST_CASE("a mimic that stands in ros2_control alone is reported") {
   };
   const std::string follower = "<mimic joint=\"i\"/>",
                     counts = ", but only <mimic> in the joint itself counts";
-  CHECK(notices(follower, "", param("mimic", "i")).empty());
-  CHECK(notices(follower, " mimic=\"true\"", "").empty());
+  const std::string absent = "<ros2_control>: joint 'k': it mimics 'i', which does not stand there";
+  CHECK(notices(follower, "", param("mimic", "i")) == Notices{absent});
+  CHECK(notices(follower, " mimic=\"true\"", "") == Notices{absent});
   REQUIRE(notices("", "", param("mimic", "i") + param("multiplier", "2")).size() == 1);
   CHECK(notices("", "", param("mimic", "i"))[0] ==
         "<ros2_control>: joint 'k' is to mimic 'i'" + counts);
@@ -352,7 +591,8 @@ TEST_CASE("elements given twice that say the same, or do not count, are reported
         Notices{second + "parent>, which says the same as the first",
                 second + "limit>, which says the same as the first"});
   CHECK(notices("<safety_controller k_velocity=\"1\"/><safety_controller k_velocity=\"2\"/>") ==
-        Notices{second + "safety_controller>, which does not count"});
+        Notices{second + "safety_controller>, which does not count",
+                "joint 'end': <safety_controller>: k_velocity does not count"});
   CHECK(notices("<dynamics damping=\"1\"/><dynamics damping=\"2\"/><gazebo/><gazebo/>", "fixed") ==
         Notices{second + "dynamics>, which does not count"});
   // What is left out says what it is by default.
@@ -441,7 +681,7 @@ TEST_CASE("words that URDF does not know are reported") {
                                   pivot + "it has no room to move, lower and upper limit are 0"});
   }
   SECTION("not what others read") {
-    CHECK(notices("<safety_controller k_velocity=\"1\" k=\"1\"/><calibration rising=\"1\"/>"
+    CHECK(notices("<calibration rising=\"1\"/>"
                   "<gazebo><limits/></gazebo><drake:spring k=\"1\"/>"
                   "<limit lower=\"0\" upper=\"0\" effort=\"1\" velocity=\"1\" acceleration=\"1\" "
                   "drake:jerk=\"1\"/>",

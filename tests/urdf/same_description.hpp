@@ -37,8 +37,9 @@ class Bits {
 [[nodiscard]] inline bool same(const articula::Joint& a, const articula::Joint& b) {
   const auto bits = [](const articula::Joint& j) {
     return Bits{} << j.origin << j.orientation << j.axis << j.limits.lower << j.limits.upper
-                  << j.limits.velocity << j.limits.effort << j.damping << j.friction
-                  << j.reflected_inertia << j.mimic.multiplier << j.mimic.offset
+                  << j.limits.velocity << j.limits.effort << j.limits.acceleration << j.limits.jerk
+                  << j.limits.soft_lower << j.limits.soft_upper << j.limits.soft_rate << j.damping
+                  << j.friction << j.reflected_inertia << j.mimic.multiplier << j.mimic.offset
                   << j.shared_rotors.inertia;
   };
   return a.name == b.name && a.type == b.type && a.parent == b.parent && a.child == b.child &&

@@ -38,7 +38,8 @@ struct CommandLimits {
   Vector soft_rate = Vector::Constant(infinity);
 };
 
-/// The limits of position, velocity and effort in a robot's description. Real-time: yes.
+/// The limits in a robot's description: position, velocity, effort, and where they are given
+/// acceleration, jerk and soft limits. Real-time: yes.
 template <Robot R>
 [[nodiscard]] CommandLimits<joint_count<R>> command_limits(const R& robot) noexcept {
   const auto of = [&](double JointLimits::*limit) {
@@ -48,7 +49,12 @@ template <Robot R>
   limits.lower = of(&JointLimits::lower);
   limits.upper = of(&JointLimits::upper);
   limits.velocity = of(&JointLimits::velocity);
+  limits.acceleration = of(&JointLimits::acceleration);
+  limits.jerk = of(&JointLimits::jerk);
   limits.effort = of(&JointLimits::effort);
+  limits.soft_lower = of(&JointLimits::soft_lower);
+  limits.soft_upper = of(&JointLimits::soft_upper);
+  limits.soft_rate = of(&JointLimits::soft_rate);
   return limits;
 }
 
@@ -85,10 +91,10 @@ void validate(const R& robot, const CommandLimits<joint_count<R>>& limits) {
     }
     check("soft_rate", limits.soft_rate[j], infinity);
     if (limits.velocity[j] != 0) check("velocity", limits.velocity[j], joint.limits.velocity);
-    check("acceleration", limits.acceleration[j], infinity);
+    check("acceleration", limits.acceleration[j], joint.limits.acceleration);
     const bool reckons = is_finite(limits.deceleration[j]);
     check("deceleration", limits.deceleration[j], reckons ? limits.acceleration[j] : infinity);
-    check("jerk", limits.jerk[j], infinity);
+    check("jerk", limits.jerk[j], joint.limits.jerk);
     if (limits.effort[j] != 0) check("effort", limits.effort[j], joint.limits.effort);
     check("effort_rate", limits.effort_rate[j], infinity);
   }

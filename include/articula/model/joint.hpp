@@ -21,10 +21,18 @@ enum class JointType : unsigned char {
 struct JointLimits {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  double lower = -infinity;    ///< lowest position [rad or m]
-  double upper = infinity;     ///< highest position [rad or m]
-  double velocity = infinity;  ///< highest speed in either direction [rad/s or m/s]
-  double effort = infinity;    ///< highest effort in either direction [N m or N]
+  double lower = -infinity;        ///< lowest position [rad or m]
+  double upper = infinity;         ///< highest position [rad or m]
+  double velocity = infinity;      ///< highest speed in either direction [rad/s or m/s]
+  double effort = infinity;        ///< highest effort in either direction [N m or N]
+  double acceleration = infinity;  ///< highest, in either direction [rad/s^2 or m/s^2]
+  double jerk = infinity;          ///< likewise [rad/s^3 or m/s^3]
+
+  /// Soft limits of position, where a joint is to be slowed down before its limits, as
+  /// CommandLimits has them [rad or m]
+  double soft_lower = -infinity;
+  double soft_upper = infinity;
+  double soft_rate = infinity;  ///< highest speed over distance from the soft limit [1/s]
 
   friend bool operator==(const JointLimits&, const JointLimits&) = default;
 };

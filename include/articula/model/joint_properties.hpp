@@ -11,7 +11,8 @@
 namespace articula {
 
 /// What a joint that can be commanded has besides its place in the mechanism. With a joint that
-/// others mimic, limits, damping and friction are those of all of them together.
+/// others mimic, limits, damping and friction are those of all of them together; soft limits and
+/// the effort limit are its own.
 struct JointProperties {
   Name name{};
   JointType type = JointType::revolute;
@@ -27,6 +28,8 @@ constexpr JointLimits own_limits(const Joint& joint) {
   if (joint.type == JointType::continuous) {
     limits.lower = -JointLimits::infinity;
     limits.upper = JointLimits::infinity;
+    limits.soft_lower = -JointLimits::infinity;
+    limits.soft_upper = JointLimits::infinity;
   }
   return limits;
 }
@@ -59,6 +62,8 @@ constexpr JointLimits own_limits(const Joint& joint) {
     limits.lower = std::max(limits.lower, std::min(a, b));
     limits.upper = std::min(limits.upper, std::max(a, b));
     limits.velocity = std::min(limits.velocity, own.velocity / size);
+    limits.acceleration = std::min(limits.acceleration, own.acceleration / size);
+    limits.jerk = std::min(limits.jerk, own.jerk / size);
   }
   return {joint.name, joint.type, limits, damping, friction};
 }

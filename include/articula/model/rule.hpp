@@ -28,6 +28,9 @@ enum class Rule {
   lower_limit_is_above_upper_limit,
   velocity_limit_is_negative,
   effort_limit_is_negative,
+  acceleration_limit_is_not_positive,
+  jerk_limit_is_not_positive,
+  soft_limits_leave_no_position,
   damping_is_negative,
   friction_is_negative,
   reflected_inertia_is_negative,
@@ -98,6 +101,12 @@ enum class Rule {
       return "the velocity limit is negative";
     case Rule::effort_limit_is_negative:
       return "the effort limit is negative";
+    case Rule::acceleration_limit_is_not_positive:
+      return "the acceleration limit is not positive";
+    case Rule::jerk_limit_is_not_positive:
+      return "the jerk limit is not positive";
+    case Rule::soft_limits_leave_no_position:
+      return "the soft limits leave no position within the limits, or their rate is not positive";
     case Rule::damping_is_negative:
       return "the damping is negative";
     case Rule::friction_is_negative:

@@ -93,6 +93,12 @@ constexpr Rule broken_rule(const Joint& joint) {
   }
   if (!(limits.velocity >= 0)) return Rule::velocity_limit_is_negative;
   if (!(limits.effort >= 0)) return Rule::effort_limit_is_negative;
+  if (!(limits.acceleration > 0)) return Rule::acceleration_limit_is_not_positive;
+  if (!(limits.jerk > 0)) return Rule::jerk_limit_is_not_positive;
+  if (!(limits.soft_lower <= limits.soft_upper && limits.soft_lower <= limits.upper &&
+        limits.soft_upper >= limits.lower && limits.soft_rate > 0)) {
+    return Rule::soft_limits_leave_no_position;
+  }
   if (joint.damping < 0) return Rule::damping_is_negative;
   if (joint.friction < 0) return Rule::friction_is_negative;
   if (joint.reflected_inertia < 0) return Rule::reflected_inertia_is_negative;

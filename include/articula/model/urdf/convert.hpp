@@ -14,7 +14,8 @@
 
 namespace articula {
 
-/// The limits of a joint: those of <limit>, narrowed by those of its commands in <ros2_control>.
+/// The limits of a joint: those of <limit>, narrowed by those of its commands in <ros2_control>,
+/// and the soft limits of <safety_controller>.
 /// @return  [rad, rad/s, N m] or [m, m/s, N]; what is not limited is infinite
 /// Real-time: no (searches by name).
 [[nodiscard]] inline JointLimits joint_limits(const UrdfDocument& document,
@@ -29,14 +30,25 @@ namespace articula {
       limits.upper = joint.limits->upper;
     }
   }
-  const auto found = document.command_limits.find(joint.name);
-  if (found == document.command_limits.end()) return limits;
-  const JointLimits& command = found->second;
-  limits.velocity = std::min(limits.velocity, command.velocity);
-  limits.effort = std::min(limits.effort, command.effort);
-  if (unbounded) return limits;
-  limits.lower = std::max(limits.lower, command.lower);
-  limits.upper = std::min(limits.upper, command.upper);
+  if (const auto found = document.command_limits.find(joint.name);
+      found != document.command_limits.end()) {
+    const JointLimits& command = found->second;
+    limits.velocity = std::min(limits.velocity, command.velocity);
+    limits.effort = std::min(limits.effort, command.effort);
+    limits.acceleration = command.acceleration;
+    limits.jerk = command.jerk;
+    if (!unbounded) {
+      limits.lower = std::max(limits.lower, command.lower);
+      limits.upper = std::min(limits.upper, command.upper);
+    }
+  }
+  if (const auto soft = document.soft_limits.find(joint.name);
+      soft != document.soft_limits.end() && soft->second.lower <= limits.upper &&
+      soft->second.upper >= limits.lower) {  // else they do not count, see UrdfNotices
+    limits.soft_lower = soft->second.lower;
+    limits.soft_upper = soft->second.upper;
+    limits.soft_rate = soft->second.rate;
+  }
   return limits;
 }
 

@@ -168,6 +168,9 @@ class UrdfReader {
         check_leader(joint.name, leader.joint);
         result_.joints.back().mimic = {name_of(document_, leader.joint), leader.multiplier,
                                        leader.offset};
+        JointLimits& limits = result_.joints.back().limits;  // its soft limits do not count
+        limits.soft_lower = -JointLimits::infinity;
+        limits.soft_upper = limits.soft_rate = JointLimits::infinity;
       }
     }
     result_.links.push_back(link_of(document_, *document_.robot->links_.at(joint.child_link_name)));
@@ -193,7 +196,7 @@ class UrdfReader {
       text +=
           "; allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it" + others_like(fault.element);
     }
-    if (concerns_mass(fault.rule)) {
+    if (fault.rule == Rule::joint_moves_no_mass) {
       text +=
           "; without dynamics, load_kinematic_urdf (KINEMATIC in CMake) loads the robot and leaves "
           "out all masses";

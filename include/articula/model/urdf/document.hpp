@@ -3,11 +3,14 @@
 #pragma once
 
 #include "articula/model/urdf/control.hpp"
+#include "articula/model/urdf/control_check.hpp"
 #include "articula/model/urdf/meant_word.hpp"
 #include "articula/model/urdf/messages.hpp"
 #include "articula/model/urdf/number_check.hpp"
 #include "articula/model/urdf/repeated_elements.hpp"
+#include "articula/model/urdf/safety.hpp"
 #include "articula/model/urdf/source.hpp"
+#include "articula/model/urdf/transmission.hpp"
 #include "articula/model/urdf/unknown_words.hpp"
 #include "articula/model/urdf/xml.hpp"
 
@@ -34,13 +37,15 @@ struct UrdfDocument {
   std::map<std::string, Vector3<double>> inertia_orientations{};  ///< likewise by link
   std::map<std::string, JointLimits> command_limits{};            ///< from <ros2_control>, by joint
   std::map<std::string, std::string> contradictions{};            ///< why these limits cannot be
-  std::vector<std::string> unread_limits{};                       ///< what among them is no number
-  std::map<std::string, UrdfInitialValues> initial_values{};      ///< likewise, by joint
+  std::map<std::string, UrdfSoftLimits> soft_limits{};        ///< of <safety_controller>, by joint
+  std::map<std::string, UrdfInitialValues> initial_values{};  ///< likewise, by joint
   std::map<std::string, std::string>
       command_mimics{};  ///< likewise, whom a joint is to mimic; empty: nobody
   std::vector<UrdfTransmission> transmissions{};
   std::vector<std::string> unknown_words{};      ///< of links and joints, a line each, see notices
   std::vector<std::string> repeated_elements{};  ///< likewise
+  std::vector<std::string> drive_notices{};      ///< what is odd in <ros2_control> and
+                                                 ///< <safety_controller>, likewise
 };
 
 namespace detail {
@@ -160,10 +165,19 @@ inline void blank_white_space(std::string& text) {
   control.read(robot);
   result.command_limits = std::move(control.limits);
   result.contradictions = std::move(control.contradictions);
-  result.unread_limits = std::move(control.unread);
   result.initial_values = std::move(control.initial_values);
   result.command_mimics = std::move(control.mimics);
-  result.transmissions = std::move(control.transmissions);
+  detail::TransmissionReader transmissions(result.file);
+  transmissions.read(robot);
+  result.transmissions = std::move(transmissions.transmissions);
+  detail::SafetyReader safety(robot);
+  result.soft_limits = safety.limits();
+  const auto add_notices = [&result](const std::vector<std::string>& notices) {
+    result.drive_notices.insert(result.drive_notices.end(), notices.begin(), notices.end());
+  };
+  add_notices(detail::ControlCheck(robot).take());
+  add_notices(control.notices);
+  add_notices(safety.notices());
 
   result.unknown_words = detail::UnknownWords(robot).take();  // some are removed next
   result.repeated_elements = detail::RepeatedElements(result.file, robot).take();

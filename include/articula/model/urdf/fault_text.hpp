@@ -43,6 +43,14 @@ namespace articula::detail {
       return rounded_text(limits.velocity);
     case Rule::effort_limit_is_negative:
       return rounded_text(limits.effort);
+    case Rule::acceleration_limit_is_not_positive:
+      return rounded_text(limits.acceleration);
+    case Rule::jerk_limit_is_not_positive:
+      return rounded_text(limits.jerk);
+    case Rule::soft_limits_leave_no_position:
+      return "soft_lower " + rounded_text(limits.soft_lower) + ", soft_upper " +
+             rounded_text(limits.soft_upper) + ", soft_rate " + rounded_text(limits.soft_rate) +
+             ", lower " + rounded_text(limits.lower) + ", upper " + rounded_text(limits.upper);
     case Rule::damping_is_negative:
       return rounded_text(joint.damping);
     case Rule::friction_is_negative:

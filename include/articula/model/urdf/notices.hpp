@@ -28,7 +28,7 @@ class UrdfNotices {
       : document_(document), kinematic_(kinematic), notices_(document.unknown_words) {
     notices_.insert(notices_.end(), document.repeated_elements.begin(),
                     document.repeated_elements.end());
-    notices_.insert(notices_.end(), document.unread_limits.begin(), document.unread_limits.end());
+    notices_.insert(notices_.end(), document.drive_notices.begin(), document.drive_notices.end());
   }
 
   [[nodiscard]] std::vector<std::string> take() { return std::move(notices_); }
@@ -150,6 +150,7 @@ class UrdfNotices {
     const std::string name(joint.name.view()), child(joint.child.view());
     const urdf::Joint& written = *document_.robot->joints_.at(name);
     add_limits(joint);
+    add_soft_limits(joint);
     if (joint.type == JointType::continuous) add_unused_limits(joint, written);
     if (joint.mimic.joint.empty()) {
       const JointLimits limits = properties_of(joints, joint).limits;
@@ -192,6 +193,19 @@ class UrdfNotices {
     }
     if (joint.limits.effort == 0 && joint.mimic.joint.empty()) {
       add(joint, "its effort limit is 0, so it cannot be driven");
+    }
+  }
+
+  /// Soft limits that are no use.
+  void add_soft_limits(const Joint& joint) {
+    const auto soft = document_.soft_limits.find(std::string(joint.name.view()));
+    if (soft == document_.soft_limits.end()) return;
+    const std::string range = "its soft limits, " + rounded_text(soft->second.lower) + " .. " +
+                              rounded_text(soft->second.upper) + ", do not count: ";
+    if (!joint.mimic.joint.empty()) {
+      add(joint, range + "it mimics '" + std::string(joint.mimic.joint.view()) + "'");
+    } else if (!is_finite(joint.limits.soft_lower)) {
+      add(joint, range + "they are beyond its limits, " + range_text(joint.limits));
     }
   }
 

@@ -2,13 +2,12 @@
 /// @file Words in a URDF that nobody reads, for they may be misspelt.
 #pragma once
 
+#include "articula/model/urdf/grouped_lines.hpp"
 #include "articula/model/urdf/known_words.hpp"
 #include "articula/model/urdf/meant_word.hpp"
 #include "articula/model/urdf/xml.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,27 +28,9 @@ class UnknownWords {
     }
   }
 
-  [[nodiscard]] std::vector<std::string> take() const {
-    std::vector<std::string> lines;
-    for (const Line& line : lines_) {
-      lines.push_back(line.first + line.word);
-      if (line.others == 0) continue;
-      lines.back() += (lines.back().ends_with('?') ? " " : "; ") + std::to_string(line.others) +
-                      " other" + (line.others == 1 ? "" : "s") +
-                      (line.others == 1 ? " has" : " have") + " it, too";
-    }
-    return lines;
-  }
+  [[nodiscard]] std::vector<std::string> take() const { return lines_.take(); }
 
  private:
-  /// A word that is not known in an element.
-  struct Line {
-    std::string first{};  ///< the link or joint that has it first
-    std::string last{};   ///< and the one that had it last
-    std::string word{};
-    std::size_t others = 0;  ///< links and joints besides the first
-  };
-
   void look_at(const XmlElement& element) {
     const KnownWords* known = known_words(element.Value());
     if (!known) return;
@@ -77,20 +58,11 @@ class UnknownWords {
     if (!meant.empty()) {
       line += std::string("; did you mean ") + open.back() + std::string(meant) + close + "?";
     }
-    const auto [at, is_new] = index_.try_emplace(line, lines_.size());
-    if (is_new) {
-      lines_.push_back({.first = owner_, .last = owner_, .word = line});
-      return;
-    }
-    Line& known = lines_[at->second];
-    if (known.last == owner_) return;  // a link may have the same element often
-    known.last = owner_;
-    ++known.others;
+    lines_.add(owner_, line);
   }
 
-  std::vector<Line> lines_{};
-  std::map<std::string, std::size_t> index_{};  ///< of the lines, by word
-  std::string owner_{};                         ///< the link or joint, for the lines
+  GroupedLines lines_{};
+  std::string owner_{};  ///< the link or joint, for the lines
 };
 
 /// What may be behind a fault, as an addition to its message: the first word that is not known in a

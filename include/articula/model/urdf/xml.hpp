@@ -48,6 +48,11 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
   return text ? text : "";
 }
 
+[[nodiscard]] inline std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
 /// A name as a message shows it.
 [[nodiscard]] inline std::string one_line(std::string text) {
   for (char& c : text) c = c == '\t' || c == '\r' || c == '\n' ? ' ' : c;
@@ -136,8 +141,7 @@ inline void remove_inertials(XmlElement& robot) {
 /// @throws UrdfError if one is written <Link> or so, which would be left out in silence
 inline void keep_mechanics(const std::string& file, XmlElement& robot) {
   for_each_child(robot, nullptr, [&](const XmlElement& child) {
-    std::string lower = child.Value();
-    for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::string lower = lower_case(child.Value());
     if (lower != child.Value() && (lower == "link" || lower == "joint")) {
       throw UrdfError(file, "<" + std::string(child.Value()) + " name=\"" +
                                 attribute(child, "name") + "\">: it is written <" + lower + ">");
