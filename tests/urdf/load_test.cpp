@@ -109,8 +109,9 @@ TEST_CASE("Transmissions are read in all dialects") {
       "mechanicalReduction=\"60.5\"/><leftActuator name=\"l\" mechanicalReduction=\"60\"/>"
       "<flexJoint name=\"pivot\" mechanicalReduction=\"-1\"/><rollJoint name=\"missing\"/>"
       "</transmission>"
-      "<ros2_control name=\"c\"><transmission name=\"new\"><plugin>p</plugin><actuator name=\"a\">"
-      "<mechanical_reduction>325.949</mechanical_reduction></actuator><joint name=\"pivot\"/>"
+      "<ros2_control name=\"c\" type=\"system\"><joint name=\"pivot\"/><transmission name=\"new\">"
+      "<plugin>p</plugin><actuator name=\"a\" role=\"actuator1\"><mechanical_reduction>325.949"
+      "</mechanical_reduction></actuator><joint name=\"pivot\" role=\"joint1\"/>"
       "</transmission></ros2_control>";
   std::string text = support::pendulum();
   text.insert(text.rfind("</robot>"), drives);
