@@ -58,15 +58,15 @@ template class articula::TrajectoryFollower<Loaded>;
 template <Robot R>
 void motion(const R& robot) {
   const CommandLimits<2> limits = command_limits(robot);
-  Loop<Positions<R>, LimitedPosition> positions(
-      Positions<R>({}, 1e-3, robot), LimitedPosition<R>(limits, ForwardPosition<R>(robot), robot));
-  Loop<Velocities<R>, LimitedVelocity> velocities(
-      Velocities<R>({}, 1e-3, robot), LimitedVelocity<R>(limits, ForwardVelocity<R>(robot), robot));
-  SupervisedLoop<Positions<R>, ForwardPosition> supervised(Positions<R>({}, 1e-3, robot),
-                                                           ForwardPosition<R>(robot));
+  Loop<Positions<R>, LimitedPosition> positions{
+      Positions<R>{robot}, LimitedPosition<R>{robot, limits, ForwardPosition<R>{robot}}};
+  Loop<Velocities<R>, LimitedVelocity> velocities{
+      Velocities<R>{robot}, LimitedVelocity<R>{robot, limits, ForwardVelocity<R>{robot}}};
+  SupervisedLoop<Positions<R>, ForwardPosition> supervised{Positions<R>{robot},
+                                                           ForwardPosition<R>{robot}};
   static_cast<void>(positions.update() == velocities.update() &&
                     positions.update() == supervised.update());
-  TrajectoryFollower<R> follower({0, 0}, {{1, 1}, {1, 1}, {1, 1}}, {}, robot);
+  TrajectoryFollower<R> follower(robot, {0, 0}, {{1, 1}, {1, 1}, {1, 1}});
   static_cast<void>(follower.sample(0.0));
 }
 
@@ -107,11 +107,10 @@ int main() {
   Simulator<Scara> simulator;
   GravityCompensation<Scara> gravity_compensation;
   ComputedTorqueLaw<Loaded> computed_torque(loaded, {});
-  EffortLimiter<Scara> limiter({}, Scara{});
+  EffortLimiter<Scara> limiter(Scara{}, {});
 #endif
 #ifdef EFFORT_LOOP
-  Loop<MockHardware<Loaded>, Pid> loop(MockHardware<Loaded>({}, 1e-3, loaded),
-                                       Pid<Loaded>({}, loaded));
+  Loop<MockHardware<Loaded>, Pid> loop{MockHardware<Loaded>{loaded}, Pid<Loaded>{loaded, {}}};
   static_cast<void>(loop.update());
 #endif
 #ifdef INERTIA

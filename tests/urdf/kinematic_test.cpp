@@ -65,7 +65,7 @@ TEST_CASE("Positions are controlled without masses") {
   using Arm = KinematicModel<3, 4>;
   using Drives = MockHardware<Arm, PositionCommand<3>>;
   const Arm arm = load_kinematic_urdf<3, 4>(file);
-  Loop<Drives, ForwardPosition> loop(Drives({}, 1e-3, arm), ForwardPosition<Arm>(arm));
+  Loop<Drives, ForwardPosition> loop{Drives{arm}, ForwardPosition<Arm>{arm}};
   REQUIRE(loop.hardware().activate() == Status::ok);
   loop.reference().position = JointVector<3>(0.5, 9, 0.01);  // the elbow ends at 2.5
   for (int k = 0; k < 3; ++k) REQUIRE(loop.update() == Status::ok);

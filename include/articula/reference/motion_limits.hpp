@@ -19,8 +19,8 @@ struct MotionLimits {
   JointVector<N> jerk = JointVector<N>::Zero();          ///< J [rad/s^3 or m/s^3], N x 1
 };
 
-/// The limits of a motion as fast as the robot's description allows. It says nothing of
-/// acceleration and jerk:
+/// The limits of a motion as fast as the robot's description allows. Most descriptions say nothing
+/// of acceleration and jerk, so these are given here:
 ///
 ///     const auto limits = motion_limits(Q2d(), {10, 30}, {200, 600});
 ///

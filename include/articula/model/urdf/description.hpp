@@ -45,7 +45,8 @@ struct UrdfDescription {
                                        ///< <ros2_control> alone, fixed joints that are to be
                                        ///< locked, a root that is turned against the file's
                                        ///< where gravity is the default, masses that hang on a
-                                       ///< chain and are left out, limits in braces, and angles
+                                       ///< chain and are left out, limits in braces, what is
+                                       ///< odd in <ros2_control>, soft limits without use, angles
                                        ///< and inertias that seem to be in other units
 };
 

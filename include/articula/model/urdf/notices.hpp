@@ -6,6 +6,7 @@
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
 #include "articula/model/urdf/left_out.hpp"
+#include "articula/model/urdf/name_notices.hpp"
 #include "articula/model/urdf/options.hpp"
 #include "articula/model/validation.hpp"
 
@@ -94,7 +95,8 @@ class UrdfNotices {
       add_large_angle("joint '" + name + "': <origin>", document_.joint_orientations.at(name));
       if (joint.type != JointType::fixed) add_joint(joint, joints);
     }
-    add_names();
+    const std::vector<std::string> names = name_notices(document_);
+    notices_.insert(notices_.end(), names.begin(), names.end());
   }
 
   /// A mimic whose limits do not count.
@@ -220,37 +222,6 @@ class UrdfNotices {
     }
     if (is_finite(unused.lower) || is_finite(unused.upper)) {
       add(joint, "it is continuous, so its position limits do not count, " + range_text(unused));
-    }
-  }
-
-  /// What <ros2_control> and <transmission> say about joints.
-  void add_names() {
-    const auto exists = [this](const std::string& joint) {
-      return document_.robot->joints_.contains(joint);
-    };
-    for (const auto& [joint, limits] : document_.command_limits) {
-      if (!exists(joint)) add("<ros2_control>: joint '" + joint + "' does not exist");
-    }
-    for (const auto& [joint, leader] : document_.command_mimics) {
-      if (!exists(joint)) continue;
-      const auto& own = document_.robot->joints_.at(joint)->mimic;
-      if (leader == (own ? own->joint_name : "")) continue;
-      add("<ros2_control>: joint '" + joint + "' is to mimic " +
-          (leader.empty() ? "nobody" : "'" + leader + "'") +
-          ", but only <mimic> in the joint itself counts");
-    }
-    for (const UrdfTransmission& transmission : document_.transmissions) {
-      const std::string where = "transmission '" + transmission.name + "': ";
-      const auto add_reduction = [&](const char* kind, const UrdfTransmissionEnd& end) {
-        if (end.mechanical_reduction != 0) return;
-        add(where + kind + " '" + end.name +
-            "': its mechanical reduction is 0, so that it moves nothing");
-      };
-      for (const UrdfTransmissionEnd& end : transmission.joints) {
-        if (!exists(end.name)) add(where + "joint '" + end.name + "' does not exist");
-        add_reduction("joint", end);
-      }
-      for (const UrdfTransmissionEnd& end : transmission.actuators) add_reduction("actuator", end);
     }
   }
 
