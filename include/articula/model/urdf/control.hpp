@@ -182,7 +182,7 @@ class ControlReader {
   /// <joint mimic="false"> and, as in older versions, <param name="mimic">.
   void add_mimic(const XmlElement& joint) {
     const std::string name = attribute(joint, "name");
-    if (attribute(joint, "mimic") == "false") mimics[name] = "";
+    if (lower_case(attribute(joint, "mimic")) == "false") mimics[name] = "";
     for_each_child(joint, "param", [&](const XmlElement& param) {
       if (attribute(param, "name") == "mimic") mimics[name] = text_of(param);
     });
