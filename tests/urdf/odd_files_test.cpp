@@ -117,7 +117,7 @@ TEST_CASE("limits of acceleration and jerk are read") {
   CHECK(command_limits(model).jerk[0] == 9);
   CommandLimits<1> beyond = command_limits(model);
   beyond.acceleration[0] = 21;
-  CHECK_THROWS_WITH(validate(beyond, model), Contains("acceleration 21 is above the limit 20"));
+  CHECK_THROWS_WITH(validate(model, beyond), Contains("acceleration 21 is above the limit 20"));
 }
 
 TEST_CASE("limits of acceleration and jerk are read from URDF 1.2, too") {
