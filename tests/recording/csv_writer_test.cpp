@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/loop/csv_writer.hpp>
+#include <articula/robots/gripper_arm.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <locale>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catch.hpp"
@@ -23,6 +26,36 @@ std::vector<std::string> cells(const std::string& line) {
   for (std::string cell; std::getline(stream, cell, ',');) result.push_back(cell);
   return result;
 }
+
+/// The header and the first row of a file, whose columns must agree.
+std::pair<std::vector<std::string>, std::vector<std::string>> first_row(
+    const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::string header, row;
+  REQUIRE(std::getline(stream, header));
+  REQUIRE(std::getline(stream, row));
+  REQUIRE(cells(header).size() == cells(row).size());
+  return {cells(header), cells(row)};
+}
+
+/// Writes 1234.5 as 1.234,5.
+struct CommaPoint : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+/// The locale of the program while it lives.
+class ProgramLocale {
+ public:
+  explicit ProgramLocale(const std::locale& locale) : before_(std::locale::global(locale)) {}
+  ~ProgramLocale() { std::locale::global(before_); }
+  ProgramLocale(const ProgramLocale&) = delete;
+  ProgramLocale& operator=(const ProgramLocale&) = delete;
+
+ private:
+  std::locale before_;
+};
 
 }  // namespace
 
@@ -81,6 +114,75 @@ TEST_CASE("a command of several numbers has a column for each") {
     CHECK(std::stoul(values[10 + k]) == 2 * k + 1);
     CHECK(std::stoul(values[22 + k]) == 2 * k + 2);
   }
+}
+
+TEST_CASE("a program whose locale has decimal commas writes the same file") {
+  const support::ScratchFile file("locale.csv");
+  auto record = support::some_record();
+  record.cycle = 1234567;
+  {
+    const ProgramLocale comma(std::locale(std::locale::classic(), new CommaPoint));
+    CsvWriter<Q2d, EffortCommand<2>> writer(file.path());
+    writer.write(record);
+    writer.close();
+  }
+  const auto [header, values] = first_row(file.path());
+  CHECK(header.size() == 3 + 2 * 8 + 3);
+  CHECK(values[0] == "1234567");
+  CHECK(std::stod(values[1]) == record.time);
+}
+
+TEST_CASE("mimic joints and named links have columns at the end") {
+  const support::ScratchFile file("extras.csv");
+  constexpr int n = joint_count<GripperArm>;
+  CycleRecord<n, PositionCommand<n>> record;
+  for (int j = 0; j < n; ++j) {
+    record.state.position[j] = 0.1 * (j + 1);
+    record.state.velocity[j] = 0.2 * (j + 1);
+  }
+  const auto all = moving_joint_positions(GripperArm(), record.state.position);
+  const auto rates = moving_joint_velocities(GripperArm(), record.state.velocity);
+  const auto names = moving_joint_names(GripperArm());
+  const std::string link(model_of(GripperArm()).links.back().name.view());
+  constexpr std::size_t mimics = moving_joint_count<GripperArm> - n, columns = 3 + n * 8 + 3;
+  REQUIRE(mimics == 5);
+  {
+    CsvWriter<GripperArm, PositionCommand<n>> writer(file.path(), {.links = {link}});
+    writer.write(record);
+    writer.close();
+  }
+  const auto [header, values] = first_row(file.path());
+  REQUIRE(header.size() == columns + 2 * mimics + 7);
+  std::size_t found = 0;
+  for (std::size_t c = columns; c < columns + 2 * mimics; c += 2) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (header[c] != std::string(names[i]) + " position [rad]") continue;
+      ++found;
+      CHECK(header[c + 1] == std::string(names[i]) + " velocity [rad/s]");
+      CHECK(std::stod(values[c]) == all[static_cast<int>(i)]);
+      CHECK(std::stod(values[c + 1]) == rates[static_cast<int>(i)]);
+    }
+  }
+  CHECK(found == mimics);
+
+  const auto pose = forward_kinematics(GripperArm(), record.state.position, link);
+  const std::size_t first = columns + 2 * mimics;
+  const std::vector<std::string> parts{" x [m]", " y [m]", " z [m]", " qx", " qy", " qz", " qw"};
+  std::vector<double> written;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    CHECK(header[first + k] == link + parts[k]);
+    written.push_back(std::stod(values[first + k]));
+  }
+  CHECK(Eigen::Vector3d(written[0], written[1], written[2]) == pose.translation());
+  const Eigen::Quaterniond rotation(written[6], written[3], written[4], written[5]);
+  CHECK((rotation.toRotationMatrix() - pose.linear()).norm() < 1e-14);  // rounding
+
+  CsvWriter<GripperArm, PositionCommand<n>> without(file.path(), {.mimic_joints = false});
+  without.write(record);
+  without.close();
+  CHECK(first_row(file.path()).first.size() == columns);
+  CHECK_THROWS_WITH((CsvWriter<Q2d, EffortCommand<2>>(file.path(), {.links = {"hand"}})),
+                    Catch::Matchers::Contains("'hand'"));
 }
 
 TEST_CASE("a file that cannot be written is an error") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joint states over UDP, on the loopback interface.
 #include <articula/loop/joint_state_sender.hpp>
+#include <articula/robots/pr2.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <poll.h>
@@ -71,8 +72,69 @@ TEST_CASE("every so-many-th joint state is sent as JSON that PlotJuggler reads")
     CHECK(json["q2d"]["shoulder_active_joint"]["position"] == record.state.position[0]);
     CHECK(json["q2d"]["elbow_active_joint"]["velocity"] == record.state.velocity[1]);
     CHECK(json["q2d"]["elbow_active_joint"]["effort"] == record.state.effort[1]);
+    CHECK(json["q2d"]["elbow_active_joint"]["reference"]["velocity"] ==
+          record.reference.velocity[1]);
     CHECK(json["q2d"].size() == 2);
   }
+}
+
+TEST_CASE("a robot of many joints takes several datagrams, which together are the record") {
+  const Listener listener;
+  constexpr int n = joint_count<Pr2>;
+  const std::string link(model_of(Pr2()).links.back().name.view());
+  JointStateSender<Pr2> sender({.port = listener.port(), .contents = {.links = {link}}});
+  CycleRecord<n, EffortCommand<n>> record;
+  record.time = 0.1 + 0.2;
+  for (int j = 0; j < n; ++j) {  // long numbers
+    record.state.position[j] = -1e-200 / (j + 3);
+    record.state.velocity[j] = -1e-201 / (j + 3);
+    record.state.effort[j] = -1e-202 / (j + 3);
+    record.reference.position[j] = -1e-203 / (j + 3);
+  }
+  sender.write(record);
+  const auto datagrams = listener.received();
+  REQUIRE(datagrams.size() > 1);
+  CHECK(sender.sent() == datagrams.size());
+  Json together;
+  std::size_t joints = 0;
+  for (const std::string& text : datagrams) {
+    CHECK(text.size() <= JointStateSender<Pr2>::longest_datagram);
+    const Json json = Json::parse(text);
+    CHECK(json["timestamp"] == record.time);
+    if (json.contains("pr2")) joints += json["pr2"].size();
+    together.merge_patch(json);
+  }
+  CHECK(joints == moving_joint_count<Pr2>);  // none is sent twice
+  Json expected = joint_state_json(Pr2(), record.time, record.state);
+  add_references(Pr2(), expected, record.reference);
+  add_extras(Pr2(), expected, {Pr2(), {.links = {link}}}, record.state);
+  CHECK(nlohmann::json(together) == nlohmann::json(expected));
+
+  JointStateSender<Pr2> brief(
+      {.port = listener.port(), .references = false, .contents = {.mimic_joints = false}});
+  brief.write(record);
+  CHECK(listener.received().size() < datagrams.size());
+}
+
+TEST_CASE("mimic joints and links go with the joints, links as ROS's transforms") {
+  constexpr int n = joint_count<Pr2>;
+  JointState<n> state;
+  for (int j = 0; j < n; ++j) state.position[j] = 0.01 * (j + 1);
+  const std::string link(model_of(Pr2()).links.back().name.view());
+  Json json = joint_state_json(Pr2(), 0, state);
+  add_extras(Pr2(), json, {Pr2(), {.links = {link}}}, state);
+  const auto names = moving_joint_names(Pr2());
+  const auto all = moving_joint_positions(Pr2(), state.position);
+  REQUIRE(json["pr2"].size() == names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    CHECK(json["pr2"][std::string(names[i])]["position"] == all[static_cast<int>(i)]);
+  }
+  const auto pose = forward_kinematics(Pr2(), state.position, link);
+  const Json& transform = json["links"][link];
+  CHECK(transform["translation"]["z"] == pose.translation().z());
+  const Json& r = transform["rotation"];
+  const Eigen::Quaterniond rotation(r["w"], r["x"], r["y"], r["z"]);
+  CHECK((rotation.toRotationMatrix() - pose.linear()).norm() < 1e-14);  // rounding
 }
 
 TEST_CASE("NaN goes as null, so that the text stays JSON") {

@@ -3,6 +3,7 @@
 #include <articula/loop/mcap_record_writer.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
@@ -54,18 +55,68 @@ struct RawRecord {
   std::string content;
 };
 
-/// All records of a file, from the front.
-std::vector<RawRecord> records_of(const std::string& file) {
+/// All complete records of a file or of a chunk's content, from the front.
+std::vector<RawRecord> records_of(std::string_view bytes, std::size_t at = 0) {
   std::vector<RawRecord> records;
-  for (std::size_t at = magic.size(); at < file.size() - magic.size();) {
-    Fields head(std::string_view(file).substr(at, 9));
+  while (at + 9 <= bytes.size()) {
+    Fields head(bytes.substr(at, 9));
     const std::uint64_t opcode = head.number(1);
     const std::size_t length = head.number(8);
-    records.push_back({opcode, at, file.substr(at + 9, length)});
-    REQUIRE(records.back().content.size() == length);
+    if (at + 9 + length > bytes.size()) break;
+    records.push_back({opcode, at, std::string(bytes.substr(at + 9, length))});
     at += 9 + length;
   }
   return records;
+}
+
+/// The same for a file, whose magic bytes are not records.
+std::vector<RawRecord> records_of_file(const std::string& file) {
+  return records_of(std::string_view(file).substr(0, file.size() - magic.size()), magic.size());
+}
+
+struct Chunk {
+  std::uint64_t first, last;
+  std::string messages;
+};
+
+Chunk chunk_of(const RawRecord& record) {
+  Fields fields(record.content);
+  Chunk chunk{fields.number(8), fields.number(8), {}};
+  const std::uint64_t size = fields.number(8);
+  CHECK(fields.number(4) == 0);  // no checksum
+  CHECK(fields.text().empty());  // no compression
+  CHECK(fields.number(8) == size);
+  chunk.messages = fields.bytes(size);
+  CHECK(fields.empty());
+  return chunk;
+}
+
+struct Message {
+  std::uint64_t sequence, time;
+  std::string text;
+};
+
+Message message_of(const RawRecord& record) {
+  Fields fields(record.content);
+  CHECK(fields.number(2) == 1);  // the channel
+  Message message{fields.number(4), fields.number(8), {}};
+  CHECK(fields.number(8) == message.time);
+  message.text = fields.rest();
+  return message;
+}
+
+/// All messages that a reader from the front finds, in chunks and outside.
+std::vector<Message> messages_from_the_front(const std::string& file) {
+  std::vector<Message> messages;
+  for (const RawRecord& record : records_of(file, magic.size())) {
+    if (record.opcode == 5) messages.push_back(message_of(record));
+    if (record.opcode != 6) continue;
+    for (const RawRecord& inner : records_of(chunk_of(record).messages)) {
+      REQUIRE(inner.opcode == 5);
+      messages.push_back(message_of(inner));
+    }
+  }
+  return messages;
 }
 
 std::string content_of(const std::filesystem::path& path) {
@@ -88,10 +139,10 @@ TEST_CASE("an MCAP file is what its specification says") {
   const std::string bytes = content_of(file.path());
   REQUIRE(bytes.substr(0, 8) == magic);
   REQUIRE(bytes.substr(bytes.size() - 8) == magic);
-  const auto records = records_of(bytes);
+  const auto records = records_of_file(bytes);
   std::vector<std::uint64_t> opcodes;
   for (const RawRecord& r : records) opcodes.push_back(r.opcode);
-  REQUIRE(opcodes == std::vector<std::uint64_t>{1, 3, 4, 5, 5, 5, 15, 3, 4, 11, 14, 14, 14, 2});
+  REQUIRE(opcodes == std::vector<std::uint64_t>{1, 3, 4, 6, 7, 15, 3, 4, 11, 8, 14, 14, 14, 14, 2});
 
   Fields header(records[0].content);
   CHECK(header.text().empty());
@@ -120,8 +171,14 @@ TEST_CASE("an MCAP file is what its specification says") {
   CHECK(channel.number(4) == 0);  // an empty map
   CHECK(channel.empty());
 
+  const Chunk chunk = chunk_of(records[3]);
+  CHECK(chunk.first == 1'000'000);
+  CHECK(chunk.last == 3'000'000);
+  const auto messages = records_of(chunk.messages);
+  REQUIRE(messages.size() == 3);
   for (std::size_t k = 0; k < 3; ++k) {
-    Fields message(records[3 + k].content);
+    CHECK(messages[k].opcode == 5);
+    Fields message(messages[k].content);
     CHECK(message.number(2) == channel_id);
     CHECK(message.number(4) == k);
     CHECK(message.number(8) == 1'000'000 * (k + 1));
@@ -135,16 +192,24 @@ TEST_CASE("an MCAP file is what its specification says") {
     CHECK(json["status"] == "overrun");
     CHECK(json["timing"]["update"] == Approx(20e-6));
   }
+  Fields message_index(records[4].content);
+  CHECK(message_index.number(2) == channel_id);
+  CHECK(message_index.number(4) == 3 * 16);
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(message_index.number(8) == 1'000'000 * (k + 1));
+    CHECK(message_index.number(8) == messages[k].start);
+  }
+  CHECK(message_index.empty());
 
-  CHECK(records[7].content == records[1].content);
-  CHECK(records[8].content == records[2].content);
-  Fields statistics(records[9].content);
+  CHECK(records[6].content == records[1].content);
+  CHECK(records[7].content == records[2].content);
+  Fields statistics(records[8].content);
   CHECK(statistics.number(8) == 3);  // messages
   CHECK(statistics.number(2) == 1);  // schemas
   CHECK(statistics.number(4) == 1);  // channels
   CHECK(statistics.number(4) == 0);  // attachments
   CHECK(statistics.number(4) == 0);  // metadata
-  CHECK(statistics.number(4) == 0);  // chunks
+  CHECK(statistics.number(4) == 1);  // chunks
   CHECK(statistics.number(8) == 1'000'000);
   CHECK(statistics.number(8) == 3'000'000);
   CHECK(statistics.number(4) == 10);  // length of the map of message counts
@@ -152,16 +217,104 @@ TEST_CASE("an MCAP file is what its specification says") {
   CHECK(statistics.number(8) == 3);
   CHECK(statistics.empty());
 
-  // As readers with random access do it: the footer tells where the summary is.
+  // As readers with random access do it: the footer says where the summary is.
   Fields footer(std::string_view(bytes).substr(bytes.size() - 8 - 20, 20));
-  CHECK(footer.number(8) == records[7].start);
+  CHECK(footer.number(8) == records[6].start);
   CHECK(footer.number(8) == records[10].start);
   CHECK(footer.number(4) == 0);
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 4; ++k) {
     Fields offset(records[10 + k].content);
-    CHECK(offset.number(1) == records[7 + k].opcode);
-    CHECK(offset.number(8) == records[7 + k].start);
-    CHECK(offset.number(8) == records[7 + k].content.size() + 9);
+    CHECK(offset.number(1) == records[6 + k].opcode);
+    CHECK(offset.number(8) == records[6 + k].start);
+    CHECK(offset.number(8) == records[6 + k].content.size() + 9);
+  }
+}
+
+TEST_CASE("the index of the chunks leads to every message") {
+  const support::ScratchFile file("many.mcap");
+  constexpr std::uint64_t count = 5000;
+  const auto text = [](std::uint64_t k) {
+    return "{\"k\":" + std::to_string(k) + ",\"x\":\"" + std::string(700, 'x') + "\"}";
+  };
+  McapWriter writer(file.path(), "cycle", "K", "{}");
+  for (std::uint64_t k = 0; k < count; ++k) {
+    writer.write(std::chrono::milliseconds(k ^ 3), text(k));  // not in the order of time
+  }
+  writer.close();
+  const std::string bytes = content_of(file.path());
+  std::uint64_t found = 0, chunks = 0;
+  std::vector<RawRecord> indexes;
+  for (const RawRecord& record : records_of_file(bytes)) {
+    if (record.opcode == 8) indexes.push_back(record);
+    chunks += record.opcode == 6;
+  }
+  CHECK(chunks > 2);
+  REQUIRE(indexes.size() == chunks);
+  for (const RawRecord& record : indexes) {
+    Fields index(record.content);
+    const std::uint64_t first = index.number(8), last = index.number(8);
+    const std::uint64_t start = index.number(8), length = index.number(8);
+    const auto at_start = records_of(std::string_view(bytes).substr(0, start + length), start);
+    REQUIRE(at_start.size() == 1);
+    REQUIRE(at_start[0].opcode == 6);
+    const Chunk chunk = chunk_of(at_start[0]);
+    CHECK(chunk.first == first);
+    CHECK(chunk.last == last);
+    CHECK(index.number(4) == 10);  // one channel
+    CHECK(index.number(2) == 1);
+    const std::uint64_t message_index = index.number(8), index_length = index.number(8);
+    CHECK(index.text().empty());
+    CHECK(index.number(8) == chunk.messages.size());
+    CHECK(index.number(8) == chunk.messages.size());
+    CHECK(index.empty());
+    const auto entries_record =
+        records_of(std::string_view(bytes).substr(0, message_index + index_length), message_index);
+    REQUIRE(entries_record.size() == 1);
+    REQUIRE(entries_record[0].opcode == 7);
+    Fields entries(entries_record[0].content);
+    CHECK(entries.number(2) == 1);
+    for (std::size_t left = entries.number(4); left > 0; left -= 16) {
+      const std::uint64_t time = entries.number(8), offset = entries.number(8);
+      CHECK((first <= time && time <= last));
+      const auto at_offset = records_of(chunk.messages, offset);
+      REQUIRE(!at_offset.empty());
+      const Message message = message_of(at_offset[0]);
+      CHECK(message.sequence == found);
+      CHECK(message.time == time);
+      CHECK(message.text == text(found));
+      ++found;
+    }
+    CHECK(entries.empty());
+  }
+  CHECK(found == count);
+  CHECK(messages_from_the_front(bytes).size() == count);
+}
+
+TEST_CASE("a file that was never closed has all messages, wherever it ends") {
+  const support::ScratchFile file("open.mcap");
+  constexpr std::size_t count = 40;
+  const std::string text(60'000, 'x');  // 18 of them complete a chunk
+  {
+    McapWriter writer(file.path(), "cycle", "K", "{}");
+    for (std::size_t k = 0; k < count; ++k) writer.write(std::chrono::milliseconds(k), text);
+  }
+  const std::string bytes = content_of(file.path());
+  const auto all = messages_from_the_front(bytes);
+  REQUIRE(all.size() == count);
+  for (std::size_t k = 0; k < count; ++k) CHECK(all[k].sequence == k);
+
+  // As the file was while the third chunk was being filled: cut within it.
+  std::size_t third = 0;
+  for (const RawRecord& record : records_of(bytes, magic.size())) {
+    if (record.opcode == 6) third = record.start;
+  }
+  REQUIRE(chunk_of(records_of(bytes, third)[0]).messages.empty());
+  const std::size_t size = text.size() + 9 + 22, head = 9 + 40;  // of a message, of a chunk
+  const std::size_t before = count - (bytes.size() - third - head) / size;
+  CHECK(before == 36);
+  for (std::size_t cut = third; cut <= bytes.size(); cut += 997) {
+    const std::size_t whole = cut < third + head ? 0 : (cut - third - head) / size;
+    CHECK(messages_from_the_front(bytes.substr(0, cut)).size() == before + whole);
   }
 }
 
@@ -184,7 +337,7 @@ TEST_CASE("an MCAP file without messages is one, too") {
   const support::ScratchFile file("empty.mcap");
   McapWriter writer(file.path(), "nothing", "Nothing", "{}");
   writer.close();
-  const auto records = records_of(content_of(file.path()));
+  const auto records = records_of_file(content_of(file.path()));
   REQUIRE(records.size() == 11);
   REQUIRE(records[6].opcode == 11);
   Fields statistics(records[6].content);

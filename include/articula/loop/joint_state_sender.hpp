@@ -4,6 +4,7 @@
 
 #include "articula/core/refuse.hpp"
 #include "articula/loop/record_json.hpp"
+#include "articula/loop/split_json.hpp"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -13,7 +14,6 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <system_error>
 
@@ -24,11 +24,15 @@ struct JointStateSenderOptions {
   std::string address = "127.0.0.1";  ///< IPv4
   std::uint16_t port = 9870;          ///< the one on which PlotJuggler's UDP server listens
   int divisor = 20;                   ///< every 20th record is sent: 50 Hz at 1 kHz
+  bool references = true;             ///< the joints' references are sent, too
+  RecordContents contents{};          ///< mimic joints are sent, and links' poses if named
 };
 
 /// Sends the joint states of every so-many-th record over UDP as JSON, for which PlotJuggler's "UDP
 /// Server" with the protocol "json" and its timestamp field "timestamp" listens. A sink for
-/// RecordStream. Datagrams that the system does not take are counted, not sent again.
+/// RecordStream. What does not fit into one datagram goes in several, each of which is JSON with the
+/// same timestamp: PlotJuggler adds each figure to its curve by name. Datagrams that the system does
+/// not take are counted, not sent again.
 /// @tparam R  the robot
 template <Robot R>
 class JointStateSender {
@@ -36,10 +40,13 @@ class JointStateSender {
   static constexpr std::size_t longest_datagram = 2048;  ///< what PlotJuggler reads [bytes]
 
   /// @throws std::invalid_argument if the address is none, the divisor is not positive, or the
-  ///         robot has more joints than fit into a datagram
+  ///         robot has no link of a name
   /// @throws std::system_error if the system refuses a socket
   explicit JointStateSender(const R& robot, const JointStateSenderOptions& options = {})
-      : robot_(robot), divisor_(options.divisor) {
+      : robot_(robot),
+        extras_(robot, options.contents),
+        divisor_(options.divisor),
+        references_(options.references) {
     if (options.divisor < 1) {
       detail::refuse({"joint state sender: divisor ", options.divisor, " is not at least 1"});
     }
@@ -48,15 +55,6 @@ class JointStateSender {
     if (inet_pton(AF_INET, options.address.c_str(), &target_.sin_addr) != 1) {
       detail::refuse(
           {"joint state sender: address '", options.address, "' is not an IPv4 address"});
-    }
-    JointState<joint_count<R>> longest;
-    for (auto* vector : {&longest.position, &longest.velocity, &longest.effort}) {
-      vector->setConstant(-std::numeric_limits<double>::max() / 3);
-    }
-    const std::size_t size = joint_state_json(robot, longest.position[0], longest).dump().size();
-    if (size > longest_datagram) {
-      detail::refuse({"joint state sender: the state of ", joint_count<R>, " joints takes ", size,
-                      " bytes, more than the datagram of ", longest_datagram});
     }
     socket_ = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
     if (socket_ < 0) {
@@ -75,10 +73,14 @@ class JointStateSender {
   template <class Command>
   void write(const CycleRecord<joint_count<R>, Command>& record) {
     if (records_++ % static_cast<std::uint64_t>(divisor_) != 0) return;
-    const std::string text = joint_state_json(robot_, record.time, record.state).dump();
-    const auto sent = ::sendto(socket_, text.data(), text.size(), MSG_DONTWAIT,
-                               reinterpret_cast<const sockaddr*>(&target_), sizeof target_);
-    ++(sent < 0 ? not_sent_ : sent_);
+    Json json = joint_state_json(robot_, record.time, record.state);
+    if (references_) add_references(robot_, json, record.reference);
+    add_extras(robot_, json, extras_, record.state);
+    for (const std::string& text : split_json(json, longest_datagram)) {
+      const auto sent = ::sendto(socket_, text.data(), text.size(), MSG_DONTWAIT,
+                                 reinterpret_cast<const sockaddr*>(&target_), sizeof target_);
+      ++(sent < 0 ? not_sent_ : sent_);
+    }
   }
 
   /// Datagrams that the system took.
@@ -88,7 +90,9 @@ class JointStateSender {
 
  private:
   [[no_unique_address]] R robot_;
+  RecordExtras<R> extras_;
   int divisor_;
+  bool references_;
   int socket_ = -1;
   sockaddr_in target_{};
   std::uint64_t records_ = 0;

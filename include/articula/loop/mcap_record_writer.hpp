@@ -20,19 +20,25 @@ class McapRecordWriter {
  public:
   using Record = CycleRecord<joint_count<R>, CommandType>;
 
-  /// @throws std::runtime_error if the file cannot be written
-  McapRecordWriter(const R& robot, const std::filesystem::path& path)
+  /// @param contents  what is written besides the joints that can be commanded
+  /// @throws std::runtime_error if the file cannot be written, std::invalid_argument if the robot
+  ///         has no link of a name
+  McapRecordWriter(const R& robot, const std::filesystem::path& path,
+                   const RecordContents& contents = {})
       : robot_(robot),
-        writer_(path, "cycle", "articula.Cycle", schema_of(record_json(robot, Record())).dump()) {}
+        extras_(robot, contents),
+        writer_(path, "cycle", "articula.Cycle",
+                schema_of(record_json(robot, Record(), extras_)).dump()) {}
   /// For a robot known at compile time.
-  explicit McapRecordWriter(const std::filesystem::path& path) requires DescribedRobot<R>
-      : McapRecordWriter(R(), path) {}
+  explicit McapRecordWriter(const std::filesystem::path& path,
+                            const RecordContents& contents = {}) requires DescribedRobot<R>
+      : McapRecordWriter(R(), path, contents) {}
 
   /// Writes one record.
   /// @throws std::runtime_error if it cannot be written
   void write(const Record& record) {
     writer_.write(std::chrono::nanoseconds(std::llround(record.time * 1e9)),
-                  record_json(robot_, record).dump());
+                  record_json(robot_, record, extras_).dump());
   }
 
   /// Completes the file.
@@ -41,6 +47,7 @@ class McapRecordWriter {
 
  private:
   [[no_unique_address]] R robot_;
+  RecordExtras<R> extras_;
   McapWriter writer_;
 };
 

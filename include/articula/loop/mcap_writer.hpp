@@ -3,26 +3,34 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace articula {
 
 /// Writes JSON messages of one topic to an MCAP file, which PlotJuggler and Foxglove open.
-/// Source: [MCAP], the records Header, Schema, Channel, Message, Data End, Statistics, Summary
-/// Offset and Footer. There are no chunks, so that all messages of a file that was never closed can
-/// still be read, and no checksums.
+/// Source: [MCAP], the records Header, Schema, Channel, Chunk, Message, Message Index, Data End,
+/// Statistics, Chunk Index, Summary Offset and Footer. There is no compression and no checksum.
+///
+/// Readers with random access need chunks and their index. Readers of a file that was never closed
+/// need messages outside of an unfinished chunk. Both get them: a chunk is first written empty, and
+/// its messages stand behind it. When it is full, its length is set, so that it contains them.
+/// So a file that ends anywhere has a valid beginning with all messages that reached the disk.
 class McapWriter {
  public:
-  /// @param path         the file
+  /// A chunk is complete when its messages take this much [bytes]. Readers load whole chunks.
+  static constexpr std::uint64_t chunk_size = 1 << 20;
+
+  /// @param path         the file; must be seekable, so it cannot be a pipe
   /// @param topic        name of the topic
   /// @param schema_name  name of the messages' type
   /// @param schema       of the messages, as JSON Schema
@@ -47,40 +55,45 @@ class McapWriter {
   /// @throws std::runtime_error if it cannot be written
   void write(std::chrono::nanoseconds time, std::string_view message) {
     const auto stamp = static_cast<std::uint64_t>(time.count());
-    first_ = std::min(first_, stamp);
-    last_ = std::max(last_, stamp);
+    if (chunk_.messages.empty()) {
+      chunk_.start = size_;
+      put(0x06, chunk_header(0));
+    }
+    chunk_.messages.push_back({stamp, size_ - content_start()});
     Bytes content;
     content.number(id, 2).number(count_++, 4).number(stamp, 8).number(stamp, 8);
     content.data += message;
     put(0x05, content);
+    if (size_ - content_start() >= chunk_size) complete_chunk();
     check();
   }
 
   /// Completes the file with its summary, which readers use as a table of contents.
   /// @throws std::runtime_error if not all could be written
   void close() {
+    complete_chunk();
     put(0x0f, Bytes().number(0, 4));
-    struct Group {
-      unsigned char opcode;
-      std::uint64_t start, length;
-    };
     Bytes statistics;
-    statistics.number(count_, 8).number(1, 2).number(1, 4).number(0, 4).number(0, 4).number(0, 4);
+    statistics.number(count_, 8).number(1, 2).number(1, 4).number(0, 4).number(0, 4);
+    statistics.number(chunk_indexes_.size(), 4);
     statistics.number(count_ == 0 ? 0 : first_, 8).number(last_, 8);
     statistics.number(10, 4).number(id, 2).number(count_, 8);
     const std::uint64_t summary = size_;
-    std::array<Group, 3> groups{{{0x03, 0, 0}, {0x04, 0, 0}, {0x0b, 0, 0}}};
-    const std::array<const Bytes*, 3> contents{&schema_, &channel_, &statistics};
-    for (std::size_t i = 0; i < groups.size(); ++i) {
-      groups[i].start = size_;
-      put(groups[i].opcode, *contents[i]);
-      groups[i].length = size_ - groups[i].start;
-    }
-    const std::uint64_t offsets = size_;
-    for (const Group& group : groups) {
-      put(0x0e, Bytes().number(group.opcode, 1).number(group.start, 8).number(group.length, 8));
-    }
-    put(0x02, Bytes().number(summary, 8).number(offsets, 8).number(0, 4));
+    Bytes offsets;
+    const auto put_group = [&](unsigned char opcode, std::span<const Bytes> contents) {
+      if (contents.empty()) return;
+      const std::uint64_t start = size_;
+      for (const Bytes& content : contents) put(opcode, content);
+      offsets.number(0x0e, 1).number(1 + 8 + 8, 8);
+      offsets.number(opcode, 1).number(start, 8).number(size_ - start, 8);
+    };
+    put_group(0x03, {&schema_, 1});
+    put_group(0x04, {&channel_, 1});
+    put_group(0x0b, {&statistics, 1});
+    put_group(0x08, chunk_indexes_);
+    const std::uint64_t summary_offsets = size_;
+    put(offsets.data);
+    put(0x02, Bytes().number(summary, 8).number(summary_offsets, 8).number(0, 4));
     put(magic);
     file_.close();
     check();
@@ -106,6 +119,69 @@ class McapWriter {
     }
   };
 
+  /// Bytes of a Chunk record before its messages: opcode, length, two times, size, checksum,
+  /// compression (an empty text) and the messages' length.
+  static constexpr std::uint64_t chunk_prefix = 1 + 8 + 8 + 8 + 8 + 4 + 4 + 8;
+
+  /// The chunk that is being filled.
+  struct OpenChunk {
+    struct Entry {
+      std::uint64_t time, offset;  ///< of a message, from the beginning of the chunk's messages
+    };
+    std::uint64_t start = 0;  ///< of its record in the file
+    std::vector<Entry> messages{};
+  };
+
+  /// The earliest and the latest time of messages.
+  struct Span {
+    std::uint64_t first, last;
+  };
+
+  [[nodiscard]] std::uint64_t content_start() const { return chunk_.start + chunk_prefix; }
+
+  /// The fields of a Chunk record before its messages.
+  /// @param length  of the messages that belong to it [bytes]
+  [[nodiscard]] Bytes chunk_header(std::uint64_t length) const {
+    const auto [first, last] = length == 0 ? Span{0, 0} : span_of(chunk_.messages);
+    Bytes header;
+    header.number(first, 8).number(last, 8).number(length, 8).number(0, 4).text("");
+    return header.number(length, 8);
+  }
+
+  [[nodiscard]] static Span span_of(const std::vector<OpenChunk::Entry>& messages) {
+    Span span{messages.front().time, messages.front().time};
+    for (const auto& message : messages) {
+      span = {std::min(span.first, message.time), std::max(span.last, message.time)};
+    }
+    return span;
+  }
+
+  /// Lets the chunk contain the messages behind it, and adds its index.
+  void complete_chunk() {
+    if (chunk_.messages.empty()) return;
+    const std::uint64_t content = size_ - content_start(), length = size_ - chunk_.start;
+    const Bytes header = chunk_header(content);
+    file_.seekp(static_cast<std::streamoff>(chunk_.start + 1));
+    file_ << Bytes().number(length - 9, 8).data << header.data;
+    file_.seekp(0, std::ios::end);
+
+    const std::uint64_t message_index = size_;
+    Bytes entries;
+    for (const auto& message : chunk_.messages) {
+      entries.number(message.time, 8).number(message.offset, 8);
+    }
+    put(0x07, Bytes().number(id, 2).text(entries.data));
+    const auto [first, last] = span_of(chunk_.messages);
+    Bytes index;
+    index.number(first, 8).number(last, 8).number(chunk_.start, 8).number(length, 8);
+    index.number(2 + 8, 4).number(id, 2).number(message_index, 8);
+    index.number(size_ - message_index, 8).text("").number(content, 8).number(content, 8);
+    chunk_indexes_.push_back(index);
+    first_ = std::min(first_, first);
+    last_ = std::max(last_, last);
+    chunk_.messages.clear();
+  }
+
   void put(std::string_view bytes) {
     file_ << bytes;
     size_ += bytes.size();
@@ -122,6 +198,8 @@ class McapWriter {
   std::ofstream file_;
   Bytes schema_;
   Bytes channel_;
+  OpenChunk chunk_;
+  std::vector<Bytes> chunk_indexes_;
   std::uint64_t size_ = 0;   ///< of what was written [bytes]
   std::uint64_t count_ = 0;  ///< messages
   std::uint64_t first_ = std::numeric_limits<std::uint64_t>::max();

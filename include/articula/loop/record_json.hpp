@@ -4,6 +4,7 @@
 
 #include "articula/core/command_parts.hpp"
 #include "articula/loop/cycle_record.hpp"
+#include "articula/loop/record_extras.hpp"
 #include "articula/model/robot.hpp"
 
 #include <nlohmann/json.hpp>
@@ -40,25 +41,65 @@ template <Robot R>
   return {{"timestamp", time}, {std::string(model_of(robot).name.view()), joints}};
 }
 
-/// A whole record: the above, and with each joint its reference and command, then status and
-/// timing.
+/// Adds the references of the joints to JSON as joint_state_json() makes it: each joint gets a
+/// member "reference" with position, velocity, acceleration and effort.
+/// Real-time: no (allocates).
+template <Robot R>
+void add_references(const R& robot, Json& json, const JointReference<joint_count<R>>& reference) {
+  Json& joints = json[std::string(model_of(robot).name.view())];
+  for (int j = 0; j < joint_count<R>; ++j) {
+    joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())]
+          ["reference"] = {{"position", reference.position[j]},
+                           {"velocity", reference.velocity[j]},
+                           {"acceleration", reference.acceleration[j]},
+                           {"effort", reference.effort[j]}};
+  }
+}
+
+/// Adds mimic joints and link poses: to the joints the position and the velocity of each mimic
+/// joint, and a member "links" with
+///
+///     {"tool_link": {"translation": {"x": ..., "y", "z"}, "rotation": {"x", "y", "z", "w"}}}
+///
+/// whose figures are the pose in the root link's frame: metres and a unit quaternion.
+/// Real-time: no (allocates).
+template <Robot R>
+void add_extras(const R& robot, Json& json, const RecordExtras<R>& extras,
+                const JointState<joint_count<R>>& state) {
+  Json& joints = json[std::string(model_of(robot).name.view())];
+  const auto q = moving_joint_positions(robot, state.position);
+  const auto v = moving_joint_velocities(robot, state.velocity);
+  for (const MimicJoint& joint : extras.mimic_joints()) {
+    joints[joint.name] = {{"position", q[joint.index]}, {"velocity", v[joint.index]}};
+  }
+  for (const RecordedLink& link : extras.links()) {
+    const Eigen::Isometry3d pose = forward_kinematics(robot, state.position, link.index);
+    const Eigen::Vector3d p = pose.translation();
+    const Eigen::Quaterniond rotation(pose.linear());
+    json["links"][link.name] = {
+        {"translation", {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}}},
+        {"rotation",
+         {{"x", rotation.x()}, {"y", rotation.y()}, {"z", rotation.z()}, {"w", rotation.w()}}}};
+  }
+}
+
+/// A whole record: the above, and with each joint its command, then status and timing.
 /// @param robot   whose joints these are
 /// @param record  of one cycle
+/// @param extras  mimic joints and links to add
 /// Real-time: no (allocates).
 template <Robot R, class Command>
-[[nodiscard]] Json record_json(const R& robot, const CycleRecord<joint_count<R>, Command>& record) {
+[[nodiscard]] Json record_json(const R& robot, const CycleRecord<joint_count<R>, Command>& record,
+                               const RecordExtras<R>& extras) {
   const auto seconds = [](std::chrono::nanoseconds duration) {
     return std::chrono::duration<double>(duration).count();
   };
   Json json = joint_state_json(robot, record.time, record.state);
+  add_references(robot, json, record.reference);
   Json& joints = json[std::string(model_of(robot).name.view())];
   for (int j = 0; j < joint_count<R>; ++j) {
     Json& joint =
         joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())];
-    joint["reference"] = {{"position", record.reference.position[j]},
-                          {"velocity", record.reference.velocity[j]},
-                          {"acceleration", record.reference.acceleration[j]},
-                          {"effort", record.reference.effort[j]}};
     const auto parts = parts_of(record.command);
     for (const auto& part : parts) {
       const double value = (*part.values)[j];
@@ -75,7 +116,13 @@ template <Robot R, class Command>
   json["timing"] = {{"latency", seconds(record.timing.latency)},
                     {"period", seconds(record.timing.period)},
                     {"update", seconds(record.timing.update)}};
+  add_extras(robot, json, extras, record.state);
   return json;
+}
+/// The same with all mimic joints and without links.
+template <Robot R, class Command>
+[[nodiscard]] Json record_json(const R& robot, const CycleRecord<joint_count<R>, Command>& record) {
+  return record_json(robot, record, RecordExtras<R>(robot, {}));
 }
 
 /// The JSON Schema that JSON like this one has: an object or a value, its kind and its members.

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What follows from a recorded joint state: mimic joints, and the poses of links.
+#pragma once
+
+#include "articula/dynamics/forward_kinematics.hpp"
+#include "articula/dynamics/moving_joints.hpp"
+#include "articula/model/robot.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace articula {
+
+/// What a sink writes besides the joints that can be commanded:
+///
+///     CsvWriter<Q2d, EffortCommand<2>> csv("motion.csv", {.links = {"tool_link"}});
+struct RecordContents {
+  bool mimic_joints = true;  ///< position and velocity of each joint that mimics another one
+  std::vector<std::string> links{};  ///< links whose poses in the root link's frame are written
+};
+
+/// A joint that mimics another one.
+struct MimicJoint {
+  std::string name{};
+  bool slides = false;  ///< it is prismatic
+  int index = 0;        ///< of the joint in moving_joint_names()
+};
+
+/// A link whose pose is recorded.
+struct RecordedLink {
+  std::string name{};
+  LinkIndex index{};
+};
+
+/// The mimic joints of a robot and the links whose poses are recorded, found by name once.
+/// @tparam R  the robot
+template <Robot R>
+class RecordExtras {
+ public:
+  /// @param contents  what is wanted
+  /// @throws std::invalid_argument if the robot has no link of a name; the message lists its links
+  /// Real-time: no (allocates, throws).
+  RecordExtras(const R& robot, const RecordContents& contents) {
+    for (const std::string& link : contents.links)
+      links_.push_back({link, link_index(robot, link)});
+    if (!contents.mimic_joints || moving_joint_count<R> == joint_count<R>) return;
+    const auto& model = model_of(robot);
+    for (std::size_t i = 0; i < model.moving_joints.size(); ++i) {
+      const auto followed = static_cast<std::size_t>(model.mechanism.couplings[i].joint);
+      if (model.moving_joints[i] == model.joints[followed].name) continue;
+      mimic_joints_.push_back({std::string(model.moving_joints[i].view()),
+                               model.mechanism.bodies[i].prismatic, static_cast<int>(i)});
+    }
+  }
+
+  /// The mimic joints in the order of moving_joint_names().
+  [[nodiscard]] const std::vector<MimicJoint>& mimic_joints() const noexcept {
+    return mimic_joints_;
+  }
+  /// The links in the order in which they were asked for.
+  [[nodiscard]] const std::vector<RecordedLink>& links() const noexcept { return links_; }
+
+ private:
+  std::vector<MimicJoint> mimic_joints_{};
+  std::vector<RecordedLink> links_{};
+};
+
+}  // namespace articula
