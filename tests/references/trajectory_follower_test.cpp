@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/loop/loop.hpp>
+#include <articula/reference/named_trajectory.hpp>
 #include <articula/reference/reference_generator.hpp>
 #include <articula/reference/trajectory_follower.hpp>
 #include <articula/robots/q2d.hpp>
@@ -282,6 +283,116 @@ TEST_CASE("one that starts later lets what is followed go on until then") {
   run(follower, 1.9, 1.902);
   CHECK(follower.outcome() == successful);
   CHECK(follower.reference().position == zero);
+}
+
+namespace {
+
+/// A goal for one joint of the Q2D: to be at a position at a time.
+Points partial(const char* joint, double position, double time, const JointReference<2>& from) {
+  return arrange(Q2d(),
+                 {{joint}, {{.time_from_start = time, .positions = {position}, .velocities = {0}}}},
+                 {.allow_partial_joints = true, .from = from});
+}
+
+}  // namespace
+
+TEST_CASE("joints that a goal leaves out go on along the trajectory that they follow") {
+  for (const double start : {Follower::now, 0.9005}) {
+    for (const double speed : {1.0, 0.7}) {
+      CAPTURE(start, speed);
+      Follower follower(zero, limits), undisturbed(zero, limits);
+      for (Follower* each : {&follower, &undisturbed}) {
+        REQUIRE(each->start(there) == active);
+        run(*each, 0, 0.3);
+        each->set_speed(speed);
+        run(*each, 0.3, 0.5);
+      }
+      const Points elbow = partial("elbow_active_joint", -0.4, 0.8, follower.reference());
+      JumpDetector detector(follower.reference(), 60);
+      REQUIRE(follower.start(elbow, {}, start) == active);
+      for (int k = 501; k <= 4000; ++k) {
+        const double t = k * h;
+        const auto now = follower.sample(t), other = undisturbed.sample(t);
+        detector.check(now);
+        follower.check(obedient(follower));
+        undisturbed.check(obedient(undisturbed));
+        CAPTURE(t);
+        // The time of the trajectory is summed up from another start: rounding, 4000 times.
+        REQUIRE(std::abs(now.position[0] - other.position[0]) < 1e-12);
+        REQUIRE(std::abs(now.velocity[0] - other.velocity[0]) < 1e-11);
+        REQUIRE(follower.outcome() == undisturbed.outcome());  // the shoulder arrives last
+      }
+      CHECK(follower.outcome() == successful);
+      CHECK(follower.reference().position == Vector(-1, -0.4));
+    }
+  }
+}
+
+TEST_CASE("goals for one joint after the other are followed at once, each to its end") {
+  Follower follower(zero, limits), other(zero, limits);
+  const auto goal = [](const char* joint, double position, double time) {
+    return partial(joint, position, time, {});
+  };
+  REQUIRE(follower.start(goal("shoulder_active_joint", 1, 3)) == active);
+  REQUIRE(other.start(goal("shoulder_active_joint", 1, 3)) == active);
+  run(follower, 0, 0.5);
+  run(other, 0, 0.5);
+  JumpDetector detector(follower.reference(), 60);
+  for (int k = 501; k <= 3600; ++k) {
+    const double t = k * h;
+    if (k == 600) REQUIRE(follower.start(goal("elbow_active_joint", 0.5, 1)) == active);
+    if (k == 1200) REQUIRE(follower.start(goal("elbow_active_joint", -0.5, 1.2)) == active);
+    const auto now = follower.sample(t);
+    detector.check(now);
+    REQUIRE(std::abs(now.position[0] - other.sample(t).position[0]) < 1e-12);
+    follower.check(obedient(follower));
+    // The elbow arrives after 2.399 s; the goal is reached when no joint moves any more.
+    if (t < 2.998) CHECK(follower.outcome() == active);
+  }
+  CHECK(follower.outcome() == successful);
+  CHECK(follower.reference().position == Vector(1, -0.5));
+}
+
+TEST_CASE("a joint that arrives rests while the other one goes on, and can be sent on") {
+  Follower follower(zero, limits);
+  REQUIRE(follower.start(Points({{.time_from_start = 0.5, .position = {0.2, 0.2}}})) == active);
+  run(follower, 0, 0.4);
+  REQUIRE(follower.start(partial("elbow_active_joint", 1, 2, follower.reference())) == active);
+  double t = run(follower, 0.4, 1);
+  CHECK(follower.reference().position[0] == Approx(0.2).margin(1e-2));  // a stop behind the line
+  const double rests = follower.reference().position[0];
+  CHECK(follower.reference().velocity[0] == 0);
+  CHECK(follower.reference().velocity[1] > 0.1);
+  REQUIRE(follower.start(partial("shoulder_active_joint", -0.5, 1, follower.reference())) ==
+          active);
+  t = run(follower, t, t + 0.01);
+  CHECK(follower.reference().position[0] != rests);
+  run(follower, t, 3);
+  CHECK(follower.outcome() == successful);
+  CHECK(follower.reference().position == Vector(-0.5, 1));
+}
+
+TEST_CASE("a stop goes on in the joints that the next goal leaves out") {
+  Follower follower(zero, limits), undisturbed(zero, limits);
+  for (Follower* each : {&follower, &undisturbed}) {
+    REQUIRE(each->start(there, {.path_position = {0.1, 0.1}}) == active);
+    run(*each, 0, 0.7);
+    JointState<2> state = obedient(*each);
+    state.position[0] += 0.2;
+    CHECK(each->check(state) == path_tolerance_violated);
+    run(*each, 0.7, 0.71);
+  }
+  REQUIRE(follower.start(partial("elbow_active_joint", 0, 1, follower.reference())) == active);
+  JumpDetector detector(follower.reference(), 60);
+  for (int k = 711; k <= 2500; ++k) {
+    detector.check(follower.sample(k * h));
+    static_cast<void>(undisturbed.sample(k * h));
+    follower.check(obedient(follower));
+  }
+  CHECK(follower.outcome() == successful);
+  CHECK(follower.reference().position[0] ==  // the stop of the rest of a stop: rounding
+        Approx(undisturbed.reference().position[0]).margin(1e-12));
+  CHECK(follower.reference().position[1] == 0);
 }
 
 TEST_CASE("one that waits while nothing is followed starts on time") {

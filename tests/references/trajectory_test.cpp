@@ -122,6 +122,73 @@ TEST_CASE("the degree is that of what both ends have") {
   CHECK(near(trajectory.sample(0.6).velocity, Vector(0.4, 1.2)));
 }
 
+TEST_CASE("positions alone can be joined by the spline whose accelerations are continuous") {
+  const TrajectoryOptions smooth{.spline_velocities = true};
+  const std::vector<Point> p{{.time_from_start = 0, .position = {0, 0.5}},
+                             {.time_from_start = 1, .position = {0.25, 0.9}},
+                             {.time_from_start = 1.5, .position = {1, 0.2}},
+                             {.time_from_start = 3, .position = {-0.4, -0.1}},
+                             {.time_from_start = 4, .position = {0, 0}}};
+  const Trajectory<Q2d> trajectory(p, smooth);
+  CHECK(trajectory.sample(0).velocity.isZero(0));
+  CHECK(trajectory.sample(4).velocity.isZero(0));
+  for (std::size_t k = 1; k + 1 < p.size(); ++k) {
+    const double t = p[k].time_from_start, e = 1e-9;
+    const auto before = trajectory.sample(t - e), after = trajectory.sample(t + e);
+    CHECK(near(trajectory.sample(t).position, p[k].position));
+    CHECK(near(before.velocity, after.velocity, 1e-6));          // e times the acceleration
+    CHECK(near(before.acceleration, after.acceleration, 1e-6));  // e times the jerk
+    CHECK(after.acceleration.norm() > 0.1);
+  }
+  // By hand, with h = 1: 4 v = 3 (q_2 - q_0)
+  const Trajectory<Q2d> three({{.time_from_start = 0, .position = {0, 0}},
+                               {.time_from_start = 1, .position = {0.25, 0}},
+                               {.time_from_start = 2, .position = {1, 0}}},
+                              smooth);
+  CHECK(near(*three.points()[1].velocity, Vector(0.75, 0)));
+  // Velocities that are given stay; a first point with a way before it is left with the slope of a
+  // natural spline: 2 v_0 + v_1 = 3 (q_1 - q_0).
+  const Trajectory<Q2d> given(
+      {{.time_from_start = 1, .position = {0, 0}},
+       {.time_from_start = 2, .position = {0.3, 0}, .velocity = Vector(0.1, 0)},
+       {.time_from_start = 3, .position = {0, 0}}},
+      smooth);
+  CHECK(near(*given.points()[0].velocity, Vector(0.4, 0)));
+  CHECK(near(*given.points()[1].velocity, Vector(0.1, 0)));
+  CHECK(Trajectory<Q2d>({{.time_from_start = 1, .position = {1, 1}}}, smooth).duration() == 1);
+  // 3 q_2 / (4 h), where the mean velocities are 1.67
+  CHECK_THROWS_WITH(Trajectory<Q2d>({{.time_from_start = 0, .position = {0, 0}},
+                                     {.time_from_start = 0.45, .position = {0.75, 0}},
+                                     {.time_from_start = 0.9, .position = {1.5, 0}}},
+                                    smooth),
+                    Contains("velocity 2.5 of joint 'shoulder_active_joint' is above its limit"));
+}
+
+TEST_CASE("the spline of a goal begins where the joints are asked to be") {
+  const NamedTrajectory named{{"shoulder_active_joint", "elbow_active_joint"},
+                              {{.time_from_start = 1, .positions = {0.25, 0}},
+                               {.time_from_start = 2, .positions = {1, 0}}}};
+  const auto trajectory = arrange(
+      Q2d(), named, {.trajectory = {.spline_velocities = true}, .from = JointReference<2>{}});
+  CHECK(near(*trajectory.points()[0].velocity, Vector(0.75, 0)));
+  REQUIRE(trajectory.points().size() == 2);
+}
+
+TEST_CASE("a joint that is left out stands still in the points") {
+  Trajectory<Q2d> trajectory(points(true, true));
+  CHECK_FALSE(trajectory.leaves_out(1));
+  trajectory.leave_out(1);
+  CHECK(trajectory.leaves_out(1));
+  CHECK_FALSE(trajectory.leaves_out(0));
+  for (const Point& point : trajectory.points()) {
+    CHECK(point.position[1] == -0.2);
+    CHECK((*point.velocity)[1] == 0);
+    CHECK((*point.acceleration)[1] == 0);
+  }
+  CHECK((*trajectory.points()[1].velocity)[0] == -0.3);
+  CHECK_THROWS_WITH(trajectory.leave_out(2), Contains("joint 2"));
+}
+
 TEST_CASE("before the first point and after the last one it rests there") {
   const Trajectory<Q2d> trajectory(points(true, true));
   for (const double t : {-1e300, -1.0, 0.0, 0.4999}) {

@@ -36,15 +36,30 @@ struct NamedTrajectory {
 template <int N>
 struct ArrangeOptions {
   TrajectoryOptions trajectory{};
-  /// Joints that are not named stay at the position of `from`; otherwise they are missed.
+  /// Joints that are not named are left out (Trajectory::leave_out): a TrajectoryFollower lets them
+  /// go on with what they do, and in the points they stay at the position of `from`. Otherwise a
+  /// joint that is not named is an error.
   bool allow_partial_joints = false;
   /// Positions (and velocities) that are not given are integrated from velocities (and
   /// accelerations) by Heun's method, from `from` on at time 0; otherwise they are missed.
   bool allow_integration = false;
   /// What the joints are asked for at present; has to be given where something is to stay or to be
-  /// integrated
+  /// integrated. Spline velocities begin from there.
   std::optional<JointReference<N>> from{};
 };
+
+namespace detail {
+
+/// The spline begins where the joints are asked to be at time 0, which is no point of it.
+template <int N>
+void set_spline_velocities_from(const TrajectoryPoint<N>& from,
+                                std::vector<TrajectoryPoint<N>>& points) {
+  points.insert(points.begin(), from);
+  set_spline_velocities(std::span(points));
+  points.erase(points.begin());
+}
+
+}  // namespace detail
 
 /// Puts a named trajectory in the order of a robot's joints.
 /// @tparam Capacity  most points there can be
@@ -125,7 +140,19 @@ template <int Capacity = 32, Robot R>
     last = at_point(point);
     points.push_back(point);
   }
-  return Trajectory<R, Capacity>(robot, points, options.trajectory);
+  if (options.trajectory.spline_velocities && options.from && !points.empty() &&
+      points.front().time_from_start > 0) {
+    JointVector<n> velocity = from.velocity;
+    for (int j = 0; j < n; ++j) {
+      if (!column[static_cast<std::size_t>(j)]) velocity[j] = 0;
+    }
+    detail::set_spline_velocities_from({.position = from.position, .velocity = velocity}, points);
+  }
+  Trajectory<R, Capacity> trajectory(robot, points, options.trajectory);
+  for (int j = 0; j < n; ++j) {
+    if (!column[static_cast<std::size_t>(j)]) trajectory.leave_out(j);
+  }
+  return trajectory;
 }
 
 }  // namespace articula

@@ -8,6 +8,7 @@
 #include "articula/reference/jerk_limited_profile.hpp"
 #include "articula/reference/motion_limits.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace articula {
@@ -37,7 +38,7 @@ class StopAndReturn {
 
   /// Begins a stop.
   /// @param from  what the joints were last asked for
-  /// @param back  where they should be in the end [rad or m], N x 1; if it is not given, or not
+  /// @param back  where they should be in the end [rad or m], N x 1; where it is not given, or not
   ///              finite, where the stop ends. Either no further out than the limits of the joints,
   ///              or than it began
   /// Real-time: yes. O(N).
@@ -45,7 +46,11 @@ class StopAndReturn {
     way_ = JerkLimitedProfile<R>::stop(from, limits_, lower_, upper_);
     time_ = 0;
     const Position end = way_.sample(way_.duration()).position;
-    const Position wanted = back && is_finite(*back) ? *back : end;
+    target_ = back.value_or(unknown());
+    Position wanted = end;
+    for (int j = 0; j < joint_count; ++j) {
+      if (is_finite(target_[j])) wanted[j] = target_[j];
+    }
     const Position target =
         wanted.cwiseMax(lower_.cwiseMin(from.position)).cwiseMin(upper_.cwiseMax(from.position));
     back_.reset();
@@ -67,15 +72,24 @@ class StopAndReturn {
     return way_.sample(time_);
   }
 
+  /// What begin() was given to go back to [rad or m], N x 1; not finite where nothing.
+  /// Real-time: yes.
+  [[nodiscard]] const Position& target() const noexcept { return target_; }
+
   /// Whether it is not yet at rest for good. Real-time: yes.
   [[nodiscard]] bool moves() const noexcept { return back_ || time_ < way_.duration(); }
 
  private:
+  [[nodiscard]] static Position unknown() noexcept {
+    return Position::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+
   MotionLimits<joint_count> limits_;
   Position lower_, upper_;
   JerkLimitedProfile<R> way_;
   double time_ = 0;
   std::optional<Position> back_{};  ///< where to go after the stop
+  Position target_ = unknown();
 };
 
 }  // namespace articula

@@ -5,6 +5,7 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/reference/spline_velocities.hpp"
 #include "articula/reference/trajectory_outcome.hpp"
 #include "articula/reference/trajectory_point.hpp"
 #include "articula/reference/way_peaks.hpp"
@@ -30,6 +31,10 @@ enum class Interpolation : unsigned char {
 struct TrajectoryOptions {
   Interpolation interpolation = Interpolation::splines;
   bool allow_motion_at_end = false;  ///< the last point may have a velocity
+  /// Points without velocities get those of the cubic spline through all positions, which is smooth
+  /// to its accelerations (set_spline_velocities). Without this, positions alone make straight
+  /// lines, as in ROS's joint trajectory controller.
+  bool spline_velocities = false;
 };
 
 /// A motion through points at given times, checked and ready to be sampled:
@@ -71,10 +76,16 @@ class Trajectory {
     for (std::size_t k = 0; k < points.size(); ++k) {
       check_time(points, k);
       check_numbers(points[k], k, robot);
-      if (k > 0 && options.interpolation == Interpolation::splines) check_way(points, k, robot);
     }
-    check_end(points.back(), options.allow_motion_at_end, robot);
     std::copy(points.begin(), points.end(), points_.begin());
+    if (options.spline_velocities) {
+      set_spline_velocities(std::span(points_.data(), size_));
+      for (std::size_t k = 0; k < size_; ++k) check_numbers(points_[k], k, robot);
+    }
+    for (std::size_t k = 1; k < size_ && options.interpolation == Interpolation::splines; ++k) {
+      check_way(this->points(), k, robot);
+    }
+    check_end(points_[size_ - 1], options.allow_motion_at_end, robot);
   }
   Trajectory(const R& robot, std::initializer_list<Point> points,
              const TrajectoryOptions& options = {})
@@ -86,6 +97,26 @@ class Trajectory {
   explicit Trajectory(std::initializer_list<Point> points,
                       const TrajectoryOptions& options = {}) requires DescribedRobot<R>
       : Trajectory(R(), points, options) {}
+
+  /// Leaves a joint out: under a TrajectoryFollower it goes on with what it does, along an older
+  /// trajectory or at rest. In the points it stays at its first position, at rest.
+  /// @param joint  index of the joint
+  /// @throws std::invalid_argument if the robot has no such joint
+  void leave_out(int joint) {
+    if (joint < 0 || joint >= joint_count) {
+      detail::refuse({"trajectory: joint ", joint, " is left out, of ", joint_count, " joints"});
+    }
+    left_out_[static_cast<std::size_t>(joint)] = true;
+    for (std::size_t k = 0; k < size_; ++k) {
+      points_[k].position[joint] = points_[0].position[joint];
+      if (points_[k].velocity) (*points_[k].velocity)[joint] = 0;
+      if (points_[k].acceleration) (*points_[k].acceleration)[joint] = 0;
+    }
+  }
+  /// Whether a joint is left out. Real-time: yes.
+  [[nodiscard]] bool leaves_out(int joint) const noexcept {
+    return left_out_[static_cast<std::size_t>(joint)];
+  }
 
   [[nodiscard]] std::span<const Point> points() const noexcept { return {points_.data(), size_}; }
   [[nodiscard]] Interpolation interpolation() const noexcept { return options_.interpolation; }
@@ -222,6 +253,7 @@ class Trajectory {
   }
 
   std::array<Point, static_cast<std::size_t>(Capacity)> points_{};
+  std::array<bool, static_cast<std::size_t>(joint_count)> left_out_{};
   TrajectoryOptions options_;
   std::size_t size_;
 };

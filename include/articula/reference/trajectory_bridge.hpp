@@ -25,26 +25,6 @@ struct TrajectoryBridge {
   TrajectoryPoint<N> to{};                        ///< the point that it leads to, shifted
   std::size_t index = 0;                          ///< of that point
   JointVector<N> shift = JointVector<N>::Zero();  ///< whole turns of continuous joints [rad], N x 1
-
-  /// The reference on the bridge, and on the trajectory after it.
-  /// @param time  of the trajectory [s], within its duration
-  /// Real-time: yes.
-  template <Robot R, int Capacity>
-  [[nodiscard]] JointReference<N> sample(const Trajectory<R, Capacity>& trajectory,
-                                         double time) const noexcept {
-    const std::size_t next = trajectory.next_point(time);
-    if (next <= index) {
-      if (trajectory.interpolation() == Interpolation::splines) {
-        return interpolate(from, to, time - from.time_from_start);
-      }
-      return {from.position, JointVector<N>::Zero(), JointVector<N>::Zero(), from.effort};
-    }
-    const auto points = trajectory.points();
-    if (next == points.size()) return trajectory.sample(time);
-    JointReference<N> reference = trajectory.between(points[next - 1], points[next], time);
-    reference.position += shift;
-    return reference;
-  }
 };
 
 /// Where N joints can be.

@@ -4,6 +4,7 @@
 
 #include "articula/core/joint_state.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/reference/joint_tracks.hpp"
 #include "articula/reference/motion_limits.hpp"
 #include "articula/reference/speed_override.hpp"
 #include "articula/reference/stop_and_return.hpp"
@@ -12,7 +13,9 @@
 #include "articula/reference/trajectory_tolerances.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -220,16 +223,30 @@ class TrajectoryFollower {
   /// limits in the latter, which may all but stand still, is not taken over: it would be beyond
   /// them when the speed rises.
   [[nodiscard]] bool can_begin() const noexcept {
-    if (following_ || !moves()) return true;
+    if (!rest_.moves()) return true;
     const Reference own = speed_.unapply(reference_);
-    const auto keeps = [](const auto& motion, const auto& limit) {
-      return ((motion.cwiseAbs() - limit * (1 + 1e-9)).array() <= 0).all();  // rounding
+    const auto keeps = [](double motion, double limit) {
+      return std::abs(motion) <= limit * (1 + 1e-9);  // rounding
     };
-    return speed_.speed() > 0 && keeps(own.velocity, limits_.velocity) &&
-           keeps(own.acceleration, limits_.acceleration);
+    for (int j = 0; j < joint_count; ++j) {
+      if (tracks_.follows(j)) continue;
+      if (!keeps(own.velocity[j], limits_.velocity[j]) ||
+          !keeps(own.acceleration[j], limits_.acceleration[j])) {
+        return false;
+      }
+    }
+    return speed_.speed() > 0;
   }
 
-  [[nodiscard]] bool moves() const noexcept { return following_ || rest_.moves(); }
+  [[nodiscard]] bool moves() const noexcept { return tracks_.any() || rest_.moves(); }
+
+  /// The last sample in the trajectory's time.
+  [[nodiscard]] Reference present() const noexcept {
+    Reference own = speed_.unapply(reference_);
+    // While the speed is all but 0, a division by its square would leave nothing but rounding.
+    if (speed_.speed() > 0) take_over(own, own_, [&](int j) { return tracks_.follows(j); });
+    return own;
+  }
 
   [[nodiscard]] bool is_past(const TrajectoryType& trajectory, double own_time) noexcept {
     if (trajectory.duration() > own_time) return false;
@@ -240,19 +257,46 @@ class TrajectoryFollower {
   }
 
   [[nodiscard]] auto bridge_to(const TrajectoryType& trajectory, double own_time) noexcept {
-    // While the speed is all but 0, a division by its square would leave nothing but rounding.
-    const bool known = own_ && speed_.speed() > 0;
-    return find_bridge(known ? *own_ : speed_.unapply(reference_), trajectory, own_time, limits_,
-                       range_, refusal_);
+    // A joint that is left out stays where the points have it, so that it limits no bridge.
+    const auto left_out = [&](int j) { return trajectory.leaves_out(j); };
+    Reference from = present();
+    take_over(from, Reference{.position = trajectory.points().front().position}, left_out);
+    return find_bridge(from, trajectory, own_time, limits_, range_, refusal_);
   }
 
   void begin(const TrajectoryType& trajectory, const Tolerances& tolerances,
              const TrajectoryBridge<joint_count>& bridge) noexcept {
-    trajectory_ = trajectory;
+    own_ = present();
+    tracks_.begin(trajectory, bridge, speed_.time());
     tolerances_ = tolerances;
-    bridge_ = bridge;
     speed_.restart(bridge.from.time_from_start);
-    following_ = watched_ = true;
+    watched_ = true;
+    if (rest_.moves()) let_rest(reference_, [&](int j) { return tracks_.follows(j); });
+  }
+
+  /// Lets the joints go on to rest from a reference.
+  /// @param is_new  says of a joint whether it was not on its way to rest before: then it has none
+  ///                to go, and rests where its stop ends, or does not move if it follows a track
+  template <class IsNew>
+  void let_rest(Reference from, IsNew is_new) noexcept {
+    auto target = rest_.target();
+    for (int j = 0; j < joint_count; ++j) {
+      if (is_new(j)) target[j] = std::numeric_limits<double>::quiet_NaN();
+      if (tracks_.follows(j)) from.velocity[j] = from.acceleration[j] = 0;
+    }
+    rest_.begin(from, target);
+  }
+
+  /// Sets the figures of those joints that a condition says to those of another reference.
+  template <class Condition>
+  static void take_over(Reference& to, const Reference& from, Condition condition) noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      if (!condition(j)) continue;
+      to.position[j] = from.position[j];
+      to.velocity[j] = from.velocity[j];
+      to.acceleration[j] = from.acceleration[j];
+      to.effort[j] = from.effort[j];
+    }
   }
 
   void begin_waiting(double time) noexcept {
@@ -273,36 +317,42 @@ class TrajectoryFollower {
     outcome_ = outcome;
     watched_ = false;
     waiting_.reset();
-    following_ = false;
-    rest_.begin(reference_, measured);
+    tracks_.clear();
+    rest_.begin(reference_, measured && is_finite(*measured) ? measured : std::nullopt);
   }
 
   void advance(double period) noexcept {
     speed_.advance(period);
-    if (following_) {
-      const double beyond = speed_.time() - trajectory_->duration();
-      if (beyond < 0) {
-        const auto lowest = range_.lower.cwiseMin(reference_.position).eval();
-        const auto highest = range_.upper.cwiseMax(reference_.position).eval();
-        own_ = bridge_->sample(*trajectory_, speed_.time());
-        own_->position = own_->position.cwiseMax(lowest).cwiseMin(highest);  // rounding
-        reference_ = speed_.apply(*own_);
-        return;
-      }
-      Reference last = at_point(trajectory_->points().back());
-      last.position += bridge_->shift;
-      for (int j = 0; j < joint_count; ++j) {  // a position that stands has no acceleration
-        if (std::abs(last.velocity[j]) > TrajectoryType::still_velocity) continue;
-        last.velocity[j] = last.acceleration[j] = 0;
-      }
-      arrival_ = trajectory_->duration();
-      following_ = false;
-      rest_.begin(speed_.apply(last));
-      period = speed_.speed() > 0 ? std::min(period, beyond / speed_.speed()) : 0;
+    const auto lowest = range_.lower.cwiseMin(reference_.position).eval();
+    const auto highest = range_.upper.cwiseMax(reference_.position).eval();
+    for (double end = tracks_.first_end(); end <= speed_.time(); end = tracks_.first_end()) {
+      const double speed = speed_.speed();
+      const double after = speed > 0 ? std::min(period, (speed_.time() - end) / speed) : 0;
+      end_tracks(end, rest_.advance(period - after));
+      arrival_ = end;
+      period = after;
     }
     reference_ = rest_.advance(period);
-    own_.reset();
+    if (tracks_.any()) {
+      tracks_.sample(speed_.time(), own_);
+      own_.position = own_.position.cwiseMax(lowest).cwiseMin(highest);  // rounding
+      take_over(reference_, speed_.apply(own_), [&](int j) { return tracks_.follows(j); });
+    }
     if (rest_.moves()) arrival_ = speed_.time();
+  }
+
+  /// The joints whose tracks end begin their stops; the others go on.
+  void end_tracks(double end, Reference resting) noexcept {
+    std::array<bool, static_cast<std::size_t>(joint_count)> followed{};
+    for (int j = 0; j < joint_count; ++j)
+      followed[static_cast<std::size_t>(j)] = tracks_.follows(j);
+    Reference last;
+    tracks_.end(end, last);
+    const auto ends = [&](int j) {
+      return followed[static_cast<std::size_t>(j)] && !tracks_.follows(j);
+    };
+    take_over(resting, speed_.apply(last), ends);
+    let_rest(resting, ends);
   }
 
   Limits limits_;
@@ -311,19 +361,17 @@ class TrajectoryFollower {
   JointRange<joint_count> range_;
 
   SpeedOverride speed_;  ///< its time is the trajectory's own
-  std::optional<TrajectoryType> trajectory_{};
-  std::optional<TrajectoryBridge<joint_count>> bridge_{};
+  JointTracks<R, Capacity> tracks_{};
   std::optional<Waiting> waiting_{};
-  bool following_ = false;
   bool watched_ = false;  ///< the motion is a trajectory's, or the stop at its end
 
-  StopAndReturn<R> rest_;  ///< where there is no trajectory
+  StopAndReturn<R> rest_;  ///< of joints that follow no trajectory
   double arrival_ = 0;     ///< when the motion ended, in the trajectory's time
 
   bool clock_runs_ = false;
   double time_ = 0;
   Reference reference_{};
-  std::optional<Reference> own_{};  ///< the same in the trajectory's time, if it is of one
+  Reference own_{};  ///< the same in the trajectory's time, of joints that follow one
   TrajectoryOutcome outcome_ = TrajectoryOutcome::idle;
   TrajectoryRefusal refusal_{};
 };
