@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Limits of a motion that differ between the directions.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/reference/motion_limits.hpp"
+
+#include <string_view>
+
+namespace articula {
+
+/// The limits of one joint's motion. Velocity and acceleration have a limit in either direction.
+struct MotionBounds {
+  double lowest_velocity = 0;       ///< V- < 0 [rad/s or m/s]
+  double highest_velocity = 0;      ///< V+ > 0 [rad/s or m/s]
+  double lowest_acceleration = 0;   ///< A- < 0 [rad/s^2 or m/s^2]
+  double highest_acceleration = 0;  ///< A+ > 0 [rad/s^2 or m/s^2]
+  double jerk = 0;                  ///< J, either way [rad/s^3 or m/s^3]
+};
+
+/// The limits of the motion of N joints, where those of the directions differ. MotionLimits, which
+/// are the same either way, become such limits by themselves.
+/// @tparam N  number of joints
+template <int N>
+struct DirectedLimits {
+  JointVector<N> lowest_velocity = JointVector<N>::Zero();       ///< V- < 0, N x 1
+  JointVector<N> highest_velocity = JointVector<N>::Zero();      ///< V+ > 0, N x 1
+  JointVector<N> lowest_acceleration = JointVector<N>::Zero();   ///< A- < 0, N x 1
+  JointVector<N> highest_acceleration = JointVector<N>::Zero();  ///< A+ > 0, N x 1
+  JointVector<N> jerk = JointVector<N>::Zero();                  ///< J, N x 1
+
+  /// Those of one joint. Real-time: yes.
+  [[nodiscard]] MotionBounds of(int joint) const noexcept {
+    return {lowest_velocity[joint], highest_velocity[joint], lowest_acceleration[joint],
+            highest_acceleration[joint], jerk[joint]};
+  }
+};
+
+/// Limits that are the same either way. Real-time: yes.
+template <int N>
+[[nodiscard]] DirectedLimits<N> both_ways(const MotionLimits<N>& limits) noexcept {
+  return {-limits.velocity, limits.velocity, -limits.acceleration, limits.acceleration,
+          limits.jerk};
+}
+
+/// Refuses limits that no motion can be computed with: the size of each must lie between 1e-9 and
+/// 1e9, the lowest ones be negative and the highest ones positive. A velocity must not be above the
+/// limit of the robot's joint.
+/// @throws std::invalid_argument naming limit, joint and value
+/// Real-time: no (throws).
+template <Robot R>
+void validate(const DirectedLimits<joint_count<R>>& limits, const R& robot) {
+  for (int j = 0; j < joint_count<R>; ++j) {
+    const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+    const auto check = [&](std::string_view what, double value, double side) {
+      if (is_finite(value) && side * value >= 1e-9 && side * value <= 1e9) return;
+      detail::refuse({"motion limits: ", what, " ", value, " of joint '", joint.name.view(),
+                      "' is not between ", side < 0 ? "-1e9 and -1e-9" : "1e-9 and 1e9"});
+    };
+    const MotionBounds bounds = limits.of(j);
+    check("lowest velocity", bounds.lowest_velocity, -1);
+    check("highest velocity", bounds.highest_velocity, 1);
+    check("lowest acceleration", bounds.lowest_acceleration, -1);
+    check("highest acceleration", bounds.highest_acceleration, 1);
+    check("jerk", bounds.jerk, 1);
+    for (const double velocity : {bounds.lowest_velocity, bounds.highest_velocity}) {
+      if (std::abs(velocity) <= joint.limits.velocity) continue;
+      detail::refuse({"motion limits: velocity ", velocity, " of joint '", joint.name.view(),
+                      "' is above the joint's limit ", joint.limits.velocity});
+    }
+  }
+}
+
+}  // namespace articula

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Motions of one joint between any two states, in stretches of constant jerk.
+#pragma once
+
+#include "articula/reference/jerk_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace articula {
+
+/// A motion of one joint in stretches of constant jerk, whose end may move. After its end it goes on
+/// with the acceleration that it ends with.
+class TimedMotion {
+ public:
+  /// Two motions of at most seven stretches, mixed, and six before them.
+  static constexpr std::size_t capacity = 6 + 14;
+
+  TimedMotion() = default;
+  /// @param start  where it begins
+  explicit TimedMotion(const JointMotion& start) noexcept : end_(start) {}
+
+  /// Adds a stretch.
+  /// @param jerk      [rad/s^3 or m/s^3]
+  /// @param duration  [s]; a stretch of no or less duration adds nothing
+  /// Real-time: yes.
+  void append(double jerk, double duration) noexcept {
+    if (!(duration > 0) || size_ == capacity) return;
+    stretches_[size_++] = {duration_, jerk, end_};
+    end_ = advance(end_, jerk, duration);
+    duration_ += duration;
+  }
+
+  /// Sets the end to what is known exactly, so that rounding does not add up.
+  /// Real-time: yes.
+  void end_at(const JointMotion& end) noexcept { end_ = end; }
+
+  /// How long it takes [s]. Real-time: yes.
+  [[nodiscard]] double duration() const noexcept { return duration_; }
+  /// How it ends. Real-time: yes.
+  [[nodiscard]] const JointMotion& end() const noexcept { return end_; }
+  /// The number of its stretches. Real-time: yes.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// When a stretch begins [s]. Real-time: yes.
+  [[nodiscard]] double start_of(std::size_t stretch) const noexcept {
+    return stretch < size_ ? stretches_[stretch].start : duration_;
+  }
+  /// The jerk of a stretch [rad/s^3 or m/s^3]. Real-time: yes.
+  [[nodiscard]] double jerk_of(std::size_t stretch) const noexcept {
+    return stretches_[stretch].jerk;
+  }
+
+  /// The motion at a time from its start [s]; before it: the start.
+  /// Real-time: yes. O(log capacity).
+  [[nodiscard]] JointMotion sample(double time) const noexcept {
+    if (!(time < duration_) || size_ == 0) {
+      return advance(end_, 0, std::max(0.0, time - duration_));
+    }
+    const auto later = [](double t, const Stretch& stretch) { return t < stretch.start; };
+    const auto first = stretches_.begin() + 1;
+    const auto next = std::upper_bound(
+        first, stretches_.begin() + static_cast<std::ptrdiff_t>(size_), time, later);
+    const Stretch& stretch = *(next - 1);
+    return advance(stretch.from, stretch.jerk, std::max(0.0, time - stretch.start));
+  }
+
+  /// All positions up to the end. Real-time: yes. O(capacity).
+  [[nodiscard]] PositionRange positions() const noexcept {
+    PositionRange range{end_.position, end_.position};
+    const auto add = [&](double position) noexcept {
+      range = {std::min(range.lowest, position), std::max(range.highest, position)};
+    };
+    for (std::size_t k = 0; k < size_; ++k) {
+      const auto& [start, j, from] = stretches_[k];
+      add(from.position);
+      // v + a t + j t^2/2 = 0, in the form that does not cancel
+      const double a = from.acceleration, v = from.velocity;
+      const double root = std::sqrt(std::max(0.0, a * a - 2 * j * v));
+      const double sum = -(a + std::copysign(root, a));
+      for (const double t : {sum / j, 2 * v / sum}) {
+        if (t > 0 && t < start_of(k + 1) - start) add(advance(from, j, t).position);
+      }
+    }
+    return range;
+  }
+
+ private:
+  struct Stretch {
+    double start = 0;    ///< [s]
+    double jerk = 0;     ///< [rad/s^3 or m/s^3]
+    JointMotion from{};  ///< at its start
+  };
+
+  [[nodiscard]] static JointMotion advance(const JointMotion& from, double jerk,
+                                           double t) noexcept {
+    const auto& [q, v, a] = from;
+    return {q + t * (v + t * (a / 2 + t * (jerk / 6))), v + t * (a + t * (jerk / 2)), a + t * jerk};
+  }
+
+  std::array<Stretch, capacity> stretches_{};
+  std::size_t size_ = 0;
+  double duration_ = 0;
+  JointMotion end_{};
+};
+
+}  // namespace articula
