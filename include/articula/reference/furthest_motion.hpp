@@ -12,17 +12,32 @@
 
 namespace articula::detail {
 
+/// The jerks of the stretches of a FurthestMotion.
+inline constexpr std::array<double, 7> furthest_jerks{1, 0, -1, 0, -1, 0, 1};
+
 /// A way from one velocity and acceleration to others that leads as far as it can in its time. The
 /// jerk is 1: a rises from a_0 to A, stays there, falls to B, stays there, and rises to a_1; where
-/// the acceleration passes zero on its fall, the joint cruises. Not all of that need take time.
+/// the acceleration passes zero on its fall, the joint cruises. Not all of that need take time. What
+/// is known exactly of a moment does not come from adding up, so that a long motion is exact.
 struct FurthestMotion {
-  double high = 0;    ///< A
-  double low = 0;     ///< B
-  double peak = 0;    ///< P, the velocity at zero acceleration on the fall from A to B
-  double cruise = 0;  ///< time of the cruise
-  std::array<double, 7> durations{};
-  double duration = 0;
-  double distance = 0;
+  /// The beginning of a stretch.
+  struct Moment {
+    double time = 0, position = 0, velocity = 0, acceleration = 0;
+  };
+  std::array<Moment, 8> moments{};  ///< of the seven stretches, and the end
+  double length = 0;                ///< of the way, there and back
+
+  [[nodiscard]] double duration() const noexcept { return moments[7].time; }
+  [[nodiscard]] double distance() const noexcept { return moments[7].position; }
+
+  /// The motion at a time in a stretch.
+  [[nodiscard]] Moment at(std::size_t stretch, double time) const noexcept {
+    if (time == moments[stretch + 1].time) return moments[stretch + 1];
+    const Moment& m = moments[stretch];
+    const double t = time - m.time, j = furthest_jerks[stretch];
+    return {time, m.position + t * (m.velocity + t * (m.acceleration / 2 + t * (j / 6))),
+            m.velocity + t * (m.acceleration + t * (j / 2)), m.acceleration + t * j};
+  }
 };
 
 /// All furthest motions between two states of velocity and acceleration within limits. The unit of
@@ -45,9 +60,8 @@ class FurthestMotions {
   struct Problem {
     double v0 = 0, a0 = 0, v1 = 0, a1 = 0;
     double lowest_acceleration = 0, highest_acceleration = 0, highest_velocity = 0;
-    double distance = 0;            ///< that is wanted
-    double distance_tolerance = 0;  ///< rounding of it
-    double time_tolerance = 0;      ///< up to which a negative duration is rounding
+    double distance = 0;           ///< that is wanted
+    double distance_rounding = 0;  ///< of the positions of which it is the difference
   };
 
   explicit FurthestMotions(const Problem& problem) noexcept
@@ -65,7 +79,8 @@ class FurthestMotions {
     const double V = p_.highest_velocity, D = p_.distance, C = c1_ - c0_;
     FurthestMotion motion;
     const auto offer = [&](bool exists) {
-      if (exists && std::abs(motion.distance - D) <= p_.distance_tolerance) found(motion);
+      const double off = std::abs(motion.distance() - D);
+      if (exists && off <= p_.distance_rounding + rounding * motion.length) found(motion);
     };
     // A and B free: A - B = q, A + B = C/q
     const auto neither_at = [&](double q) { offer(neither(q, motion)); };
@@ -77,7 +92,7 @@ class FurthestMotions {
     }
     neither_at(p_.a0 - p_.a1);
     // One stretch alone: jerk 1 from a_0 to a_1
-    offer(make(p_.a1, p_.a1, c1_ + p_.a1 * p_.a1, 0, motion));
+    offer(make(p_.a1, p_.a1, c1_ + p_.a1 * p_.a1, 0, motion, true));
     // A at its limit
     const auto high_at = [&](double b) { offer(at_highest(b, motion)); };
     const double u = c1_ - A * A / 2, w = c0_ + A * A / 2;
@@ -102,7 +117,7 @@ class FurthestMotions {
     }
     offer(make(A, B, least, 0, motion));
     // with a cruise
-    if (cruising(0, motion) && V != 0) offer(cruising((D - motion.distance) / V, motion));
+    if (cruising(0, motion) && V != 0) offer(cruising((D - motion.distance()) / V, motion));
   }
 
   /// The motion that takes a time.
@@ -114,16 +129,16 @@ class FurthestMotions {
     bool exists = false;
     FurthestMotion motion;
     const auto offer = [&](bool is_one) {
-      const double late = std::abs(motion.duration - duration);
-      if (!is_one || late > 1e3 * p_.time_tolerance) return;
-      if (!exists || motion.distance > best.distance) best = motion;
+      const double late = std::abs(motion.duration() - duration);
+      if (!is_one || late > 1e3 * rounding * duration) return;
+      if (!exists || motion.distance() > best.distance()) best = motion;
       exists = true;
     };
     offer(neither(rest / 2, motion));
     offer(at_highest(A - std::sqrt(std::max(0.0, A * rest - C)), motion));
     offer(at_lowest(B + std::sqrt(std::max(0.0, C - B * rest)), motion));
     offer(make(A, B, (rest - (A - B) + c0_ / A - c1_ / B) / (1 / A - 1 / B), 0, motion));
-    if (cruising(0, motion)) offer(cruising(duration - motion.duration, motion));
+    if (cruising(0, motion)) offer(cruising(duration - motion.duration(), motion));
     return exists;
   }
 
@@ -146,55 +161,55 @@ class FurthestMotions {
                 cruise, motion);
   }
 
+  /// The motion with these figures.
   /// @param is_bent  there is no time at A and B
+  /// @return         whether it exists: no duration is negative, and the limits are kept
   [[nodiscard]] bool make(double A, double B, double P, double cruise, FurthestMotion& motion,
                           bool is_bent = false) const noexcept {
-    const double over_a = P - c0_ - A * A, over_b = P - c1_ - B * B;
-    // What rounding leaves of zero is no time at a level that is next to zero.
-    const auto time_at = [&](double over, double level) {
-      const double rounding =
-          1e-14 * (std::abs(P) + std::abs(c0_) + std::abs(c1_) + level * level);
-      return is_bent || std::abs(over) <= rounding ? 0.0 : over / level;
-    };
+    const double bend = rounding * (std::abs(A) + std::abs(B) + std::abs(p_.a0) + std::abs(p_.a1));
+    const double speed = rounding * (std::abs(P) + std::abs(c0_) + std::abs(c1_) + A * A + B * B);
+    if (A > p_.highest_acceleration + bend || B < p_.lowest_acceleration - bend) return false;
     const bool falls_through = A >= 0 && B <= 0;
-    std::array<double, 7> t{A - p_.a0, time_at(over_a, A), A - B, cruise, 0, time_at(over_b, -B),
-                            p_.a1 - B};
-    if (falls_through) {
-      t[2] = A;
-      t[4] = -B;
-    }
-    const double eps = p_.time_tolerance;
-    for (double& each : t) {
-      if (!(each >= -eps)) return false;
-      each = std::max(0.0, each);
-    }
-    if (A > p_.highest_acceleration + eps || B < p_.lowest_acceleration - eps) return false;
-    const double V = p_.highest_velocity;
-    if (falls_through && P > V + eps * A + 1e-13 * (std::abs(V) + A * A)) return false;
-    motion.high = A;
-    motion.low = B;
-    motion.peak = P;
-    motion.cruise = cruise;
-    motion.durations = t;
-    // from stretch to stretch, as it is driven
-    constexpr std::array<double, 7> jerks{1, 0, -1, 0, -1, 0, 1};
-    double a = p_.a0, v = p_.v0, x = 0;
-    motion.duration = 0;
+    if (falls_through && P > p_.highest_velocity + speed) return false;
+    const double over_high = P - c0_ - A * A, over_low = P - c1_ - B * B;
+    if (is_bent && std::abs(over_high) + std::abs(over_low) > speed) return false;
+    // What rounding leaves of zero is no time at a level that may be next to zero.
+    const auto time_at = [&](double over, double level) {
+      return is_bent || std::abs(over) <= speed / 100 ? 0.0 : over / level;
+    };
+    const double at_high = time_at(over_high, A), at_low = time_at(over_low, -B);
+    if (!(at_high * std::abs(A) >= -speed) || !(at_low * std::abs(B) >= -speed)) return false;
+    const double bottom = P - B * B / 2, middle = falls_through ? 0 : B;
+    const double passing = falls_through ? P : bottom;
+    const std::array<double, 7> durations{
+        A - p_.a0, at_high, A - middle, cruise, middle - B, at_low, p_.a1 - B};
+    motion.moments = {{{0, 0, p_.v0, p_.a0},
+                       {0, 0, c0_ + A * A / 2, A},
+                       {0, 0, P - A * A / 2, A},
+                       {0, 0, passing, middle},
+                       {0, 0, passing, middle},
+                       {0, 0, bottom, B},
+                       {0, 0, c1_ + B * B / 2, B},
+                       {0, 0, p_.v1, p_.a1}}};
+    motion.length = 0;
     for (std::size_t k = 0; k < 7; ++k) {
-      const double d = t[k], j = jerks[k];
-      x += d * (v + d * (a / 2 + d * (j / 6)));
-      v += d * (a + d * (j / 2));
-      a += d * j;
-      motion.duration += d;
+      const bool is_ramp = k % 2 == 0;
+      const double slack = is_ramp ? bend : k == 3 ? rounding * motion.moments[3].time : 0;
+      if (is_ramp || k == 3) {
+        if (!(durations[k] >= -slack)) return false;
+      }
+      const double d = std::max(0.0, durations[k]);
+      auto& [time, position, v, a] = motion.moments[k];
+      const double j = furthest_jerks[k];
+      motion.moments[k + 1].time = time + d;
+      motion.moments[k + 1].position = position + d * (v + d * (a / 2 + d * (j / 6)));
+      motion.length += d * (std::abs(v) + d * (std::abs(a) + (is_ramp ? d : 0)));
     }
-    motion.distance = x;
-    // The way must lead to the velocity that is wanted.
-    return std::abs(v - p_.v1) <= p_.time_tolerance * (std::abs(A) + std::abs(B)) + eps_v();
+    return true;
   }
 
-  [[nodiscard]] double eps_v() const noexcept {
-    return 1e-13 * (std::abs(p_.v0) + std::abs(p_.v1) + p_.a0 * p_.a0 + p_.a1 * p_.a1);
-  }
+  /// What rounding of some sums of products may leave, relative to what is summed up.
+  static constexpr double rounding = 1e-12;
 
   Problem p_;
   double c0_, c1_, K_;

@@ -51,7 +51,7 @@ class StateToStateMotion {
     }
     for (const double side : {1.0, -1.0}) {
       furthest(side).for_each_solution([&](const detail::FurthestMotion& motion) {
-        const double duration = brake_.duration() + motion.duration / J;
+        const double duration = brake_.duration() + motion.duration() / J;
         solutions_.add(duration);
         if (!(duration < least_duration_)) return;
         least_duration_ = duration;
@@ -117,9 +117,6 @@ class StateToStateMotion {
     const double lowest = up ? bounds_.lowest_acceleration : -bounds_.highest_acceleration;
     const double highest = up ? bounds_.highest_acceleration : -bounds_.lowest_acceleration;
     const double velocity = J * (up ? bounds_.highest_velocity : -bounds_.lowest_velocity);
-    // How long the motion is about, for tolerances.
-    const double size = std::max({std::abs(a0), std::abs(a1), std::sqrt(std::abs(v0)),
-                                  std::sqrt(std::abs(v1)), std::cbrt(std::abs(distance))});
     const double positions = J * J * (std::abs(target_.position) + std::abs(from.position));
     // States at a limit may be beyond it by rounding, which widens the limit.
     return detail::FurthestMotions(
@@ -132,9 +129,7 @@ class StateToStateMotion {
          .highest_velocity = std::max({velocity, v0 + std::max(0.0, a0) * a0 / 2,
                                        v1 + std::min(0.0, a1) * a1 / 2}),
          .distance = distance,
-         .distance_tolerance = 1e-12 * size * size * size + 1e-14 * positions +
-                               1e-11 * std::abs(distance),
-         .time_tolerance = 1e-12 * size});
+         .distance_rounding = 1e-14 * positions});
   }
 
   /// The two furthest motions of a duration, and how much of the upper one leads to the target.
@@ -146,8 +141,8 @@ class StateToStateMotion {
       return false;
     }
     const double distance = J * J * (target_.position - brake_.end().position);
-    const double most = up.distance, least = -down.distance;
-    const double rounding = 1e-11 * (std::abs(distance) + std::abs(most) + std::abs(least));
+    const double most = up.distance(), least = -down.distance();
+    const double rounding = 1e-11 * (up.length + down.length);
     if (distance > most + rounding || distance < least - rounding) return false;
     share = most > least ? std::clamp((distance - least) / (most - least), 0.0, 1.0) : 0.5;
     return true;
@@ -156,17 +151,25 @@ class StateToStateMotion {
   /// Appends share * up + (1 - share) * down.
   void append_mixture(TimedMotion& motion, const detail::FurthestMotion& up,
                       const detail::FurthestMotion& down, double share) const noexcept {
-    constexpr std::array<double, 7> jerks{1, 0, -1, 0, -1, 0, 1};
-    const double J = bounds_.jerk, duration = share > 0 ? up.duration : down.duration;
+    const double J = bounds_.jerk, left = 1 - share, start = brake_.end().position;
+    const double duration = share > 0 ? up.duration() : down.duration();
+    const auto state = [&](std::size_t i, std::size_t k, double time) -> JointMotion {
+      const auto u = up.at(i, time), d = down.at(k, time);
+      return {start + (share * u.position - left * d.position) / J / J,
+              (share * u.velocity - left * d.velocity) / J,
+              share * u.acceleration - left * d.acceleration};
+    };
     std::size_t i = 0, k = 0;
-    double up_end = up.durations[0], down_end = down.durations[0], time = 0;
-    while (time < duration) {
-      while (i < 6 && up_end <= time) up_end += up.durations[++i];
-      while (k < 6 && down_end <= time) down_end += down.durations[++k];
+    for (double time = 0; time < duration;) {
+      while (i < 6 && up.moments[i + 1].time <= time) ++i;
+      while (k < 6 && down.moments[k + 1].time <= time) ++k;
       double next = duration;
-      if (share > 0 && up_end > time) next = std::min(next, up_end);
-      if (share < 1 && down_end > time) next = std::min(next, down_end);
-      motion.append(J * (share * jerks[i] - (1 - share) * jerks[k]), (next - time) / J);
+      for (const double end : {up.moments[i + 1].time, down.moments[k + 1].time}) {
+        if (end > time) next = std::min(next, end);
+      }
+      motion.append(J * (share * detail::furthest_jerks[i] - left * detail::furthest_jerks[k]),
+                    (next - time) / J);
+      motion.end_at(state(i, k, next));
       time = next;
     }
   }

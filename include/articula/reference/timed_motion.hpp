@@ -52,7 +52,8 @@ class TimedMotion {
     return stretches_[stretch].jerk;
   }
 
-  /// The motion at a time from its start [s]; before it: the start.
+  /// The motion at a time from its start [s]; before it: the start. Accelerations lie between those
+  /// at the ends of the stretch to the last bit, and velocities where the acceleration has one sign.
   /// Real-time: yes. O(log capacity).
   [[nodiscard]] JointMotion sample(double time) const noexcept {
     if (!(time < duration_) || size_ == 0) {
@@ -63,7 +64,15 @@ class TimedMotion {
     const auto next = std::upper_bound(
         first, stretches_.begin() + static_cast<std::ptrdiff_t>(size_), time, later);
     const Stretch& stretch = *(next - 1);
-    return advance(stretch.from, stretch.jerk, std::max(0.0, time - stretch.start));
+    const JointMotion& from = stretch.from;
+    const auto k = static_cast<std::size_t>(next - stretches_.begin());
+    const JointMotion& to = k < size_ ? stretches_[k].from : end_;
+    JointMotion now = advance(from, stretch.jerk, std::max(0.0, time - stretch.start));
+    now.acceleration = between(from.acceleration, now.acceleration, to.acceleration);
+    if ((from.acceleration < 0) == (to.acceleration < 0)) {
+      now.velocity = between(from.velocity, now.velocity, to.velocity);
+    }
+    return now;
   }
 
   /// All positions up to the end. Real-time: yes. O(capacity).
@@ -97,6 +106,10 @@ class TimedMotion {
                                            double t) noexcept {
     const auto& [q, v, a] = from;
     return {q + t * (v + t * (a / 2 + t * (jerk / 6))), v + t * (a + t * (jerk / 2)), a + t * jerk};
+  }
+
+  [[nodiscard]] static double between(double a, double x, double b) noexcept {
+    return std::fmin(std::fmax(x, std::fmin(a, b)), std::fmax(a, b));
   }
 
   std::array<Stretch, capacity> stretches_{};
