@@ -50,5 +50,6 @@
 #include "articula/reference/reference_generator.hpp"
 #include "articula/reference/set_point.hpp"
 #include "articula/reference/speed_override.hpp"
+#include "articula/reference/state_to_state_profile.hpp"
 #include "articula/reference/trajectory_follower.hpp"
 #include "articula/sim/simulator.hpp"

@@ -40,8 +40,8 @@ namespace articula {
     const double end = std::min(hardest, std::sqrt(2 * J * range));  // deceleration at the limit
     // The deceleration rises to a peak, and falls to the one at the limit if it is above that.
     const double rise = a * a + 2 * J * (v - limit), both = (rise + end * end) / 2;
-    const double peak = rise <= end * end ? std::sqrt(std::max(0.0, rise))
-                                          : std::min(hardest, std::sqrt(both));
+    const double peak =
+        rise <= end * end ? std::sqrt(std::max(0.0, rise)) : std::min(hardest, std::sqrt(both));
     const double last = std::min(peak, end);
     if (-a <= peak) lead_acceleration_to(-side * peak);
     v = side * motion.end().velocity;

@@ -181,8 +181,8 @@ class FurthestMotions {
     if (!(at_high * std::abs(A) >= -speed) || !(at_low * std::abs(B) >= -speed)) return false;
     const double bottom = P - B * B / 2, middle = falls_through ? 0 : B;
     const double passing = falls_through ? P : bottom;
-    const std::array<double, 7> durations{
-        A - p_.a0, at_high, A - middle, cruise, middle - B, at_low, p_.a1 - B};
+    const std::array<double, 7> durations{A - p_.a0,  at_high, A - middle, cruise,
+                                          middle - B, at_low,  p_.a1 - B};
     motion.moments = {{{0, 0, p_.v0, p_.a0},
                        {0, 0, c0_ + A * A / 2, A},
                        {0, 0, P - A * A / 2, A},

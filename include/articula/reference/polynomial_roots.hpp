@@ -50,9 +50,9 @@ template <std::size_t Count>
     const double value = polynomial_value(c, x);
     ((value < 0) == rises ? low : high) = x;
     const double newton = x - value / polynomial_value(slope, x);
-    const double next =
-        newton > low && newton < high && std::abs(newton - x) < before / 2 ? newton
-                                                                          : low + (high - low) / 2;
+    const double next = newton > low && newton < high && std::abs(newton - x) < before / 2
+                            ? newton
+                            : low + (high - low) / 2;
     before = std::abs(next - x);
     if (next == x || value == 0) break;
     x = next;

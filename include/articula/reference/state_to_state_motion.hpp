@@ -98,7 +98,7 @@ class StateToStateMotion {
     } else {
       append_mixture(result, fastest_, fastest_, fastest_side_ > 0 ? 1 : 0);
     }
-    result.end_at(target_);
+    result.end_at(target_, std::max(duration, least_duration_));
     return result;
   }
 
@@ -126,8 +126,8 @@ class StateToStateMotion {
          .a1 = a1,
          .lowest_acceleration = std::min({lowest, a0, a1}),
          .highest_acceleration = std::max({highest, a0, a1}),
-         .highest_velocity = std::max({velocity, v0 + std::max(0.0, a0) * a0 / 2,
-                                       v1 + std::min(0.0, a1) * a1 / 2}),
+         .highest_velocity =
+             std::max({velocity, v0 + std::max(0.0, a0) * a0 / 2, v1 + std::min(0.0, a1) * a1 / 2}),
          .distance = distance,
          .distance_rounding = 1e-14 * positions});
   }
@@ -153,11 +153,14 @@ class StateToStateMotion {
                       const detail::FurthestMotion& down, double share) const noexcept {
     const double J = bounds_.jerk, left = 1 - share, start = brake_.end().position;
     const double duration = share > 0 ? up.duration() : down.duration();
+    const double a0 = brake_.end().acceleration;  // beyond a limit by rounding at most
+    const double lowest = std::min(bounds_.lowest_acceleration, a0);
+    const double highest = std::max(bounds_.highest_acceleration, a0);
     const auto state = [&](std::size_t i, std::size_t k, double time) -> JointMotion {
       const auto u = up.at(i, time), d = down.at(k, time);
       return {start + (share * u.position - left * d.position) / J / J,
               (share * u.velocity - left * d.velocity) / J,
-              share * u.acceleration - left * d.acceleration};
+              std::clamp(share * u.acceleration - left * d.acceleration, lowest, highest)};
     };
     std::size_t i = 0, k = 0;
     for (double time = 0; time < duration;) {

@@ -36,6 +36,11 @@ class TimedMotion {
   /// Sets the end to what is known exactly, so that rounding does not add up.
   /// Real-time: yes.
   void end_at(const JointMotion& end) noexcept { end_ = end; }
+  /// Sets the end and its time [s] likewise. Real-time: yes.
+  void end_at(const JointMotion& end, double duration) noexcept {
+    end_ = end;
+    duration_ = duration;
+  }
 
   /// How long it takes [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
