@@ -10,6 +10,21 @@
 
 namespace articula {
 
+/// Leads an acceleration beyond its limit back to it at full jerk, in no time if it is not beyond.
+/// @param start   where it begins
+/// @param bounds  limits as validate() accepts them
+/// Real-time: yes.
+[[nodiscard]] inline TimedMotion acceleration_led_back(const JointMotion& start,
+                                                       const MotionBounds& bounds) noexcept {
+  TimedMotion motion(start);
+  const double a = std::min(std::max(start.acceleration, bounds.lowest_acceleration),
+                            bounds.highest_acceleration);
+  const double change = a - start.acceleration;
+  motion.append(std::copysign(bounds.jerk, change), std::abs(change) / bounds.jerk);
+  motion.end_at({motion.end().position, motion.end().velocity, a});
+  return motion;
+}
+
 /// Leads a joint back to where all limits can be kept from then on: the acceleration to its limit;
 /// then, if the velocity is beyond its limit or cannot be kept from it, a deceleration until it is
 /// back, with which the joint can keep the opposite limit then. All at full jerk. It takes no time
@@ -19,18 +34,13 @@ namespace articula {
 /// Real-time: yes.
 [[nodiscard]] inline TimedMotion braking_motion(const JointMotion& start,
                                                 const MotionBounds& bounds) noexcept {
-  TimedMotion motion(start);
+  TimedMotion motion = acceleration_led_back(start, bounds);
   const double J = bounds.jerk, range = bounds.highest_velocity - bounds.lowest_velocity;
   const auto lead_acceleration_to = [&](double a) {
     const double change = a - motion.end().acceleration;
     motion.append(std::copysign(J, change), std::abs(change) / J);
     motion.end_at({motion.end().position, motion.end().velocity, a});
   };
-  if (start.acceleration > bounds.highest_acceleration) {
-    lead_acceleration_to(bounds.highest_acceleration);
-  } else if (start.acceleration < bounds.lowest_acceleration) {
-    lead_acceleration_to(bounds.lowest_acceleration);
-  }
   for (const double side : {1.0, -1.0}) {
     const double limit = side > 0 ? bounds.highest_velocity : -bounds.lowest_velocity;
     double v = side * motion.end().velocity, a = side * motion.end().acceleration;

@@ -59,7 +59,8 @@ class FurthestMotions {
   /// Both states, and the limits of velocity and acceleration with which jerk 1 goes.
   struct Problem {
     double v0 = 0, a0 = 0, v1 = 0, a1 = 0;
-    double lowest_acceleration = 0, highest_acceleration = 0, highest_velocity = 0;
+    double lowest_acceleration = 0, highest_acceleration = 0;
+    double lowest_velocity = 0, highest_velocity = 0;
     double distance = 0;           ///< that is wanted
     double distance_rounding = 0;  ///< of the positions of which it is the difference
   };
@@ -171,6 +172,8 @@ class FurthestMotions {
     if (A > p_.highest_acceleration + bend || B < p_.lowest_acceleration - bend) return false;
     const bool falls_through = A >= 0 && B <= 0;
     if (falls_through && P > p_.highest_velocity + speed) return false;
+    const double lowest = p_.lowest_velocity - speed;  // where the acceleration rises through 0
+    if ((p_.a0 < 0 && A > 0 && c0_ < lowest) || (B < 0 && p_.a1 > 0 && c1_ < lowest)) return false;
     const double over_high = P - c0_ - A * A, over_low = P - c1_ - B * B;
     if (is_bent && std::abs(over_high) + std::abs(over_low) > speed) return false;
     // What rounding leaves of zero is no time at a level that may be next to zero.

@@ -26,7 +26,8 @@ namespace articula {
 /// shortest solution of these equations. A slower one is the mixture of the two motions that leads
 /// over D, which keeps all limits because the set is convex.
 ///
-/// A start outside the limits is led back inside first (braking_motion()).
+/// A start outside the limits is led back inside first (braking_motion()). So is one whose velocity
+/// will pass its limit while the acceleration fades, unless the target can be reached before.
 class StateToStateMotion {
  public:
   StateToStateMotion() = default;
@@ -36,7 +37,9 @@ class StateToStateMotion {
   /// Real-time: yes.
   StateToStateMotion(const JointMotion& start, const JointMotion& target,
                      const MotionBounds& bounds) noexcept
-      : target_(target), bounds_(bounds), brake_(braking_motion(start, bounds)) {
+      : target_(target),
+        bounds_(bounds),
+        starts_{acceleration_led_back(start, bounds), braking_motion(start, bounds)} {
     // The end, backwards in time, must have a motion that leads to it.
     const double a = target.acceleration, J = bounds.jerk;
     const double bend = a / 2 / J * std::abs(a);
@@ -49,15 +52,21 @@ class StateToStateMotion {
         !within(low, target.velocity, high) || !within(low, target.velocity - bend, high)) {
       return;
     }
-    for (const double side : {1.0, -1.0}) {
-      furthest(side).for_each_solution([&](const detail::FurthestMotion& motion) {
-        const double duration = brake_.duration() + motion.duration() / J;
-        solutions_.add(duration);
-        if (!(duration < least_duration_)) return;
-        least_duration_ = duration;
-        fastest_ = motion;
-        fastest_side_ = side;
-      });
+    const bool is_fast = !within(low, starts_[0].end().velocity, high);
+    const bool is_viable = starts_[1].size() == starts_[0].size();
+    for (std::size_t way = is_fast ? 1 : 0; way < (is_viable ? 1 : 2); ++way) {
+      const bool is_better = !exists();
+      for (const double side : {1.0, -1.0}) {
+        furthest(side, way).for_each_solution([&](const detail::FurthestMotion& motion) {
+          const double duration = starts_[way].duration() + motion.duration() / J;
+          solutions_.add(duration);
+          if (!is_better || !(duration < least_duration_)) return;
+          least_duration_ = duration;
+          fastest_ = motion;
+          fastest_side_ = side;
+          fastest_way_ = way;
+        });
+      }
     }
   }
 
@@ -73,9 +82,8 @@ class StateToStateMotion {
   /// Real-time: yes.
   [[nodiscard]] bool can_take(double duration) const noexcept {
     if (is_solution(duration)) return true;
-    detail::FurthestMotion up, down;
-    double share = 0;
-    return duration > least_duration_ && mixture(duration, up, down, share);
+    Mixture mixture;
+    return duration > least_duration_ && find(duration, mixture);
   }
 
   /// The end of the gap in which a duration lies [s]; infinity if there is none. Real-time: yes.
@@ -90,35 +98,48 @@ class StateToStateMotion {
   /// The motion of a duration for which can_take() is true, or of the least one.
   /// Real-time: yes.
   [[nodiscard]] TimedMotion motion(double duration) const noexcept {
-    TimedMotion result = brake_;
-    detail::FurthestMotion up, down;
-    double share = 0;
-    if (duration > least_duration_ && mixture(duration, up, down, share)) {
-      append_mixture(result, up, down, share);
-    } else {
-      append_mixture(result, fastest_, fastest_, fastest_side_ > 0 ? 1 : 0);
-    }
+    Mixture mixture{fastest_, fastest_, fastest_side_ > 0 ? 1.0 : 0.0, fastest_way_};
+    if (duration > least_duration_) static_cast<void>(find(duration, mixture));
+    TimedMotion result = starts_[mixture.way];
+    append(result, mixture);
     result.end_at(target_, std::max(duration, least_duration_));
     return result;
   }
 
  private:
+  /// share * up + (1 - share) * down, after one of the two starts.
+  struct Mixture {
+    detail::FurthestMotion up{}, down{};
+    double share = 0;
+    std::size_t way = 0;
+  };
+
   [[nodiscard]] bool is_solution(double duration) const noexcept {
     return std::find(solutions_.begin(), solutions_.end(), duration) != solutions_.end();
   }
 
   /// The problem in the unit of time in which the jerk is 1, seen in one direction.
-  [[nodiscard]] detail::FurthestMotions furthest(double side) const noexcept {
-    const JointMotion& from = brake_.end();
+  [[nodiscard]] detail::FurthestMotions furthest(double side, std::size_t way) const noexcept {
+    const JointMotion& from = starts_[way].end();
     const double J = bounds_.jerk, v0 = side * J * from.velocity, v1 = side * J * target_.velocity;
     const double a0 = side * from.acceleration, a1 = side * target_.acceleration;
     const double distance = side * J * J * (target_.position - from.position);
     const bool up = side > 0;
     const double lowest = up ? bounds_.lowest_acceleration : -bounds_.highest_acceleration;
     const double highest = up ? bounds_.highest_acceleration : -bounds_.lowest_acceleration;
-    const double velocity = J * (up ? bounds_.highest_velocity : -bounds_.lowest_velocity);
-    const double positions = J * J * (std::abs(target_.position) + std::abs(from.position));
+    const double slowest = J * (up ? bounds_.lowest_velocity : -bounds_.highest_velocity);
+    const double fastest = J * (up ? bounds_.highest_velocity : -bounds_.lowest_velocity);
+    // Rounding of the positions, and of a clock after an hour: a picosecond.
+    const double distance_rounding =
+        1e-14 * J * J * (std::abs(target_.position) + std::abs(from.position)) +
+        1e-12 * J * J * (std::abs(from.velocity) + std::abs(target_.velocity));
     // States at a limit may be beyond it by rounding, which widens the limit.
+    const double rounding = 1e-11 * (fastest - slowest);
+    const auto widened = [&](double limit, double side_of_it, double a, double v) {
+      const double reached = std::max(side_of_it * v, side_of_it * v + a * std::abs(a) / 2);
+      const double beyond = reached - side_of_it * limit;
+      return beyond > 0 && beyond <= rounding ? side_of_it * reached : limit;
+    };
     return detail::FurthestMotions(
         {.v0 = v0,
          .a0 = a0,
@@ -126,42 +147,41 @@ class StateToStateMotion {
          .a1 = a1,
          .lowest_acceleration = std::min({lowest, a0, a1}),
          .highest_acceleration = std::max({highest, a0, a1}),
-         .highest_velocity =
-             std::max({velocity, v0 + std::max(0.0, a0) * a0 / 2, v1 + std::min(0.0, a1) * a1 / 2}),
+         .lowest_velocity = std::min(widened(slowest, -1, -a0, v0), widened(slowest, -1, a1, v1)),
+         .highest_velocity = std::max(widened(fastest, 1, a0, v0), widened(fastest, 1, -a1, v1)),
          .distance = distance,
-         .distance_rounding = 1e-14 * positions});
+         .distance_rounding = distance_rounding});
   }
 
   /// The two furthest motions of a duration, and how much of the upper one leads to the target.
   /// @return whether there are such
-  [[nodiscard]] bool mixture(double duration, detail::FurthestMotion& up,
-                             detail::FurthestMotion& down, double& share) const noexcept {
-    const double J = bounds_.jerk, scaled = J * (duration - brake_.duration());
-    if (!furthest(1).of_duration(scaled, up) || !furthest(-1).of_duration(scaled, down)) {
+  [[nodiscard]] bool find(double duration, Mixture& mixture) const noexcept {
+    return mix(duration, 0, mixture) || mix(duration, 1, mixture);
+  }
+  [[nodiscard]] bool mix(double duration, std::size_t way, Mixture& mixture) const noexcept {
+    const double J = bounds_.jerk, scaled = J * (duration - starts_[way].duration());
+    Mixture found{.way = way};
+    if (!furthest(1, way).of_duration(scaled, found.up) ||
+        !furthest(-1, way).of_duration(scaled, found.down)) {
       return false;
     }
-    const double distance = J * J * (target_.position - brake_.end().position);
-    const double most = up.distance(), least = -down.distance();
-    const double rounding = 1e-11 * (up.length + down.length);
+    const double distance = J * J * (target_.position - starts_[way].end().position);
+    const double most = found.up.distance(), least = -found.down.distance();
+    const double rounding = 1e-11 * (found.up.length + found.down.length);
     if (distance > most + rounding || distance < least - rounding) return false;
-    share = most > least ? std::clamp((distance - least) / (most - least), 0.0, 1.0) : 0.5;
+    found.share = most > least ? std::clamp((distance - least) / (most - least), 0.0, 1.0) : 0.5;
+    mixture = found;
     return true;
   }
 
-  /// Appends share * up + (1 - share) * down.
-  void append_mixture(TimedMotion& motion, const detail::FurthestMotion& up,
-                      const detail::FurthestMotion& down, double share) const noexcept {
-    const double J = bounds_.jerk, left = 1 - share, start = brake_.end().position;
+  /// Appends a mixture to its start.
+  void append(TimedMotion& motion, const Mixture& mixture) const noexcept {
+    const auto& [up, down, share, way] = mixture;
+    const double J = bounds_.jerk, left = 1 - share, start = starts_[way].end().position;
     const double duration = share > 0 ? up.duration() : down.duration();
-    const double a0 = brake_.end().acceleration;  // beyond a limit by rounding at most
+    const double a0 = starts_[way].end().acceleration;  // beyond a limit by rounding at most
     const double lowest = std::min(bounds_.lowest_acceleration, a0);
     const double highest = std::max(bounds_.highest_acceleration, a0);
-    const auto state = [&](std::size_t i, std::size_t k, double time) -> JointMotion {
-      const auto u = up.at(i, time), d = down.at(k, time);
-      return {start + (share * u.position - left * d.position) / J / J,
-              (share * u.velocity - left * d.velocity) / J,
-              std::clamp(share * u.acceleration - left * d.acceleration, lowest, highest)};
-    };
     std::size_t i = 0, k = 0;
     for (double time = 0; time < duration;) {
       while (i < 6 && up.moments[i + 1].time <= time) ++i;
@@ -172,18 +192,22 @@ class StateToStateMotion {
       }
       motion.append(J * (share * detail::furthest_jerks[i] - left * detail::furthest_jerks[k]),
                     (next - time) / J);
-      motion.end_at(state(i, k, next));
+      const auto u = up.at(i, next), d = down.at(k, next);
+      const double a = share * u.acceleration - left * d.acceleration;
+      motion.end_at({start + (share * u.position - left * d.position) / J / J,
+                     (share * u.velocity - left * d.velocity) / J, std::clamp(a, lowest, highest)});
       time = next;
     }
   }
 
   JointMotion target_{};
   MotionBounds bounds_{};
-  TimedMotion brake_{};
-  RootList<96> solutions_{};
+  std::array<TimedMotion, 2> starts_{};  ///< the second one keeps the velocity from its limit, too
+  RootList<128> solutions_{};
   double least_duration_ = std::numeric_limits<double>::infinity();
   detail::FurthestMotion fastest_{};
   double fastest_side_ = 1;
+  std::size_t fastest_way_ = 0;
 };
 
 }  // namespace articula
