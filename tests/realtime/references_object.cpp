@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/reference/joint_signals.hpp>
+#include <articula/reference/state_to_state_profile.hpp>
 #include <articula/reference/trajectory_follower.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -11,6 +12,12 @@ JointReference<2> sample(const JointSignals<Q2d>& signals, double time) noexcept
 
 JointReference<2> sample(const JerkLimitedProfile<Q2d>& profile, double time) noexcept {
   return profile.sample(time);
+}
+
+JointReference<2> plan(const JointReference<2>& from, const JointReference<2>& to,
+                       const DirectedLimits<2>& limits, double time) noexcept {
+  const auto profile = StateToStateProfile<Q2d>::plan(from, to, limits, 1.0);
+  return profile ? profile->sample(time) : from;
 }
 
 JointReference<2> cycle(TrajectoryFollower<Q2d>& follower, const JointState<2>& state,

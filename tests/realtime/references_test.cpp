@@ -3,6 +3,7 @@
 #include <articula/loop/loop.hpp>
 #include <articula/reference/joint_signals.hpp>
 #include <articula/reference/set_point.hpp>
+#include <articula/reference/state_to_state_profile.hpp>
 #include <articula/reference/trajectory_follower.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -45,6 +46,21 @@ TEST_CASE("sampling does not touch the heap") {
           }
         }) == 0);
   CHECK(sum != 0);
+}
+
+TEST_CASE("planning a motion from the present one does not touch the heap") {
+  const auto directed = both_ways(limits);
+  JointReference<2> from;
+  double sum = 0;
+  CHECK(heap_calls_in([&] {
+          for (int k = 0; k < 100; ++k) {
+            const JointReference<2> to{{0.01 * k, -0.01 * k}, {0.1, 0.2}};
+            const auto profile = StateToStateProfile<Q2d>::plan(from, to, directed, 0.1);
+            from = profile->sample(0.05);
+            sum += profile->duration();
+          }
+        }) == 0);
+  CHECK(sum > 10);
 }
 
 TEST_CASE("following, replacing, canceling and aborting do not touch the heap") {

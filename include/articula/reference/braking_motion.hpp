@@ -59,7 +59,9 @@ namespace articula {
     const double over = v - limit - (a * a - last * last) / 2 / J;
     if (a < 0 && over > 0) motion.append(0, over / -a);
     if (-a > last) lead_acceleration_to(-side * last);
-    if (over >= 0) {
+    const double rounding =
+        1e-12 * (range + std::abs(v) + start.acceleration / J * start.acceleration);
+    if (over >= -rounding) {
       motion.end_at({motion.end().position, side * limit, motion.end().acceleration});
     }
   }
