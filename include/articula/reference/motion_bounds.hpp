@@ -51,7 +51,7 @@ template <int N>
 /// @throws std::invalid_argument naming limit, joint and value
 /// Real-time: no (throws).
 template <Robot R>
-void validate(const DirectedLimits<joint_count<R>>& limits, const R& robot) {
+void validate(const R& robot, const DirectedLimits<joint_count<R>>& limits) {
   for (int j = 0; j < joint_count<R>; ++j) {
     const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
     const auto check = [&](std::string_view what, double value, double side) {

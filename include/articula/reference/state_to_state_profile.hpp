@@ -66,10 +66,10 @@ class StateToStateProfile {
   /// @throws std::invalid_argument if a limit is out of range, a figure is not finite, `to` is
   ///         beyond a limit or cannot be arrived at within them, the minimum is negative, or a
   ///         joint passes its limits of position on the way; the message names joint, value, limit
-  StateToStateProfile(const Reference& from, const Reference& to, const Limits& limits,
-                      double minimum = 0, const R& robot = described<R>()) {
-    validate(limits, robot);
-    detail::check_positions("profile", to.position, robot);
+  StateToStateProfile(const R& robot, const Reference& from, const Reference& to,
+                      const Limits& limits, double minimum = 0) {
+    validate(robot, limits);
+    detail::check_positions(robot, "profile", to.position);
     if (!is_finite(minimum) || minimum < 0) {
       detail::refuse({"profile: minimum duration ", minimum, " s is not a number >= 0"});
     }
@@ -98,6 +98,10 @@ class StateToStateProfile {
     }
     if (!found) detail::refuse({"profile: no duration suits all joints"});
   }
+  /// For a robot known at compile time.
+  StateToStateProfile(const Reference& from, const Reference& to, const Limits& limits,
+                      double minimum = 0) requires DescribedRobot<R>
+      : StateToStateProfile(R(), from, to, limits, minimum) {}
 
   /// The same for the control loop: the limits are known to be good, and positions on the way are
   /// not compared with the joints' limits.
