@@ -43,6 +43,13 @@ consteval void check_masses() {
   }
 }
 
+/// True for algorithms about one link, named at compile time. They take the robot's model and the
+/// joint positions: `evaluate<frames, S>(model, q)`.
+template <class Algorithm>
+concept OfALink = requires {
+  Algorithm::link;
+};
+
 /// The mechanism of a robot on which an algorithm is run. Real-time: yes.
 template <class Algorithm, Robot R>
 [[nodiscard]] constexpr const auto& mechanism_for(const R& robot) noexcept {
@@ -68,7 +75,7 @@ consteval std::size_t input_arrays() {
     };
   }
   (std::make_index_sequence<Arrays>{});
-  if constexpr (fits) {
+  if constexpr (fits || OfALink<Algorithm>) {
     return Arrays;
   } else {
     static_assert(Arrays < 8, "articula: this is not an algorithm of a configuration and arrays");
@@ -84,16 +91,20 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
   using symbolic::Symbol;
   constexpr int n = ModelOf<R>::joint_count, b = ModelOf<R>::body_count;
   constexpr std::size_t arrays = input_arrays<Algorithm, Symbol, n, b>();
-  const auto& mechanism = mechanism_for<Algorithm>(R{});
 
   symbolic::Graph graph;
   std::array<JointArray<Symbol, n>, 1 + arrays> inputs;
   int next = 0;
   symbolic::for_each_scalar<Symbol>(
       inputs, [&](Symbol& symbol) { symbol = Symbol(graph, graph.input(next++)); });
-  const auto configuration = configuration_of<Symbol, n, b, frames>(mechanism, inputs[0]);
   auto result = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    return Algorithm::template evaluate<Symbol, n, b>(mechanism, configuration, inputs[1 + I]...);
+    if constexpr (OfALink<Algorithm>) {
+      return Algorithm::template evaluate<frames, Symbol>(model_of(R{}), inputs[0]);
+    } else {
+      const auto& mechanism = mechanism_for<Algorithm>(R{});
+      const auto configuration = configuration_of<Symbol, n, b, frames>(mechanism, inputs[0]);
+      return Algorithm::template evaluate<Symbol, n, b>(mechanism, configuration, inputs[1 + I]...);
+    }
   }
   (std::make_index_sequence<arrays>{});
 
@@ -135,11 +146,14 @@ inline constexpr int gain_of_resting =
 /// longer than all the rest. The gravity efforts are tried, for all algorithms: their program is
 /// short and consists of what the frames make cheaper or dearer, the way of vectors to the leaves
 /// and back. Only where they make no difference, as where axes are vertical or nothing falls, the
-/// algorithm itself is tried.
+/// algorithm itself is tried. So are algorithms of a link: what gravity costs says nothing about
+/// them.
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval Frames frames_for() {
   if constexpr (needs_own_frames<Algorithm>) {
     return Frames::moving;
+  } else if constexpr (OfALink<Algorithm>) {
+    return gain_of_resting<Algorithm, R> > 0 ? Frames::resting : Frames::moving;
   } else if constexpr (gain_of_resting<Gravity, R> != 0) {
     return gain_of_resting<Gravity, R> > 0 ? Frames::resting : Frames::moving;
   } else {
@@ -190,10 +204,18 @@ template <class S, int N, class Input>
 using ArrayOf = JointArray<S, N>;
 
 /// What an algorithm returns for the scalar S.
-template <class Algorithm, class S, int N, int B, class... Inputs>
-using ResultOf = decltype(Algorithm::template evaluate<S, N, B>(
-    std::declval<Mechanism<N, B>>(), std::declval<Configuration<S, B>>(),
-    std::declval<ArrayOf<S, N, Inputs>>()...));
+template <class Algorithm, DescribedRobot R, class S, class... Inputs>
+struct Result {
+  static constexpr int n = ModelOf<R>::joint_count, b = ModelOf<R>::body_count;
+  using Type = decltype(Algorithm::template evaluate<S, n, b>(
+      std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(),
+      std::declval<ArrayOf<S, n, Inputs>>()...));
+};
+template <OfALink Algorithm, DescribedRobot R, class S>
+struct Result<Algorithm, R, S> {
+  using Type = decltype(Algorithm::template evaluate<Frames::moving, S>(
+      model_of(R{}), std::declval<JointArray<S, ModelOf<R>::joint_count>>()));
+};
 
 }  // namespace detail
 
@@ -213,7 +235,7 @@ template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>...
 [[nodiscard, gnu::always_inline]] inline auto run(const Input& q,
                                                   const Inputs&... inputs) noexcept {
   using S = std::remove_cvref_t<decltype(q[0])>;
-  constexpr int n = detail::ModelOf<R>::joint_count, b = detail::ModelOf<R>::body_count;
+  constexpr int n = detail::ModelOf<R>::joint_count;
   if constexpr (requires { std::tuple_size<Input>::value; }) {
     static_assert(std::tuple_size_v<Input> == n, "articula: there are as many numbers as joints");
   }
@@ -221,7 +243,7 @@ template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>...
       {&q, &inputs...}};
   const auto output = symbolic::run_program<program<Algorithm, R>>(input);
 
-  detail::ResultOf<Algorithm, S, n, b, Inputs...> result;
+  typename detail::Result<Algorithm, R, S, Inputs...>::Type result;
   std::size_t next = 0;
   symbolic::for_each_scalar<S>(
       result, [&](S & value) __attribute__((always_inline)) { value = output[next++]; });

@@ -62,6 +62,15 @@ struct AxialTurn {
   }
 };
 
+/// A turn about z and another one after it, as a matrix: R Rz.
+template <class S>
+[[nodiscard]] constexpr Matrix3<S> turned(const Matrix3<S>& rotation,
+                                          const AxialTurn<S>& turn) noexcept {
+  const Vector3<S> x = rotation.column(0), y = rotation.column(1);
+  const S &s = turn.sine, &c = turn.cosine;
+  return Matrix3<S>{{{c * x + s * y, c * y - s * x, rotation.column(2)}}}.transposed();
+}
+
 /// Where one body stands relative to its parent, and how its mass lies in its frame. For scalars
 /// that know zeros, turning by the joint and turning by the body's fixed placement are kept apart:
 /// a turn about z costs four multiplications, and a fixed one often none. For numbers they are one
@@ -80,7 +89,7 @@ struct JointPlacement {
     if constexpr (turns_are_apart) {
       turn = joint;
     } else {
-      rotation = turned(joint);
+      rotation = turned(rotation, joint);
     }
   }
   /// Parent's components of a vector given in this body's: R Rz(q) x.
@@ -113,15 +122,8 @@ struct JointPlacement {
   }
   /// The whole turn as a matrix, R Rz(q).
   [[nodiscard]] constexpr Matrix3<S> matrix() const noexcept {
-    if constexpr (turns_are_apart) return turned(turn);
+    if constexpr (turns_are_apart) return turned(rotation, turn);
     return rotation;
-  }
-
- private:
-  [[nodiscard]] constexpr Matrix3<S> turned(const AxialTurn<S>& joint) const noexcept {
-    const Vector3<S> x = rotation.column(0), y = rotation.column(1);
-    const S &s = joint.sine, &c = joint.cosine;
-    return Matrix3<S>{{{c * x + s * y, c * y - s * x, rotation.column(2)}}}.transposed();
   }
 };
 

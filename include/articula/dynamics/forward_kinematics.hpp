@@ -4,6 +4,7 @@
 
 #include "articula/dynamics/body_placements.hpp"
 #include "articula/dynamics/evaluate.hpp"
+#include "articula/dynamics/link_chain.hpp"
 
 #include <Eigen/Geometry>
 
@@ -16,18 +17,65 @@ struct LinkIndex {
   std::size_t value = 0;
 };
 
+namespace detail {
+
+template <class AnyModel>
+[[nodiscard]] constexpr std::size_t index_of_link(const AnyModel& model, std::string_view name) {
+  for (std::size_t i = 0; i < model.links.size(); ++i) {
+    if (model.links[i].name.view() == name) return i;
+  }
+  no_such_link(model, name);
+}
+
+}  // namespace detail
+
 /// Finds a link by name, fixed ones included. As a constant it is checked by the compiler:
 /// `constexpr auto tool = link_index(Q2d{}, "tool_link");`.
 /// @throws std::invalid_argument if the robot has no such link; the message lists its links
 /// Real-time: no (throws).
 template <Robot R>
 [[nodiscard]] constexpr LinkIndex link_index(const R& robot, std::string_view name) {
-  const auto& links = model_of(robot).links;
-  for (std::size_t i = 0; i < links.size(); ++i) {
-    if (links[i].name.view() == name) return {i};
-  }
-  detail::no_such_link(model_of(robot), name);
+  return {detail::index_of_link(model_of(robot), name)};
 }
+
+namespace detail {
+
+/// A link's frame in the base frame: the steps on its way, and its rotation.
+template <class S, int B>
+[[nodiscard]] constexpr Placement<S> placement_at_end(const BodiesBefore<B>& way,
+                                                      LinkChain<S, B>& chain) noexcept {
+  Vector3<S> translation = chain.last_step;
+  for (std::size_t k = way.count; k-- > 0;) translation = chain.steps[k] + translation;
+  return {chain.rotation, translation};
+}
+
+[[nodiscard]] inline Eigen::Isometry3d to_isometry(const Placement<double>& placement) noexcept {
+  const auto to_eigen = [](const Vector3<double>& a) { return Eigen::Vector3d(a.x, a.y, a.z); };
+  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
+  for (int k = 0; k < 3; ++k) isometry.linear().col(k) = to_eigen(placement.rotation.column(k));
+  isometry.translation() = to_eigen(placement.translation);
+  return isometry;
+}
+
+}  // namespace detail
+
+/// The algorithm behind forward kinematics of a link named at compile time: where its frame stands
+/// in the base frame, along the joints that move it.
+/// @tparam Link  the name, as in `PlacementOf<"tool0">`
+template <Name Link>
+struct PlacementOf {
+  static constexpr Name link = Link;
+
+  template <Frames frames, class S, class AnyModel>
+  [[nodiscard]] static constexpr Placement<S> evaluate(
+      const AnyModel& model, const JointArray<S, AnyModel::joint_count>& q) {
+    constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
+    const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
+    const detail::BodiesBefore<b> way(model.mechanism, frame);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, way, frame, q);
+    return detail::placement_at_end(way, chain);
+  }
+};
 
 /// Where a link's frame stands in the frame of the robot's root link: X_0L(q).
 /// @param robot  a described robot or a model
@@ -39,17 +87,27 @@ template <Robot R>
 [[nodiscard]] Eigen::Isometry3d forward_kinematics(const R& robot,
                                                    const JointVector<joint_count<R>>& q,
                                                    LinkIndex link) noexcept {
-  const LinkFrame& frame = model_of(robot).links[link.value];
-  Placement<double> placement = frame.placement;
-  if (frame.body >= 0) {
-    const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
-    placement = bodies[static_cast<std::size_t>(frame.body)] * placement;
+  const auto& model = model_of(robot);
+  const LinkFrame& frame = model.links[link.value];
+  if constexpr (DescribedRobot<R>) {
+    if (detail::takes_program<R>(frame)) {
+      const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
+      return detail::to_isometry(bodies[static_cast<std::size_t>(frame.body)] * frame.placement);
+    }
   }
-  const auto to_eigen = [](const Vector3<double>& a) { return Eigen::Vector3d(a.x, a.y, a.z); };
-  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
-  for (int k = 0; k < 3; ++k) isometry.linear().col(k) = to_eigen(placement.rotation.column(k));
-  isometry.translation() = to_eigen(placement.translation);
-  return isometry;
+  const detail::BodiesBefore way(model.mechanism, frame);
+  auto chain = detail::link_chain<Frames::moving>(model.mechanism, way, frame, detail::to_array(q));
+  return detail::to_isometry(detail::placement_at_end(way, chain));
+}
+
+/// The same for a link named at compile time, `forward_kinematics<"tool0">(Ur10(), q)`: as fast as
+/// it can be, since the joints that move the link are known. A name that the robot does not have
+/// does not compile.
+/// Real-time: yes. operations<PlacementOf<"tool0">, Ur10>() says how much it takes.
+template <Name Link, DescribedRobot R>
+[[nodiscard]] Eigen::Isometry3d forward_kinematics(const R&,
+                                                   const JointVector<joint_count<R>>& q) noexcept {
+  return detail::to_isometry(compiled::run<PlacementOf<Link>, R>(q.data()));
 }
 
 /// The same for a link given by name.

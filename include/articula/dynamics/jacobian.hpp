@@ -16,39 +16,78 @@ using LinkJacobian = Eigen::Matrix<double, 6, N>;
 
 namespace detail {
 
-/// The rows of a link's Jacobian. A body on the way from the base to the link that turns about the
-/// axis z through its origin o moves the link's origin p by z x (p - o) and turns it by z; one that
-/// slides moves it by z. Source: [Siciliano et al. 2009, section 3.1.3].
+/// Adds what a body's motion does to a point of a link: the body's part in the column of its joint.
+/// A body that turns about the axis z moves a point at r from a point of the axis by z x r and
+/// turns it by z; one that slides moves it by z. Source: [Siciliano et al. 2009, section 3.1.3].
+/// @param jacobian  6 x N, column by column
 template <class S, int N, int B>
-[[nodiscard]] constexpr std::array<JointArray<S, N>, 6> jacobian_rows(
-    const Mechanism<N, B>& mechanism, const JointArray<Placement<S>, B>& bodies,
-    const LinkFrame& link) noexcept {
-  std::array<JointArray<S, B>, 6> of_bodies;
-  for (auto& row : of_bodies) row.fill(S(0.0));
-  Vector3<S> point{};
-  if (link.body >= 0) {
-    const Placement<S>& carrier = bodies[static_cast<std::size_t>(link.body)];
-    point = carrier.rotation * constant<S>(link.placement.translation) + carrier.translation;
+[[gnu::always_inline]] constexpr void add_column(const Mechanism<N, B>& mechanism, std::size_t body,
+                                                 const Vector3<S>& z, const Vector3<S>& r,
+                                                 S* jacobian) noexcept {
+  const bool slides = mechanism.bodies[body].prismatic;
+  const Vector3<S> linear = slides ? z : cross(z, r);
+  const Vector3<S> angular = slides ? Vector3<S>{} : z;
+  const S rates[] = {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
+  for (std::size_t k = 0; k < 6; ++k) {
+    if constexpr (N == B) {
+      jacobian[6 * body + k] = rates[k];
+    } else {
+      const Coupling& coupling = mechanism.couplings[body];
+      S& felt = jacobian[6 * static_cast<std::size_t>(coupling.joint) + k];
+      felt = felt + S(coupling.multiplier) * rates[k];
+    }
   }
+}
+
+/// A link's Jacobian by the steps on its way.
+/// @param[in,out] jacobian  6 x N, column by column, filled with zeros
+template <class S, int N, int B>
+constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, const BodiesBefore<B>& way,
+                             LinkChain<S, B>& chain, S* jacobian) noexcept {
+  Vector3<S> lever = chain.last_step;
+  for (std::size_t k = way.count; k-- > 0;) {
+    add_column<S, N, B>(mechanism, way.index[k], chain.axes[k], lever, jacobian);
+    lever = chain.steps[k] + lever;
+  }
+}
+
+/// The same by where the bodies stand.
+template <int N, int B>
+void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkFrame& link,
+                   const JointArray<Placement<double>, B>& bodies, double* jacobian) noexcept {
+  const Placement<double>& carrier = bodies[static_cast<std::size_t>(link.body)];
+  const Vector3<double> point = carrier.rotation * link.placement.translation + carrier.translation;
   for (int body = link.body; body >= 0;) {
     const auto i = static_cast<std::size_t>(body);
-    const Vector3<S> z = bodies[i].rotation.column(2);
-    const bool slides = mechanism.bodies[i].prismatic;
-    const Vector3<S> linear = slides ? z : cross(z, point - bodies[i].translation);
-    const Vector3<S> angular = slides ? Vector3<S>{} : z;
-    of_bodies[0][i] = linear.x, of_bodies[1][i] = linear.y, of_bodies[2][i] = linear.z;
-    of_bodies[3][i] = angular.x, of_bodies[4][i] = angular.y, of_bodies[5][i] = angular.z;
+    add_column<double, N, B>(mechanism, i, bodies[i].rotation.column(2),
+                             point - bodies[i].translation, jacobian);
     body = mechanism.bodies[i].parent;
   }
-  std::array<JointArray<S, N>, 6> rows;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    // Joints and bodies are coupled in a row as they are in efforts: J G and (G^T J^T)^T.
-    rows[k] = joint_efforts<S, N, B>(mechanism, of_bodies[k]);
-  }
-  return rows;
 }
 
 }  // namespace detail
+
+/// The algorithm behind the Jacobian of a link named at compile time, along the joints that move
+/// it.
+/// @tparam Link  the name, as in `JacobianOf<"tool0">`
+template <Name Link>
+struct JacobianOf {
+  static constexpr Name link = Link;
+
+  /// @return 6 x N, column by column
+  template <Frames frames, class S, class AnyModel>
+  [[nodiscard]] static constexpr auto evaluate(
+      const AnyModel& model, const JointArray<S, AnyModel::joint_count>& q) {
+    constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
+    const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
+    const detail::BodiesBefore<b> way(model.mechanism, frame);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, way, frame, q);
+    std::array<S, std::size_t{6} * n> jacobian;
+    jacobian.fill(S(0.0));
+    detail::fill_jacobian<S, n, b>(model.mechanism, way, chain, jacobian.data());
+    return jacobian;
+  }
+};
 
 /// The geometric Jacobian of a link: J(q) v are the velocity of the origin of the link's frame
 /// (rows 0 to 2) and the angular velocity of the link (rows 3 to 5), both in the frame of the
@@ -66,12 +105,32 @@ template <Robot R>
                                                     const JointVector<joint_count<R>>& q,
                                                     LinkIndex link) noexcept {
   const auto& model = model_of(robot);
-  const auto rows = detail::jacobian_rows(
-      model.mechanism, detail::evaluate<BodyPlacements>(robot, q), model.links[link.value]);
-  LinkJacobian<joint_count<R>> jacobian;
-  for (int k = 0; k < 6; ++k) {
-    jacobian.row(k) = detail::to_vector(rows[static_cast<std::size_t>(k)]).transpose();
+  const LinkFrame& frame = model.links[link.value];
+  LinkJacobian<joint_count<R>> jacobian = LinkJacobian<joint_count<R>>::Zero();
+  if constexpr (DescribedRobot<R>) {
+    if (detail::takes_program<R>(frame)) {
+      detail::fill_jacobian(model.mechanism, frame, detail::evaluate<BodyPlacements>(robot, q),
+                            jacobian.data());
+      return jacobian;
+    }
   }
+  const detail::BodiesBefore way(model.mechanism, frame);
+  auto chain = detail::link_chain<Frames::moving>(model.mechanism, way, frame, detail::to_array(q));
+  detail::fill_jacobian(model.mechanism, way, chain, jacobian.data());
+  return jacobian;
+}
+
+/// The same for a link named at compile time, `jacobian<"tool0">(Ur10(), q)`: as fast as it can be,
+/// since the joints that move the link are known. A name that the robot does not have does not
+/// compile.
+/// Real-time: yes. operations<JacobianOf<"tool0">, Ur10>() says how much it takes.
+template <Name Link, DescribedRobot R>
+[[nodiscard]] LinkJacobian<joint_count<R>> jacobian(const R&,
+                                                    const JointVector<joint_count<R>>& q) noexcept {
+  const auto columns = compiled::run<JacobianOf<Link>, R>(q.data());
+  LinkJacobian<joint_count<R>> jacobian;
+  symbolic::detail::for_each_index<columns.size()>([&](std::size_t i) __attribute__((
+      always_inline)) { jacobian.data()[i] = columns[i]; });
   return jacobian;
 }
 
