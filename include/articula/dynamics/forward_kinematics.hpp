@@ -89,11 +89,9 @@ template <Robot R>
                                                    LinkIndex link) noexcept {
   const auto& model = model_of(robot);
   const LinkFrame& frame = model.links[link.value];
-  if constexpr (DescribedRobot<R>) {
-    if (detail::takes_program<R>(frame)) {
-      const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
-      return detail::to_isometry(bodies[static_cast<std::size_t>(frame.body)] * frame.placement);
-    }
+  if (detail::takes_all_bodies<R>(frame)) {
+    const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
+    return detail::to_isometry(bodies[static_cast<std::size_t>(frame.body)] * frame.placement);
   }
   const detail::BodiesBefore way(model.mechanism, frame);
   auto chain = detail::link_chain<Frames::moving>(model.mechanism, way, frame, detail::to_array(q));

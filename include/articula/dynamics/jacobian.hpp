@@ -107,12 +107,10 @@ template <Robot R>
   const auto& model = model_of(robot);
   const LinkFrame& frame = model.links[link.value];
   LinkJacobian<joint_count<R>> jacobian = LinkJacobian<joint_count<R>>::Zero();
-  if constexpr (DescribedRobot<R>) {
-    if (detail::takes_program<R>(frame)) {
-      detail::fill_jacobian(model.mechanism, frame, detail::evaluate<BodyPlacements>(robot, q),
-                            jacobian.data());
-      return jacobian;
-    }
+  if (detail::takes_all_bodies<R>(frame)) {
+    detail::fill_jacobian(model.mechanism, frame, detail::evaluate<BodyPlacements>(robot, q),
+                          jacobian.data());
+    return jacobian;
   }
   const detail::BodiesBefore way(model.mechanism, frame);
   auto chain = detail::link_chain<Frames::moving>(model.mechanism, way, frame, detail::to_array(q));

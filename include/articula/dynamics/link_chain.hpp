@@ -13,6 +13,7 @@
 #include <concepts>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace articula::detail {
 
@@ -74,7 +75,7 @@ template <Frames frames, class S, int N, int B>
     }
   }
   S angle(0.0);
-  for (std::size_t k = 0; k < way.count; ++k) {
+  for (std::size_t k = 0; k < std::size_t{B} && k < way.count; ++k) {
     const Body& body = mechanism.bodies[way.index[k]];
     const bool goes_on = frames == Frames::resting && is_parallel_to_parent(body);
     angle = !goes_on ? S(0.0) : body.placement.rotation.rows[2].z > 0 ? angle : -angle;
@@ -84,7 +85,8 @@ template <Frames frames, class S, int N, int B>
   return turns;
 }
 
-/// Walks from the base to a link.
+/// Walks from the base to a link. (Loops say twice where they end: compilers unroll those of small
+/// robots.)
 /// @tparam frames    resting ones add the angles of parallel axes that follow each other
 /// @param mechanism  the robot's bodies, to which link frames refer
 /// @param way        those that move the link
@@ -101,7 +103,7 @@ template <Frames frames, class S, int N, int B>
   Matrix3<S> rotation = constant<S>(Matrix3<double>::identity());
   AxialTurn<S> turn{S(0.0), S(1.0)};  // of the body before in the frame that `rotation` belongs to
   bool turns_before = false;
-  for (std::size_t k = 0; k < way.count; ++k) {
+  for (std::size_t k = 0; k < std::size_t{B} && k < way.count; ++k) {
     const Body& body = mechanism.bodies[way.index[k]];
     const Vector3<S> place = constant<S>(body.placement.translation);
     const bool goes_on = frames == Frames::resting && is_parallel_to_parent(body);
@@ -143,13 +145,15 @@ inline constexpr auto program_is_cheaper = [] {
   return cheaper;
 }();
 
-/// Whether a link named at run time is better placed by the program of all bodies.
+/// Whether a link named at run time is placed sooner by placing all bodies: by a program that knows
+/// zeros, or because there are so few that finding the way takes longer.
 template <Robot R>
-[[nodiscard]] constexpr bool takes_program([[maybe_unused]] const LinkFrame& link) noexcept {
+[[nodiscard]] constexpr bool takes_all_bodies(const LinkFrame& link) noexcept {
+  constexpr int b = std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::body_count;
   if constexpr (DescribedRobot<R>) {
     return link.body >= 0 && program_is_cheaper<R>[static_cast<std::size_t>(link.body)];
   }
-  return false;
+  return link.body >= 0 && b <= 3;
 }
 
 }  // namespace articula::detail
