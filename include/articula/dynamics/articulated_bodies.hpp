@@ -21,7 +21,8 @@ struct ArticulatedInertia {
 };
 
 template <class S>
-[[nodiscard]] constexpr ArticulatedInertia<S> articulated(const MassMoments<S>& body) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr ArticulatedInertia<S> articulated(
+    const MassMoments<S>& body) noexcept {
   const auto& [m, h, j] = body;
   const S zero(0.0);
   return {{j.yy + j.zz, -j.xy, -j.xz, j.xx + j.zz, -j.yz, j.xx + j.yy},
@@ -32,30 +33,30 @@ template <class S>
 /// A - x y^T.
 /// @pre x and y are parallel, so that the result is symmetric
 template <class S>
-[[nodiscard]] constexpr Symmetric3<S> minus_product(const Symmetric3<S>& a, const Vector3<S>& x,
-                                                    const Vector3<S>& y) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr Symmetric3<S> minus_product(
+    const Symmetric3<S>& a, const Vector3<S>& x, const Vector3<S>& y) noexcept {
   return {a.xx - x.x * y.x, a.xy - x.x * y.y, a.xz - x.x * y.z,
           a.yy - x.y * y.y, a.yz - x.y * y.z, a.zz - x.z * y.z};
 }
 
-/// The columns of [t]x A, t x each column of A.
+/// [t]x A, by rows.
 template <class S>
-[[nodiscard]] constexpr Matrix3<S> cross_columns(const Vector3<S>& t,
-                                                 const Matrix3<S>& a) noexcept {
-  return Matrix3<S>{{{cross(t, a.column(0)), cross(t, a.column(1)), cross(t, a.column(2))}}}
-      .transposed();
+[[nodiscard, gnu::always_inline]] constexpr Matrix3<S> cross_matrix(const Vector3<S>& t,
+                                                                    const Matrix3<S>& a) noexcept {
+  const auto& [x, y, z] = a.rows;
+  return {{{t.y * z - t.z * y, t.z * x - t.x * z, t.x * y - t.y * x}}};
 }
 
 template <class S>
-[[nodiscard]] constexpr Matrix3<S> full(const Symmetric3<S>& a) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr Matrix3<S> full(const Symmetric3<S>& a) noexcept {
   return {{{{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, a.zz}}}};
 }
 
 /// An articulated inertia in the frame of the parent. With t the translation, M and H turned become
 /// M and H' = H + [t]x M, and I becomes I + [t]x H^T - H' [t]x.
 template <class S>
-[[nodiscard]] constexpr ArticulatedInertia<S> in_parent(const JointPlacement<S>& joint,
-                                                        const ArticulatedInertia<S>& own) noexcept {
+[[nodiscard, gnu::always_inline]] constexpr ArticulatedInertia<S> in_parent(
+    const JointPlacement<S>& joint, const ArticulatedInertia<S>& own) noexcept {
   const Vector3<S>& t = joint.translation;
   const Symmetric3<S> mass = joint.to_parent(own.mass);
   const Symmetric3<S> moment = joint.to_parent(own.moment);
@@ -64,11 +65,12 @@ template <class S>
   coupling = coupling.transposed();
   for (Vector3<S>& row : coupling.rows) row = joint.to_parent(row);
 
-  const Matrix3<S> lever = cross_columns(t, coupling.transposed());  // [t]x H^T
-  const Matrix3<S> shift = cross_columns(t, full(mass));             // [t]x M
+  const Matrix3<S> lever = cross_matrix(t, coupling.transposed());  // [t]x H^T
+  const Matrix3<S> shift = cross_matrix(t, full(mass));             // [t]x M
   for (std::size_t i = 0; i < 3; ++i) coupling.rows[i] = coupling.rows[i] + shift.rows[i];
   // H' [t]x = -([t]x H'^T)^T
-  const Matrix3<S> other = cross_columns(t, coupling.transposed()).transposed();
+  Matrix3<S> other;
+  for (std::size_t i = 0; i < 3; ++i) other.rows[i] = cross(t, coupling.rows[i]);
   const auto& [x, y, z] = lever.rows;
   const auto& [u, v, w] = other.rows;
   return {{moment.xx + x.x + u.x, moment.xy + x.y + u.y, moment.xz + x.z + u.z,
@@ -104,26 +106,46 @@ struct ArticulatedBodies {
     return N == B && longest > short_chain;
   }
 
+  /// Whether it takes less time than the factors for a model, whose zeros nobody knows. Those take
+  /// about as long as the squares of all bodies' depths say, and as N^2 for the matrix itself; this
+  /// algorithm takes N times the same. Chains of twelve joints cost about the same either way, and
+  /// so do trees of some twenty to thirty: the numbers are fitted to times measured there.
+  template <int N, int B>
+  [[nodiscard]] static constexpr bool pays_for_numbers(const Mechanism<N, B>& mechanism) noexcept {
+    constexpr double per_body = 73, per_element = 1.6;  // in units of what a depth's square costs
+    JointArray<int, B> depth;
+    int squares = 0;
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+      const Body& body = mechanism.bodies[i];
+      if (body.sharing_body >= 0) return false;
+      depth[i] = body.parent < 0 ? 1 : depth[detail::parent_of(body, i)] + 1;
+      squares += depth[i] * depth[i];
+    }
+    return N == B && squares + per_element * N * N > per_body * N;
+  }
+  /// The smallest model for which it ever does.
+  static constexpr int smallest_model = 12;
+
   /// @pre no mimic joints, no shared rotors
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointArray<S, N> evaluate(
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration,
       const JointArray<S, N>& v, const JointArray<S, N>& effort) noexcept {
     const JointArray<S, N> bias = NonlinearEffects::evaluate<S, N, B>(mechanism, configuration, v);
-    JointArray<detail::ArticulatedInertia<S>, B> inertia;
-    JointArray<Wrench<S>, B> wrench;      // that the efforts beyond a body exert on it
-    JointArray<Wrench<S>, B> along;       // for a unit acceleration of the joint alone
-    JointArray<S, B> inverse, remaining;  // 1/D, and the effort that is left to accelerate
-    wrench.fill({});                      // g++ 12 leaves elements of large arrays uninitialised
-    for (std::size_t i = 0; i < inertia.size(); ++i) {
-      inertia[i] = detail::articulated(configuration[i].moments);
+    detail::UnsetArray<detail::ArticulatedInertia<S>, B> inertia;
+    detail::UnsetArray<Wrench<S>, B> wrench;  // that the efforts beyond a body exert on it
+    detail::UnsetArray<Wrench<S>, B> along;   // for a unit acceleration of the joint alone
+    JointArray<S, B> inverse, remaining;      // 1/D, and the effort that is left to accelerate
+    for (std::size_t i = 0; i < remaining.size(); ++i) {
+      inertia.set(i, detail::articulated(configuration[i].moments));
+      wrench.set(i, {});
     }
-    for (std::size_t i = inertia.size(); i-- > 0;) {
+    for (std::size_t i = remaining.size(); i-- > 0;) {
       const Body& body = mechanism.bodies[i];
       const detail::ArticulatedInertia<S>& own = inertia[i];
       const Matrix3<S> h = own.coupling, m = detail::full(own.mass), j = detail::full(own.moment);
-      along[i] =
-          body.prismatic ? Wrench<S>{m.rows[2], h.column(2)} : Wrench<S>{h.rows[2], j.rows[2]};
+      along.set(
+          i, body.prismatic ? Wrench<S>{m.rows[2], h.column(2)} : Wrench<S>{h.rows[2], j.rows[2]});
       const S felt = body.prismatic ? along[i].force.z : along[i].moment.z;
       inverse[i] = S(1.0) / (felt + S(body.reflected_inertia));
       remaining[i] =
@@ -151,22 +173,24 @@ struct ArticulatedBodies {
                          configuration[i].to_parent(wrench[i].moment + remaining[i] * moment) +
                          cross(configuration[i].translation, f);
     }
-    JointArray<Vector3<S>, B> angular, linear;
+    detail::UnsetArray<Vector3<S>, B> angular, linear;
     JointArray<S, N> a;
-    for (std::size_t i = 0; i < inertia.size(); ++i) {
+    for (std::size_t i = 0; i < remaining.size(); ++i) {
       const Body& body = mechanism.bodies[i];
-      angular[i] = linear[i] = {};
+      Vector3<S> turning{}, moving{};
       S carried(0.0);
       if (body.parent >= 0) {
         const std::size_t p = detail::parent_of(body, i);
-        angular[i] = configuration[i].from_parent(angular[p]);
-        linear[i] = configuration[i].from_parent(linear[p] +
-                                                 cross(angular[p], configuration[i].translation));
-        carried = dot(along[i].moment, angular[i]) + dot(along[i].force, linear[i]);
+        turning = configuration[i].from_parent(angular[p]);
+        moving = configuration[i].from_parent(linear[p] +
+                                              cross(angular[p], configuration[i].translation));
+        carried = dot(along[i].moment, turning) + dot(along[i].force, moving);
       }
       a[i] = inverse[i] * (remaining[i] - carried);
-      S& own = body.prismatic ? linear[i].z : angular[i].z;
+      S& own = body.prismatic ? moving.z : turning.z;
       own = own + a[i];
+      angular.set(i, turning);
+      linear.set(i, moving);
     }
     return a;
   }

@@ -65,9 +65,21 @@ template <std::size_t N>
   return matrix;
 }
 
+/// Whether an algorithm has an `Alternative` that can pay for models of this size. The model itself
+/// says whether it does.
+template <class Algorithm, int N, int B>
+inline constexpr bool has_alternative_for_numbers = [] {
+  if constexpr (requires { Algorithm::Alternative::smallest_model; }) {
+    return N == B && N >= Algorithm::Alternative::smallest_model;
+  } else {
+    return false;
+  }
+}();
+
 /// Runs an algorithm on a robot at positions q: the one place that knows how. For a described robot
 /// that is the program which the compiler made of `Algorithm::evaluate`; for a model the function
-/// itself is called with the mechanism, the configuration at q and the other inputs as arrays.
+/// itself is called with the mechanism, the configuration at q and the other inputs as arrays, or
+/// that of the algorithm's alternative where it takes less time.
 /// @param inputs  input[i] is a number, or a pack of those of several robots
 template <class Algorithm, Robot R, class Input, class... Inputs>
 [[nodiscard, gnu::always_inline]] inline auto evaluate_numbers(const R& robot, const Input& q,
@@ -86,6 +98,12 @@ template <class Algorithm, Robot R, class Input, class... Inputs>
       (std::make_index_sequence<std::size_t{n}>{});
     };
     const auto configuration = configuration_of<S, n, b>(mechanism, array(q));
+    if constexpr (has_alternative_for_numbers<Algorithm, n, b>) {
+      using Other = typename Algorithm::Alternative;
+      if (Other::pays_for_numbers(mechanism)) {
+        return Other::template evaluate<S, n, b>(mechanism, configuration, array(inputs)...);
+      }
+    }
     return Algorithm::template evaluate<S, n, b>(mechanism, configuration, array(inputs)...);
   }
 }

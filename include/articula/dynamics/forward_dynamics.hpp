@@ -36,7 +36,7 @@ struct ForwardDynamics {
 /// @return        joint accelerations [rad/s^2 or m/s^2], N x 1. If M(q) is singular, they mean
 ///                nothing and may not be finite; where it always is, because a joint feels no
 ///                inertia (as that of an unphysical robot may), a described robot does not compile
-/// Real-time: yes. O(N d^2) with d the depth of the tree.
+/// Real-time: yes. O(N d^2) with d the depth of the tree, O(N) where that takes less time.
 template <Robot R>
 [[nodiscard]] inline JointVector<joint_count<R>> forward_dynamics(
     const R& robot, const JointVector<joint_count<R>>& q, const JointVector<joint_count<R>>& v,

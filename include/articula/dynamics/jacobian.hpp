@@ -76,8 +76,8 @@ struct JacobianOf {
 
   /// @return 6 x N, column by column
   template <Frames frames, class S, class AnyModel>
-  [[nodiscard]] static constexpr auto evaluate(
-      const AnyModel& model, const JointArray<S, AnyModel::joint_count>& q) {
+  [[nodiscard]] static constexpr auto evaluate(const AnyModel& model,
+                                               const JointArray<S, AnyModel::joint_count>& q) {
     constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
     const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
     const detail::BodiesBefore<b> way(model.mechanism, frame);
@@ -127,8 +127,8 @@ template <Name Link, DescribedRobot R>
                                                     const JointVector<joint_count<R>>& q) noexcept {
   const auto columns = compiled::run<JacobianOf<Link>, R>(q.data());
   LinkJacobian<joint_count<R>> jacobian;
-  symbolic::detail::for_each_index<columns.size()>([&](std::size_t i) __attribute__((
-      always_inline)) { jacobian.data()[i] = columns[i]; });
+  symbolic::detail::for_each_index<columns.size()>([&](
+      std::size_t i) __attribute__((always_inline)) { jacobian.data()[i] = columns[i]; });
   return jacobian;
 }
 

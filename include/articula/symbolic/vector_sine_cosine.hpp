@@ -86,20 +86,38 @@ template <int Lanes>
   return {near - count * tail, reinterpret_cast<Integers<Lanes>>(shifted)};
 }
 
-// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 - z/2 + z^2 q(z). The
-// polynomials go through the true values at Chebyshev's nodes, which keeps p z and q z^2 within
-// 2e-17 in between. Signs by the number of right angles are + + - - for the sine, + - - + for the
-// cosine; an odd number has them change places.
+// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 + z q(z). The polynomials go
+// through the true values at Chebyshev's nodes, which keeps p z and (q + 1/2) z within 2e-17 in
+// between. Signs by the number of right angles are + + - - for the sine, + - - + for the cosine; an
+// odd number has them change places.
+//
+// There are two ways to fill the lanes, and how many lanes there are is a matter of the processor.
+// Both do the same operations for each angle, so that all give the same bits unless the compiler
+// contracts multiplications and additions.
 
-/// The first coefficient + z (the second + z (the third + ...)) [Horner].
-template <class Vector, class... Doubles>
-[[gnu::always_inline]] inline Vector polynomial(const Vector& z, double first,
-                                                Doubles... others) noexcept {
-  if constexpr (sizeof...(others) == 0) {
-    return first - Vector{};  // in all lanes: vectors have no constructor for that
-  } else {
-    return first + z * polynomial(z, others...);
-  }
+/// Coefficients of z^0 to z^6.
+inline constexpr double of_sine[] = {-0x1.5555555555555p-3,
+                                     0x1.1111111110bb2p-7,
+                                     -0x1.a01a019e83816p-13,
+                                     0x1.71de379654304p-19,
+                                     -0x1.ae600aca92c64p-26,
+                                     0x1.5e0b05bff20f2p-33,
+                                     0};
+inline constexpr double of_cosine[] = {-0.5,
+                                       0x1.5555555555555p-5,
+                                       -0x1.6c16c16c16967p-10,
+                                       0x1.a01a019f4e9b4p-16,
+                                       -0x1.27e4fa17bf139p-22,
+                                       0x1.1eeb68cd22f56p-29,
+                                       -0x1.907d8f29fe831p-37};
+
+/// A polynomial of z, summed in pairs: no step waits long for another one [Estrin].
+/// @param coefficient  takes the power of z
+template <class Vector, class Coefficient>
+[[gnu::always_inline]] inline Vector polynomial(const Vector& z, const Vector& z2, const Vector& z4,
+                                                const Coefficient& coefficient) noexcept {
+  return ((coefficient(0) + z * coefficient(1)) + z2 * (coefficient(2) + z * coefficient(3))) +
+         z4 * ((coefficient(4) + z * coefficient(5)) + z2 * coefficient(6));
 }
 
 /// Stage by stage for several vectors: processors look ahead not much farther than one of them
@@ -120,15 +138,19 @@ template <int Lanes, std::size_t Count>
   each([&](std::size_t i)
            __attribute__((always_inline)) { z[i] = reduced[i].rest * reduced[i].rest; });
   each([&](std::size_t i) __attribute__((always_inline)) {
-    p[i] = polynomial(z[i], -0x1.5555555555555p-3, 0x1.1111111110bb2p-7, -0x1.a01a019e83816p-13,
-                      0x1.71de379654304p-19, -0x1.ae600aca92c64p-26, 0x1.5e0b05bff20f2p-33);
-    q[i] = polynomial(z[i], 0x1.5555555555555p-5, -0x1.6c16c16c16967p-10, 0x1.a01a019f4e9b4p-16,
-                      -0x1.27e4fa17bf139p-22, 0x1.1eeb68cd22f56p-29, -0x1.907d8f29fe831p-37);
+    const Vector z2 = z[i] * z[i], z4 = z2 * z2;
+    const auto in_all_lanes = [](const double* numbers) __attribute__((always_inline)) {
+      return [numbers](std::size_t k) __attribute__((always_inline)) {
+        return numbers[k] - Vector{};  // vectors have no constructor for that
+      };
+    };
+    p[i] = polynomial(z[i], z2, z4, in_all_lanes(of_sine));
+    q[i] = polynomial(z[i], z2, z4, in_all_lanes(of_cosine));
   });
   each([&](std::size_t i) __attribute__((always_inline)) {
     const auto& [x, right_angles] = reduced[i];
     const auto s = reinterpret_cast<Integers<Lanes>>(x + (x * z[i]) * p[i]);
-    const auto c = reinterpret_cast<Integers<Lanes>>((1.0 - 0.5 * z[i]) + (z[i] * z[i]) * q[i]);
+    const auto c = reinterpret_cast<Integers<Lanes>>(1.0 + z[i] * q[i]);
     const Integers<Lanes> odd = right_angles << 63;    // the last bit as a sign
     const Integers<Lanes> swap = (s ^ c) & (odd < 0);  // true is a lane full of ones
     const Integers<Lanes> sign = (right_angles & 2) << 62;
@@ -137,33 +159,26 @@ template <int Lanes, std::size_t Count>
   });
 }
 
-/// The same for few angles, with half the work: the sine in one lane, the cosine in the next. The
-/// polynomials are summed in pairs: there is nothing else to do while one step waits for the other.
+/// The same for few angles, with half the work: the sine in one lane, the cosine in the next.
 /// @param angle  each in two lanes
 /// @return       sines in even lanes, cosines in odd ones
 /// @pre the angles are no larger than largest_reduced_angle
 template <int Lanes>
 [[gnu::always_inline]] inline Reals<Lanes> sine_cosine_side_by_side(
     const Reals<Lanes>& angle) noexcept {
-  const auto both = [](double of_sine, double of_cosine) __attribute__((always_inline)) {
-    return alternating<Reals<Lanes>>(of_sine, of_cosine);
-  };
+  using Vector = Reals<Lanes>;
   const auto [x, turns] = reduce<Lanes>(angle);
-  const Reals<Lanes> z = x * x, z2 = z * z, z4 = z2 * z2;
-  // p(z), and -1/2 + z q(z): what is multiplied with x z or z and added to x or 1.
-  const Reals<Lanes> r =
-      (both(-0x1.5555555555555p-3, -0.5) + z * both(0x1.1111111110bb2p-7, 0x1.5555555555555p-5)) +
-      z2 * (both(-0x1.a01a019e83816p-13, -0x1.6c16c16c16967p-10) +
-            z * both(0x1.71de379654304p-19, 0x1.a01a019f4e9b4p-16)) +
-      z4 * ((both(-0x1.ae600aca92c64p-26, -0x1.27e4fa17bf139p-22) +
-             z * both(0x1.5e0b05bff20f2p-33, 0x1.1eeb68cd22f56p-29)) +
-            z2 * both(0, -0x1.907d8f29fe831p-37));
+  const Vector z = x * x, z2 = z * z, z4 = z2 * z2;
+  const Vector r = polynomial(
+      z, z2, z4, [](std::size_t k) __attribute__((always_inline)) {
+        return alternating<Vector>(of_sine[k], of_cosine[k]);
+      });
   const auto odd = alternating<Integers<Lanes>, std::int64_t>(0, 1);
-  const Reals<Lanes> first = odd != 0 ? both(1, 1) : x;
-  const Reals<Lanes> values = first + (first * z) * r;
-  const Reals<Lanes> placed = (turns << 63) < 0 ? with_swapped_lanes<Lanes>(values) : values;
-  return reinterpret_cast<Reals<Lanes>>(reinterpret_cast<Integers<Lanes>>(placed) ^
-                                        (((turns + odd) & 2) << 62));
+  const Vector first = odd != 0 ? alternating<Vector>(1.0, 1.0) : x;
+  const Vector values = first + (first * z) * r;
+  const Vector placed = (turns << 63) < 0 ? with_swapped_lanes<Lanes>(values) : values;
+  return reinterpret_cast<Vector>(reinterpret_cast<Integers<Lanes>>(placed) ^
+                                  (((turns + odd) & 2) << 62));
 }
 
 }  // namespace articula::symbolic::detail
