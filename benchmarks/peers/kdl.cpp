@@ -4,7 +4,9 @@
 
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfdsolver_recursive_newton_euler.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainidsolver_recursive_newton_euler.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
 #include <kdl/tree.hpp>
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
 
@@ -87,44 +89,130 @@ void require(int error) {
   if (error < 0) throw std::runtime_error("a solver of KDL fails");
 }
 
+[[nodiscard]] KDL::Chain chain_to(const KDL::Tree& tree, const std::string& link) {
+  KDL::Chain chain;
+  tree.getChain(tree.getRootSegment()->first, link, chain);
+  return chain;
+}
+
+/// The kinematics of a link, by KDL's solvers for the chain that leads to it.
+class KdlLink {
+ public:
+  /// @param names   of all joints in articula's order
+  KdlLink(const KDL::Tree& tree, const std::string& link, const std::vector<std::string>& names,
+          const std::vector<State>& states)
+      : chain_(chain_to(tree, link)),
+        place_solver_(chain_),
+        jacobian_solver_(chain_),
+        joints_(names.size()),
+        jacobian_(chain_.getNrOfJoints()) {
+    for (const KDL::Segment& segment : chain_.segments) {
+      if (segment.getJoint().getType() == KDL::Joint::None) continue;
+      const auto found = std::find(names.begin(), names.end(), segment.getJoint().getName());
+      order_.push_back(static_cast<std::size_t>(found - names.begin()));
+    }
+    for (const State& state : states) {
+      KDL::JntArray q(chain_.getNrOfJoints());
+      for (unsigned i = 0; i < q.rows(); ++i) q(i) = state.q[order_[i]];
+      positions_.push_back(q);
+    }
+  }
+
+  void place(std::size_t state) { require(place_solver_.JntToCart(positions_[state], place_)); }
+  void move(std::size_t state) { require(jacobian_solver_.JntToJac(positions_[state], jacobian_)); }
+  [[nodiscard]] Numbers result(Operation operation) const {
+    Numbers numbers;
+    if (operation == Operation::forward_kinematics) {
+      for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) numbers.push_back(place_.M(row, column));
+      }
+      numbers.insert(numbers.end(), place_.p.data, place_.p.data + 3);
+    } else {
+      numbers.resize(6 * joints_);
+      for (unsigned i = 0; i < jacobian_.columns(); ++i) {
+        for (unsigned row = 0; row < 6; ++row) numbers[6 * order_[i] + row] = jacobian_(row, i);
+      }
+    }
+    return numbers;
+  }
+
+ private:
+  KDL::Chain chain_;  // solvers keep a reference
+  KDL::ChainFkSolverPos_recursive place_solver_;
+  KDL::ChainJntToJacSolver jacobian_solver_;
+  std::size_t joints_;
+  std::vector<std::size_t> order_{};
+  std::vector<KDL::JntArray> positions_{};
+  KDL::Frame place_{};
+  KDL::Jacobian jacobian_;
+};
+
+/// What a robot in KDL is made of.
+struct KdlRobot {
+  KDL::Tree tree;
+  KDL::Vector gravity;
+  std::vector<std::string> joints;  ///< their names in articula's order
+  std::string link;
+};
+
 /// What both kinds of solvers share.
 class KdlPeer : public Peer {
  public:
-  KdlPeer(const std::vector<State>& states, const std::vector<std::size_t>& order)
-      : states_(convert(states, order)),
-        order_(order),
-        numbers_(static_cast<unsigned>(order.size())) {}
+  KdlPeer(const KdlRobot& robot, const std::vector<State>& states)
+      : order_(order_of(robot.tree, robot.joints)),
+        states_(convert(states, order_)),
+        numbers_(static_cast<unsigned>(order_.size())),
+        link_(robot.tree, robot.link, robot.joints, states) {}
 
-  [[nodiscard]] Numbers result(Operation) const override { return numbers_of(numbers_); }
+  void run(Operation operation, std::size_t state) final {
+    if (operation == Operation::forward_kinematics) return link_.place(state);
+    if (operation == Operation::jacobian) return link_.move(state);
+    run_dynamics(operation, state);
+  }
+  [[nodiscard]] Numbers result(Operation operation) const final {
+    if (operation == Operation::forward_kinematics || operation == Operation::jacobian) {
+      return link_.result(operation);
+    }
+    return result_of_dynamics(operation);
+  }
 
  protected:
+  virtual void run_dynamics(Operation operation, std::size_t state) = 0;
+  [[nodiscard]] virtual Numbers result_of_dynamics(Operation) const { return numbers_of(numbers_); }
   [[nodiscard]] Numbers numbers_of(const KDL::JntArray& array) const {
     Numbers numbers(order_.size());
     for (unsigned i = 0; i < array.rows(); ++i) numbers[order_[i]] = array(i);
     return numbers;
   }
 
-  std::vector<KdlState> states_;
   std::vector<std::size_t> order_;  ///< in ours, of KDL's joints
-  KDL::JntArray numbers_;           ///< efforts or accelerations of the last run
+  std::vector<KdlState> states_;
+  KDL::JntArray numbers_;  ///< efforts or accelerations of the last run
+
+ private:
+  KdlLink link_;
 };
 
 class KdlTree final : public KdlPeer {
  public:
-  KdlTree(const KDL::Tree& tree, const KDL::Vector& gravity, const std::vector<State>& states,
-          const std::vector<std::size_t>& order)
-      : KdlPeer(states, order), tree_(tree), solver_(tree_, gravity), zero_(tree.getNrOfJoints()) {}
+  KdlTree(const KdlRobot& robot, const std::vector<State>& states)
+      : KdlPeer(robot, states),
+        tree_(robot.tree),
+        solver_(tree_, robot.gravity),
+        zero_(tree_.getNrOfJoints()) {}
 
   [[nodiscard]] bool offers(Operation operation) const override {
-    return operation == Operation::inverse_dynamics || operation == Operation::gravity;
+    return operation == Operation::inverse_dynamics || operation == Operation::gravity ||
+           operation == Operation::forward_kinematics || operation == Operation::jacobian;
   }
-  void run(Operation operation, std::size_t index) override {
+
+ private:
+  void run_dynamics(Operation operation, std::size_t index) override {
     const KdlState& s = states_[index];
     const bool moves = operation == Operation::inverse_dynamics;
     require(solver_.CartToJnt(s.q, moves ? s.v : zero_, moves ? s.a : zero_, no_forces_, numbers_));
   }
 
- private:
   KDL::Tree tree_;  // solvers keep a reference
   KDL::TreeIdSolver_RNE solver_;
   KDL::JntArray zero_;
@@ -134,13 +222,12 @@ class KdlTree final : public KdlPeer {
 class KdlChain final : public KdlPeer {
  public:
   /// @pre joints of a chain are in the order of ours
-  KdlChain(const KDL::Chain& chain, const KDL::Vector& gravity, const std::vector<State>& states,
-           const std::vector<std::size_t>& order)
-      : KdlPeer(states, order),
+  KdlChain(const KDL::Chain& chain, const KdlRobot& robot, const std::vector<State>& states)
+      : KdlPeer(robot, states),
         chain_(chain),
-        inverse_(chain_, gravity),
-        parameters_(chain_, gravity),
-        forward_(chain_, gravity),
+        inverse_(chain_, robot.gravity),
+        parameters_(chain_, robot.gravity),
+        forward_(chain_, robot.gravity),
         no_forces_(chain.getNrOfSegments(), KDL::Wrench::Zero()),
         matrix_(static_cast<int>(chain.getNrOfJoints())),
         q_(chain.getNrOfJoints()),
@@ -150,7 +237,8 @@ class KdlChain final : public KdlPeer {
 
   [[nodiscard]] bool offers(Operation) const override { return true; }
 
-  void run(Operation operation, std::size_t index) override {
+ private:
+  void run_dynamics(Operation operation, std::size_t index) override {
     const KdlState& s = states_[index];
     switch (operation) {
       case Operation::inverse_dynamics:
@@ -163,9 +251,11 @@ class KdlChain final : public KdlPeer {
         return require(forward_.CartToJnt(s.q, s.v, s.effort, no_forces_, numbers_));
       case Operation::step:
         return step(s);
+      default:
+        return;
     }
   }
-  [[nodiscard]] Numbers result(Operation operation) const override {
+  [[nodiscard]] Numbers result_of_dynamics(Operation operation) const override {
     if (operation == Operation::mass_matrix) {
       return {matrix_.data.data(), matrix_.data.data() + matrix_.data.size()};
     }
@@ -175,7 +265,6 @@ class KdlChain final : public KdlPeer {
     return numbers;
   }
 
- private:
   /// The classical Runge-Kutta step around KDL's forward dynamics; its own integrator is not of
   /// fourth order.
   void step(const KdlState& s) {
@@ -213,14 +302,12 @@ class KdlChain final : public KdlPeer {
 }  // namespace
 
 std::unique_ptr<Peer> kdl(const support::Blueprint& robot, const std::vector<std::string>& joints,
-                          const std::vector<State>& states) {
-  const KDL::Tree tree = to_kdl(robot, support::root_of(robot));
-  const std::vector<std::size_t> order = order_of(tree, joints);
-  const KDL::Vector gravity = to_kdl(robot.gravity);
-  if (const auto chain = whole_chain(tree)) {
-    return std::make_unique<KdlChain>(*chain, gravity, states, order);
+                          const std::string& link, const std::vector<State>& states) {
+  const KdlRobot ours{to_kdl(robot, support::root_of(robot)), to_kdl(robot.gravity), joints, link};
+  if (const auto chain = whole_chain(ours.tree)) {
+    return std::make_unique<KdlChain>(*chain, ours, states);
   }
-  return std::make_unique<KdlTree>(tree, gravity, states, order);
+  return std::make_unique<KdlTree>(ours, states);
 }
 
 }  // namespace peers

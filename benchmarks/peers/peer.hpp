@@ -4,7 +4,7 @@
 
 #include "blueprint.hpp"
 
-#include <articula/model/mechanism.hpp>
+#include <articula/model/model.hpp>
 
 #include <array>
 #include <cstddef>
@@ -17,10 +17,19 @@
 namespace peers {
 
 /// What is measured.
-enum class Operation { inverse_dynamics, gravity, mass_matrix, forward_dynamics, step };
+enum class Operation {
+  inverse_dynamics,
+  gravity,
+  mass_matrix,
+  forward_dynamics,
+  step,
+  forward_kinematics,
+  jacobian
+};
 
-inline constexpr std::array<std::string_view, 5> operation_names{
-    "inverse_dynamics", "gravity", "mass_matrix", "forward_dynamics", "step"};
+inline constexpr std::array<std::string_view, 7> operation_names{
+    "inverse_dynamics",   "gravity", "mass_matrix", "forward_dynamics", "step",
+    "forward_kinematics", "jacobian"};
 
 inline constexpr double step_time = 1e-3;  ///< of a Runge-Kutta step [s]
 
@@ -41,7 +50,8 @@ class Peer {
   /// Does the work on one of the states.
   virtual void run(Operation operation, std::size_t state) = 0;
   /// What the last run of an operation gave, in the order of articula's joints: efforts, rows of
-  /// the mass matrix, accelerations, or positions and velocities after a step.
+  /// the mass matrix, accelerations, positions and velocities after a step, the rotation and the
+  /// translation of the link, its Jacobian; matrices column by column.
   [[nodiscard]] virtual Numbers result(Operation operation) const = 0;
 };
 
@@ -49,9 +59,10 @@ class Peer {
 /// included. Its solvers for chains where the robot is one, else its solver for trees, which has
 /// inverse dynamics only.
 /// @param joints  names of those that move, in articula's order
+/// @param link    whose place and Jacobian are asked for
 [[nodiscard]] std::unique_ptr<Peer> kdl(const support::Blueprint& robot,
                                         const std::vector<std::string>& joints,
-                                        const std::vector<State>& states);
+                                        const std::string& link, const std::vector<State>& states);
 
 /// How MuJoCo's functions are called.
 enum class Pipeline {
@@ -59,8 +70,10 @@ enum class Pipeline {
   shortest,  ///< only those of their stages that the result needs
 };
 
+/// @param link  on one of the bodies
 [[nodiscard]] std::unique_ptr<Peer> mujoco(std::span<const articula::Body> bodies,
                                            const articula::Vector3<double>& gravity,
+                                           const articula::LinkFrame& link,
                                            const std::vector<State>& states, Pipeline pipeline);
 
 }  // namespace peers

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot, PEERS_ROBOT, in articula and in other libraries: first a check that all give the same,
+// A robot, PEERS_ROBOT with the link PEERS_LINK, in articula and in other libraries: first a check that all give the same,
 // then a case for each library and operation, named <operation>/<robot>/<library>.
+#include "../after_sleep.hpp"
 #include "peer.hpp"
 
 #include <articula/dynamics/dynamics.hpp>
@@ -28,6 +29,7 @@ struct Robot {
   }();
 };
 
+constexpr Name link = PEERS_LINK;
 constexpr int n = joint_count<Robot>;
 using Vector = JointVector<n>;
 
@@ -74,6 +76,20 @@ template <Operation operation, class R>
     return mass_matrix(robot, s.q);
   } else if constexpr (operation == Operation::forward_dynamics) {
     return forward_dynamics(robot, s.q, s.v, s.effort);
+  } else if constexpr (operation == Operation::forward_kinematics) {
+    constexpr LinkIndex tip = link_index(Robot{}, link);
+    if constexpr (DescribedRobot<R>) {
+      return forward_kinematics<link>(robot, s.q);
+    } else {
+      return forward_kinematics(robot, s.q, tip);
+    }
+  } else if constexpr (operation == Operation::jacobian) {
+    constexpr LinkIndex tip = link_index(Robot{}, link);
+    if constexpr (DescribedRobot<R>) {
+      return jacobian<link>(robot, s.q);
+    } else {
+      return jacobian(robot, s.q, tip);
+    }
   } else {
     return runge_kutta_step<n>({s.q, s.v}, peers::step_time, [&](const Vector& q, const Vector& v) {
       return forward_dynamics(robot, q, v, s.effort);
@@ -84,6 +100,12 @@ template <Operation operation, class R>
 Numbers numbers_of(const Motion<n>& motion) {
   Numbers numbers = numbers_of(motion.position);
   for (const double x : motion.velocity) numbers.push_back(x);
+  return numbers;
+}
+
+Numbers numbers_of(const Eigen::Isometry3d& place) {
+  Numbers numbers = numbers_of(Eigen::MatrixXd(place.linear()));
+  for (const double x : place.translation()) numbers.push_back(x);
   return numbers;
 }
 
@@ -108,6 +130,13 @@ class Cases {
     add<Operation::mass_matrix>();
     add<Operation::forward_dynamics>();
     add<Operation::step>();
+    add<Operation::forward_kinematics>();
+    add<Operation::jacobian>();
+    if (robot_ == "panda") {
+      register_after_sleep("clock/panda/none", [](std::size_t) {});
+      add_after_sleep<Operation::inverse_dynamics>();
+      add_after_sleep<Operation::forward_dynamics>();
+    }
   }
 
  private:
@@ -117,11 +146,14 @@ class Cases {
     std::unique_ptr<peers::Peer> peer;
   };
 
+  [[nodiscard]] std::string name_of(Operation operation) const {
+    return std::string(peers::operation_names[static_cast<std::size_t>(operation)]) + "/" + robot_ +
+           "/";
+  }
+
   template <Operation operation>
   void add() {
-    const std::string name =
-        std::string(peers::operation_names[static_cast<std::size_t>(operation)]) + "/" + robot_ +
-        "/";
+    const std::string name = name_of(operation);
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const Numbers ours = numbers_of(work<operation>(Robot{}, samples_[i]));
       compare(name + "model", ours, numbers_of(work<operation>(model_, samples_[i])), 1e-9);
@@ -131,7 +163,7 @@ class Cases {
         compare(name + other.name, ours, other.peer->result(operation), other.tolerance);
       }
     }
-    add_ours<operation>(name + "described", Robot{});
+    add_ours<operation>(name + "described", described_);
     add_ours<operation>(name + "model", model_);
     for (const NamedPeer& other : peers_) {
       if (!other.peer->offers(operation)) continue;
@@ -145,6 +177,27 @@ class Cases {
                                    });
     }
   }
+  /// The same calls as in a loop that sleeps until its next cycle.
+  template <Operation operation>
+  void add_after_sleep() {
+    const auto add_robot = [&](const std::string& name, const auto& robot) {
+      register_after_sleep(name_of(operation) + name, [this, &robot](std::size_t i) {
+        auto result = work<operation>(robot, samples_[i % samples_.size()]);
+        benchmark::DoNotOptimize(result);
+      });
+    };
+    add_robot("described", described_);
+    add_robot("model", model_);
+    for (const NamedPeer& other : peers_) {
+      if (!other.peer->offers(operation)) continue;
+      register_after_sleep(name_of(operation) + other.name,
+                           [this, peer = other.peer.get()](std::size_t i) {
+                             peer->run(operation, i % samples_.size());
+                             benchmark::ClobberMemory();
+                           });
+    }
+  }
+
   template <Operation operation, class R>
   void add_ours(const std::string& name, const R& robot) {
     benchmark::RegisterBenchmark(name.c_str(), [this, &robot](benchmark::State& bench) {
@@ -157,6 +210,7 @@ class Cases {
   }
 
   std::string robot_;
+  Robot described_{};
   std::vector<Sample> samples_ = make_samples();
   std::vector<peers::State> states_ = states_of(samples_);
   std::remove_cvref_t<decltype(model_of(Robot{}))> model_ = model_of(Robot{});
@@ -166,12 +220,15 @@ class Cases {
   }();
   std::span<const Body> bodies_ = model_.mechanism.bodies;
   Vector3<double> gravity_ = Robot::description.gravity;
+  LinkFrame frame_ = model_.links[link_index(Robot{}, link).value];
   std::array<NamedPeer, 3> peers_{
       NamedPeer{"kdl", 1e-9,
-                peers::kdl(support::blueprint_of(Robot::description), names_, states_)},
-      NamedPeer{"mujoco", 1e-5, peers::mujoco(bodies_, gravity_, states_, peers::Pipeline::whole)},
+                peers::kdl(support::blueprint_of(Robot::description), names_,
+                           std::string(link.view()), states_)},
+      NamedPeer{"mujoco", 1e-5,
+                peers::mujoco(bodies_, gravity_, frame_, states_, peers::Pipeline::whole)},
       NamedPeer{"mujoco_shortest", 1e-5,
-                peers::mujoco(bodies_, gravity_, states_, peers::Pipeline::shortest)}};
+                peers::mujoco(bodies_, gravity_, frame_, states_, peers::Pipeline::shortest)}};
 };
 
 const Cases cases(PEERS_NAME);  // NOLINT: benchmarks are registered before main

@@ -47,6 +47,24 @@ struct Snake<std::index_sequence<I...>> {
       .name = "snake", .links = {link(0), link(I + 1)...}, .joints = {joint(I)...}};
 };
 
+/// Says which of two algorithms was run.
+template <int Which>
+struct Told {
+  static constexpr int smallest_model = 12;
+  template <int N, int B>
+  [[nodiscard]] static constexpr bool pays_for_numbers(const Mechanism<N, B>& mechanism) noexcept {
+    return ArticulatedBodies::pays_for_numbers(mechanism);
+  }
+  template <class S, int N, int B>
+  [[nodiscard]] static constexpr int evaluate(const Mechanism<N, B>&, const Configuration<S, B>&,
+                                              const JointArray<S, N>&) noexcept {
+    return Which;
+  }
+};
+struct Either : Told<1> {
+  using Alternative = Told<2>;
+};
+
 using ShortSnake = Snake<std::make_index_sequence<4>>;
 using LongSnake = Snake<std::make_index_sequence<14>>;
 
@@ -122,4 +140,43 @@ TEST_CASE("articulated bodies are not tried where joints are tied otherwise than
   CHECK_FALSE(ArticulatedBodies::may_pay(mimic.model<13, 14>().canonical));
   CHECK_FALSE(ArticulatedBodies::may_pay(
       support::random_robot(random, 10, support::Shape::chain, 0).model<10>().canonical));
+}
+
+TEST_CASE("models take articulated bodies where they take less time") {
+  support::Random random(4);
+  const auto taken = [&]<int N>(std::integral_constant<int, N>, support::Shape shape, int mimics) {
+    const auto model = support::random_robot(random, N, shape, mimics).model<N>();
+    const JointVector<N> q = JointVector<N>::Zero();
+    return detail::evaluate<Either>(model, q, q);
+  };
+  using support::Shape;
+  CHECK(taken(std::integral_constant<int, 7>{}, Shape::chain, 0) == 1);
+  CHECK(taken(std::integral_constant<int, 11>{}, Shape::chain, 0) == 1);
+  CHECK(taken(std::integral_constant<int, 12>{}, Shape::chain, 0) == 2);
+  CHECK(taken(std::integral_constant<int, 24>{}, Shape::chain, 0) == 2);
+  CHECK(taken(std::integral_constant<int, 60>{}, Shape::tree, 0) == 2);
+  CHECK(taken(std::integral_constant<int, 14>{}, Shape::tree, 0) == 1);  // too bushy to pay
+}
+
+TEST_CASE("large models accelerate as their efforts demand") {
+  constexpr unsigned seed = 5;
+  CAPTURE(seed);
+  support::Random random(seed);
+  constexpr int n = 24;
+  for (int trial = 0; trial < 20; ++trial) {
+    CAPTURE(trial);
+    const Model<n> model =
+        support::random_robot(random, n, trial % 2 ? support::Shape::chain : support::Shape::tree)
+            .model<n>();
+    using Many = JointVectors<n, 3>;
+    const Many q = random.vector<n>(3).replicate<1, 3>(), v = random.vector<n>(1).replicate<1, 3>(),
+               effort = random.vector<n>(20).replicate<1, 3>();
+    const JointVector<n> own_q = q.col(0), own_v = v.col(0), own_effort = effort.col(0);
+    const JointVector<n> a = forward_dynamics(model, own_q, own_v, own_effort);
+    const JointMatrix<n> matrix = mass_matrix(model, own_q);
+    const JointVector<n> demanded = matrix * a + nonlinear_effects(model, own_q, own_v);
+    // Some thousand roundings of terms as large as the matrix times the acceleration.
+    CHECK((demanded - own_effort).norm() <= 1e-11 * (1 + matrix.norm() * a.norm()));
+    CHECK((forward_dynamics(model, q, v, effort).col(2) - a).norm() <= 1e-8 * a.norm());
+  }
 }

@@ -6,6 +6,7 @@
 #include "articula/robots/q2d.hpp"
 #include "articula/robots/ur10.hpp"
 #include "catch.hpp"
+#include "oddity.hpp"
 #include "random_mechanism.hpp"
 
 #include <vector>
@@ -17,65 +18,6 @@
 using namespace articula;  // NOLINT
 
 namespace {
-
-/// Axes that are oblique, parallel, antiparallel and prismatic, a branch, and a joint that follows.
-struct Oddity {
-  static constexpr Symmetric3<double> inertia{0.02, 0.001, -0.002, 0.03, 0.003, 0.025};
-  static constexpr RobotDescription description{
-      .name = "oddity",
-      .gravity = {1, 2, -9},
-      .links = std::to_array<Link>({
-          {.name = "base"},
-          {.name = "a", .mass = 2, .center_of_mass = {0.1, 0.2, -0.1}, .inertia = inertia},
-          {.name = "b", .mass = 1, .center_of_mass = {0, 0.1, 0.3}, .inertia = inertia},
-          {.name = "c", .mass = 1.5, .center_of_mass = {0.2, 0, 0.1}, .inertia = inertia},
-          {.name = "d", .mass = 0.5, .center_of_mass = {-0.1, 0.2, 0}, .inertia = inertia},
-          {.name = "e", .mass = 0.7, .center_of_mass = {0, 0.3, 0.1}, .inertia = inertia},
-          {.name = "f", .mass = 0.7, .center_of_mass = {0, 0.3, 0.1}, .inertia = inertia},
-      }),
-      .joints = std::to_array<Joint>({
-          {.name = "1",
-           .type = JointType::revolute,
-           .parent = "base",
-           .child = "a",
-           .origin = {0.1, 0, 0.3},
-           .orientation = {0.4, 1.0, -0.3},
-           .axis = {1, 2, 2}},
-          {.name = "2",
-           .type = JointType::continuous,
-           .parent = "a",
-           .child = "b",
-           .origin = {0.4, 0.1, 0},
-           .orientation = {0.2, 0, 0.5},
-           .axis = {0, 1, 0}},
-          {.name = "3",
-           .type = JointType::revolute,
-           .parent = "b",
-           .child = "c",
-           .origin = {0.3, -0.1, 0.2},
-           .axis = {0, -1, 0}},
-          {.name = "4",
-           .type = JointType::prismatic,
-           .parent = "c",
-           .child = "d",
-           .origin = {0, 0.1, 0.2},
-           .axis = {0, 1, 0}},
-          {.name = "5",
-           .type = JointType::revolute,
-           .parent = "d",
-           .child = "e",
-           .origin = {0.1, 0, 0.1},
-           .axis = {0, 1, 0}},
-          {.name = "6",
-           .type = JointType::revolute,
-           .parent = "b",
-           .child = "f",
-           .origin = {0, 0.2, 0},
-           .orientation = {0, 0, 0.8},
-           .axis = {1, 0, 1},
-           .mimic = {.joint = "5", .multiplier = -0.5, .offset = 0.25}},
-      })};
-};
 
 template <class Result>
 std::vector<double> numbers_of(Result result) {
@@ -110,7 +52,8 @@ constexpr bool takes(int multiplications, int additions) {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE("Programs compute what their algorithms compute", "", Q2d, Ur10, Panda, Oddity) {
+TEMPLATE_TEST_CASE("Programs compute what their algorithms compute", "", Q2d, Ur10, Panda,
+                   support::Oddity) {
   using R = TestType;
   constexpr std::size_t n = joint_count<R>;
   test::Randomness random(1);

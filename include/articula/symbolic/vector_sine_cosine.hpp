@@ -95,7 +95,7 @@ template <int Lanes>
 // Both do the same operations for each angle, so that all give the same bits unless the compiler
 // contracts multiplications and additions.
 
-/// Coefficients of z^0 to z^6.
+/// Coefficients of z^0 to z^6. (What is multiplied with a 0 and added changes no bit.)
 inline constexpr double of_sine[] = {-0x1.5555555555555p-3,
                                      0x1.1111111110bb2p-7,
                                      -0x1.a01a019e83816p-13,
@@ -112,12 +112,15 @@ inline constexpr double of_cosine[] = {-0.5,
                                        -0x1.907d8f29fe831p-37};
 
 /// A polynomial of z, summed in pairs: no step waits long for another one [Estrin].
+/// @tparam Degree      5 or 6
 /// @param coefficient  takes the power of z
-template <class Vector, class Coefficient>
+template <std::size_t Degree, class Vector, class Coefficient>
 [[gnu::always_inline]] inline Vector polynomial(const Vector& z, const Vector& z2, const Vector& z4,
                                                 const Coefficient& coefficient) noexcept {
+  Vector last = coefficient(4) + z * coefficient(5);
+  if constexpr (Degree == 6) last = last + z2 * coefficient(6);
   return ((coefficient(0) + z * coefficient(1)) + z2 * (coefficient(2) + z * coefficient(3))) +
-         z4 * ((coefficient(4) + z * coefficient(5)) + z2 * coefficient(6));
+         z4 * last;
 }
 
 /// Stage by stage for several vectors: processors look ahead not much farther than one of them
@@ -144,8 +147,8 @@ template <int Lanes, std::size_t Count>
         return numbers[k] - Vector{};  // vectors have no constructor for that
       };
     };
-    p[i] = polynomial(z[i], z2, z4, in_all_lanes(of_sine));
-    q[i] = polynomial(z[i], z2, z4, in_all_lanes(of_cosine));
+    p[i] = polynomial<5>(z[i], z2, z4, in_all_lanes(of_sine));
+    q[i] = polynomial<6>(z[i], z2, z4, in_all_lanes(of_cosine));
   });
   each([&](std::size_t i) __attribute__((always_inline)) {
     const auto& [x, right_angles] = reduced[i];
@@ -169,7 +172,7 @@ template <int Lanes>
   using Vector = Reals<Lanes>;
   const auto [x, turns] = reduce<Lanes>(angle);
   const Vector z = x * x, z2 = z * z, z4 = z2 * z2;
-  const Vector r = polynomial(
+  const Vector r = polynomial<6>(
       z, z2, z4, [](std::size_t k) __attribute__((always_inline)) {
         return alternating<Vector>(of_sine[k], of_cosine[k]);
       });
