@@ -39,8 +39,20 @@ fi
 cached() { sed -n "s/^$1:[A-Z]*=//p" build/bench/CMakeCache.txt; }
 cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
 for lanes in avx512f avx2; do
-  if grep -qw "$lanes" /proc/cpuinfo; then cpu+=" ($lanes)" && break; fi
+  if grep -qw "$lanes" /proc/cpuinfo; then break; fi
 done
+# The name alone does not say how wide the registers are inside: Zen 4 has halves of AVX-512's, Zen 5
+# has whole ones.
+number_of() { sed -n "s/^$1[[:space:]]*: //p" /proc/cpuinfo | head -n 1; }
+family=$(number_of 'cpu family') model=$(number_of model) generation=''
+if [[ $(number_of vendor_id) == AuthenticAMD ]]; then
+  case $family in
+    23) generation=', Zen, Zen+ or Zen 2' ;;
+    25) if ((model >= 16 && model < 32 || model >= 96)); then generation=', Zen 4'; else generation=', Zen 3'; fi ;;
+    26) generation=', Zen 5' ;;
+  esac
+fi
+cpu+=" (family $family model $model$generation, $lanes)"
 compiler=$("$(cached CMAKE_CXX_COMPILER)" --version | head -n 1)
 flags="-std=c++20 $(cached CMAKE_CXX_FLAGS) $(cached CMAKE_CXX_FLAGS_RELEASE)"
 revision=$(git describe --always --dirty 2>/dev/null || echo unknown)

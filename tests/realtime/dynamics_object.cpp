@@ -27,6 +27,8 @@ void all_dynamics(const R& robot, const Vector& q, const Vector& v, const Vector
 extern "C" void described(const Vector& q, const Vector& v, const Vector& x, LinkIndex link,
                           JointMatrix<2>& matrix, Eigen::Isometry3d& place, Vector& sum) noexcept {
   all_dynamics(Q2d(), q, v, x, link, matrix, place, sum);
+  place = place * forward_kinematics<"tool_link">(Q2d(), q);
+  place.translation() += jacobian<"tool_link">(Q2d(), q).topRows<3>() * v;
 }
 
 extern "C" void loaded(const Model<2>& robot, const Vector& q, const Vector& v, const Vector& x,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Links and joints asked for by name, checked by the compiler.
-#include <articula/dynamics/forward_kinematics.hpp>
+#include <articula/dynamics/jacobian.hpp>
 #include <articula/robots/q2d.hpp>
 
 constexpr auto tool = articula::link_index(articula::Q2d{}, "tool_link");
@@ -8,6 +8,10 @@ constexpr auto elbow = articula::joint_index(articula::Q2d{}, "elbow_active_join
 
 #ifdef UNKNOWN_LINK
 constexpr auto mistake = articula::link_index(articula::Q2d{}, "tool_lnik");
+#endif
+#ifdef UNKNOWN_NAMED_LINK
+const auto mistake =
+    articula::jacobian<"tool_lnik">(articula::Q2d{}, articula::JointVector<2>::Zero());
 #endif
 #ifdef UNKNOWN_JOINT
 constexpr auto mistake = articula::joint_index(articula::Q2d{}, "elbow_active_jiont");

@@ -105,6 +105,7 @@ template <Robot R>
 template <Name Link, DescribedRobot R>
 [[nodiscard]] Eigen::Isometry3d forward_kinematics(const R&,
                                                    const JointVector<joint_count<R>>& q) noexcept {
+  [[maybe_unused]] constexpr LinkIndex there_is = link_index(R{}, Link);
   return detail::to_isometry(compiled::run<PlacementOf<Link>, R>(q.data()));
 }
 

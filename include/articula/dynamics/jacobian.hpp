@@ -125,6 +125,7 @@ template <Robot R>
 template <Name Link, DescribedRobot R>
 [[nodiscard]] LinkJacobian<joint_count<R>> jacobian(const R&,
                                                     const JointVector<joint_count<R>>& q) noexcept {
+  [[maybe_unused]] constexpr LinkIndex there_is = link_index(R{}, Link);
   const auto columns = compiled::run<JacobianOf<Link>, R>(q.data());
   LinkJacobian<joint_count<R>> jacobian;
   symbolic::detail::for_each_index<columns.size()>([&](
