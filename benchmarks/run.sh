@@ -38,8 +38,9 @@ fi
 # What a result is worth without: where it comes from.
 cached() { sed -n "s/^$1:[A-Z]*=//p" build/bench/CMakeCache.txt; }
 cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
-for lanes in avx512f avx2; do
-  if grep -qw "$lanes" /proc/cpuinfo; then break; fi
+lanes=sse2
+for wider in avx2 avx512f; do
+  if grep -qw "$wider" /proc/cpuinfo; then lanes=$wider; fi
 done
 # The name alone does not say how wide the registers are inside: Zen 4 has halves of AVX-512's, Zen 5
 # has whole ones.
@@ -48,7 +49,10 @@ family=$(number_of 'cpu family') model=$(number_of model) generation=''
 if [[ $(number_of vendor_id) == AuthenticAMD ]]; then
   case $family in
     23) generation=', Zen, Zen+ or Zen 2' ;;
-    25) if ((model >= 16 && model < 32 || model >= 96)); then generation=', Zen 4'; else generation=', Zen 3'; fi ;;
+    25) # models 10h to 1Fh and 60h to AFh are Zen 4
+      generation=', Zen 3'
+      if ((model >= 16 && model < 32 || model >= 96)); then generation=', Zen 4'; fi
+      ;;
     26) generation=', Zen 5' ;;
   esac
 fi
