@@ -94,7 +94,9 @@ int main() {
   const Loaded loaded{};
   motion(Scara{});
   motion(loaded);
-  double sum = kinematics(Scara{}) + kinematics(loaded);
+  const JointVector<2> q(0.1, 0.2);
+  double sum = forward_kinematics<"tool">(Scara{}, q)(0, 3) + jacobian<"tool">(Scara{}, q)(0, 0);
+  sum += kinematics(Scara{}) + kinematics(loaded);
 #ifdef DESCRIBED
   dynamics(Scara{});
   sum += operations<InverseDynamics, Scara>().additions;

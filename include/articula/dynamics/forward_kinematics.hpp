@@ -64,6 +64,7 @@ template <class S, int B>
 /// @tparam Link  the name, as in `PlacementOf<"tool0">`
 template <Name Link>
 struct PlacementOf {
+  static constexpr bool needs_no_masses = true;
   static constexpr Name link = Link;
 
   template <Frames frames, class S, class AnyModel>

@@ -72,6 +72,7 @@ void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkFrame& link,
 /// @tparam Link  the name, as in `JacobianOf<"tool0">`
 template <Name Link>
 struct JacobianOf {
+  static constexpr bool needs_no_masses = true;
   static constexpr Name link = Link;
 
   /// @return 6 x N, column by column
