@@ -84,6 +84,16 @@ void check_all_links(support::Random& random) {
   (std::make_index_sequence<R::description.links.size()>{});
 }
 
+/// A UR10 of which nobody knows the masses.
+struct DrawnUr10 {
+  static constexpr auto description = [] {
+    auto drawn = Ur10::description;
+    drawn.kinematic = true;
+    for (Link& link : drawn.links) link = {.name = link.name};
+    return drawn;
+  }();
+};
+
 template <class Algorithm, class R>
 constexpr bool takes(int multiplications, int additions, int sines) {
   constexpr auto counts = operations<Algorithm, R>();
@@ -137,6 +147,12 @@ TEST_CASE("The kinematics of a named link take no more operations than promised"
   // Of thirty bodies those that move the gripper, no others; of the base nothing.
   STATIC_REQUIRE(operations<PlacementOf<"r_gripper_tool_frame">, Pr2>().sines == 7);
   STATIC_REQUIRE(operations<JacobianOf<"base_link">, Pr2>() == symbolic::OperationCounts{});
+}
+
+TEST_CASE("Named links need no masses") {
+  const JointVector<6> q(0.3, -0.5, 1, 2, -1, 0.2);
+  check_named<"tool0">(DrawnUr10{}, q);
+  CHECK(jacobian<"tool0">(DrawnUr10{}, q) == jacobian<"tool0">(Ur10{}, q));
 }
 
 TEST_CASE("A program of a named link runs for a pack of robots") {
