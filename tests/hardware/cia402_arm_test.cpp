@@ -4,6 +4,7 @@
 #include <articula/hardware/can_hardware.hpp>
 #include <articula/hardware/cia402_codec.hpp>
 #include <articula/hardware/simulated_cia402_drives.hpp>
+#include <articula/loop/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
@@ -11,6 +12,9 @@
 #include "numbers.hpp"
 #include "random.hpp"
 
+#include <chrono>
+#include <deque>
+#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -333,6 +337,214 @@ TEST_CASE("missing feedback of one joint is stale and then a fault") {
   CHECK(bench.reading == Status::hardware_fault);
   CHECK(bench.arm.fault().cause == CanCause::drive_silent);
   CHECK(bench.arm.fault().joint == 1);
+}
+
+TEST_CASE("a drive that leaves operation while enabled is stopped by access to its objects") {
+  using canopen::NmtCommand;
+  const NmtCommand left = GENERATE(NmtCommand::enter_pre_operational, NmtCommand::stop);
+  const int joint = GENERATE(0, 1);
+  CAPTURE(static_cast<int>(left), joint);
+  Bench bench;
+  bench.cycles(10);
+  REQUIRE(bench.bus->drives.node(joint).value(cia402::abort_connection) == 0);  // it does nothing
+  CanBatch answers;
+  bench.bus->drives.receive(canopen::encode(left, drives[static_cast<std::size_t>(joint)].node),
+                            answers);
+  // It keeps its effort while its feedback is missing without being a fault, and then some cycles
+  // for the accesses: one more, or ten in vain and one to make it accessible.
+  const CanHardwareOptions options;
+  int kept = 0;
+  while (bench.bus->drives.enabled(joint)) {
+    REQUIRE(++kept <= static_cast<int>(options.silent_after) + 15);
+    bench.cycles(1);
+  }
+  CHECK(bench.bus->drives.effort()[joint] != 0);  // until the next period
+  CHECK(bench.reading == Status::hardware_fault);
+  CHECK(bench.arm.fault().joint == joint);
+  bench.cycles(10);
+  CHECK(bench.bus->drives.effort() == JointVector<2>(0, 0));
+  CHECK(bench.arm.deactivate() == Status::ok);  // though it sends no feedback
+  CHECK(bench.arm.activate() == Status::ok);
+  bench.cycles(10);
+  CHECK(bench.reading == Status::ok);
+}
+
+TEST_CASE("deactivation takes the power from a drive that has just left operation") {
+  Bench bench;
+  bench.cycles(10);
+  CanBatch answers;
+  bench.bus->drives.receive(canopen::encode(canopen::NmtCommand::enter_pre_operational, 0),
+                            answers);
+  CHECK(bench.arm.deactivate() == Status::ok);
+  CHECK_FALSE(bench.bus->drives.enabled(0));
+  CHECK_FALSE(bench.bus->drives.enabled(1));
+}
+
+TEST_CASE("a drive that does not obey is not taken for stopped") {
+  Bench bench;
+  bench.cycles(10);
+  CanBatch answers;
+  bench.bus->drives.receive(canopen::encode(canopen::NmtCommand::enter_pre_operational, 6),
+                            answers);
+  bench.bus->on_command = [](CanFrame& frame) {
+    const auto request = canopen::decode_request(frame);
+    return !request || request->address != cia402::controlword;  // no such access reaches it
+  };
+  CHECK(bench.arm.deactivate() == Status::hardware_fault);
+  CHECK(bench.bus->drives.enabled(1));
+  bench.bus->on_command = [](CanFrame&) { return true; };
+  CHECK(bench.arm.deactivate() == Status::ok);
+}
+
+TEST_CASE("activation takes the power from a drive before it leaves operation") {
+  Bench bench;
+  bench.cycles(10);
+  Arm second = make_arm(bench.bus);  // of a program that was started anew
+  bench.bus->on_command = [&](CanFrame& frame) {
+    if (frame.identifier == canopen::nmt_identifier &&
+        frame.data[0] == static_cast<std::uint8_t>(canopen::NmtCommand::enter_pre_operational)) {
+      CHECK_FALSE(bench.bus->drives.enabled(frame.data[1] == 5 ? 0 : 1));
+    }
+    return true;
+  };
+  CHECK(second.activate() == Status::ok);
+  bench.bus->on_command = [](CanFrame&) { return true; };
+}
+
+namespace {
+
+/// A queue between the drives and the host in which feedback waits for later feedback.
+struct Queue {
+  std::deque<CanFrame> frames{};
+  std::size_t cycles = 0;  ///< how much waits
+
+  bool operator()(CanFrame& frame) {
+    const std::uint32_t base = frame.identifier & 0x780;
+    if (base != canopen::transmit_pdo_1_base && base != canopen::transmit_pdo_2_base) return true;
+    frames.push_back(frame);
+    if (frames.size() <= 4 * cycles) return false;
+    frame = frames.front();
+    frames.pop_front();
+    return true;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("feedback behind a queue has the age that it has") {
+  Bench bench;
+  bench.cycles(10);
+  Queue queue;
+  bench.bus->on_feedback = std::ref(queue);
+  for (const std::uint32_t lag : {1U, 2U}) {
+    queue.cycles = lag;
+    bench.cycles(300);
+    CHECK(bench.reading == Status::ok);
+    for (const DriveReport& report : bench.arm.reports()) CHECK(report.age >= lag);
+    CHECK(bench.arm.read(bench.state) == Status::ok);
+    CHECK(bench.arm.reports()[0].age == lag);
+  }
+  queue.cycles = 3;
+  bench.cycles(4);
+  CHECK(bench.reading == Status::stale_state);
+  const CanHardwareOptions options;
+  bench.cycles(static_cast<int>(options.silent_after));
+  CHECK(bench.reading == Status::hardware_fault);
+  CHECK(bench.arm.fault().cause == CanCause::drive_silent);
+  CHECK(bench.arm.fault().joint == 0);
+  CHECK(bench.bus->drives.effort() == JointVector<2>(0, 0));
+  bench.bus->on_feedback = [](CanFrame&) { return true; };
+}
+
+TEST_CASE("feedback whose lag grows is stale, then a fault") {
+  Bench bench;
+  bench.cycles(10);
+  Queue queue;
+  bench.bus->on_feedback = std::ref(queue);
+  int cycles_ok = 0, cycle = 0;
+  for (; bench.arm.fault().cause == CanCause::none; ++cycle) {
+    REQUIRE(cycle < 100);
+    if (cycle % 2 == 0) ++queue.cycles;  // the drives answer every other cycle
+    bench.cycles(1);
+    const auto lag = static_cast<std::uint32_t>(queue.frames.size() / 4);
+    CAPTURE(cycle, lag);
+    if (bench.reading == Status::ok) ++cycles_ok;
+    if (lag > 4) CHECK(bench.reading != Status::ok);
+  }
+  CHECK(cycles_ok < 10);
+  CHECK(bench.arm.fault().cause == CanCause::drive_silent);
+  bench.bus->on_feedback = [](CanFrame&) { return true; };
+}
+
+TEST_CASE("feedback that was lost is not taken for late") {
+  const std::uint32_t identifier = GENERATE(0x185U, 0x285U, 0x186U);
+  CAPTURE(identifier);
+  Bench bench;
+  bench.cycles(10);
+  // One lost frame in 50 cycles, a thousand times.
+  int number = 0;
+  bench.bus->on_feedback = [&](CanFrame& frame) {
+    return frame.identifier != identifier || ++number % 50 != 0;
+  };
+  for (int k = 0; k < 50'000; ++k) {
+    bench.cycles(1);
+    REQUIRE(bench.reading == Status::ok);
+  }
+  // Each loss takes effect for as long as it takes to tell it from a late frame: the cycle in which
+  // it is missed, the next, with the request, and one more.
+  CHECK(bench.arm.statistics().partial <= 3 * 1000);
+  bench.bus->on_feedback = [](CanFrame&) { return true; };
+}
+
+TEST_CASE("cycles that the bus does not take do not make later feedback old") {
+  Bench bench;
+  bench.cycles(10);
+  for (int k = 0; k < 100; ++k) {
+    bench.bus->sending = CanSending::backlog;
+    bench.cycles(1);
+    bench.bus->sending = CanSending::sent;
+    bench.cycles(2);
+    REQUIRE(bench.arm.read(bench.state) == Status::ok);
+    REQUIRE(bench.arm.reports()[0].age == 0);
+  }
+}
+
+TEST_CASE("drives that answer later than one period are enabled, driven and stopped") {
+  using namespace std::chrono_literals;
+  const std::chrono::microseconds delay = GENERATE(400us, 700us, 1200us);
+  CAPTURE(delay.count());
+  const auto bus = make_bus();
+  bus->command_delay = bus->feedback_delay = delay;
+  // Frames of one cycle come one after the other: what is due at the cycle's edge comes on both
+  // sides of it.
+  int frame_number = 0;
+  bus->on_feedback = [&](CanFrame&) {
+    bus->feedback_delay = delay + (frame_number++ % 4) * 90us;
+    return true;
+  };
+  SupervisedLoop<Arm, PidPlusGravity> loop(make_arm(bus));
+  const auto cycle = [&] {
+    const Status status = loop.update();
+    bus->pass(1ms);
+    return status;
+  };
+  loop.request_activation();
+  for (int k = 0; k < 10; ++k) static_cast<void>(cycle());
+  REQUIRE(loop.mode() == LoopMode::active);
+  for (int k = 0; k < 200; ++k) REQUIRE(cycle() == Status::ok);
+  CHECK((loop.hardware().reports()[0].age > 0) == (2 * delay > 1ms));
+  bus->drives.raise_fault(0, 0x2310);
+  for (int k = 0; k < 20; ++k) static_cast<void>(cycle());
+  REQUIRE(loop.mode() == LoopMode::fault);
+  loop.acknowledge_fault();
+  static_cast<void>(cycle());
+  CHECK(loop.mode() == LoopMode::inactive);
+  loop.request_activation();
+  for (int k = 0; k < 10; ++k) static_cast<void>(cycle());
+  CHECK(loop.mode() == LoopMode::active);
+  CHECK(loop.stop() == Status::ok);
+  CHECK_FALSE(bus->drives.enabled(0));
+  CHECK_FALSE(bus->drives.enabled(1));
 }
 
 TEST_CASE("the node keeps the rules of its object dictionary") {

@@ -33,6 +33,7 @@ struct FakeCanBus {
   std::chrono::nanoseconds next_sync{};       ///< when that one is due
   articula::CanFrame sync{};                  ///< what it sends
   std::chrono::nanoseconds feedback_delay{};  ///< after which feedback arrives
+  std::chrono::nanoseconds command_delay{};   ///< after which the host's frames reach the drives
   /// What is done to each frame of the drives: false keeps it from arriving.
   std::function<bool(articula::CanFrame&)> on_feedback = [](articula::CanFrame&) { return true; };
   /// What is done to each frame of the host.
@@ -41,6 +42,16 @@ struct FakeCanBus {
   /// What is done where SYNC is due: false keeps the other node from sending it.
   std::function<bool()> on_sync = [] { return true; };
 
+  [[nodiscard]] bool delays() const {
+    return feedback_delay.count() > 0 || command_delay.count() > 0;
+  }
+  /// A frame of the host sets out.
+  void accept(articula::CanFrame frame) {
+    if (!on_command(frame)) return;
+    to_drives.push_back(frame);
+    if (command_delay.count() == 0) return arrive(frame);
+    to_drives_on_its_way_.emplace_back(time + command_delay, frame);
+  }
   void deliver(const articula::CanBatch& answers) {
     for (articula::CanFrame frame : answers) {
       if (!on_feedback(frame)) continue;
@@ -54,14 +65,22 @@ struct FakeCanBus {
   /// When something happens next that time has to pass for, at most `end`.
   [[nodiscard]] std::chrono::nanoseconds next_event(std::chrono::nanoseconds end) const {
     if (sync_period.count() > 0) end = std::min(end, next_sync);
-    if (!on_its_way_.empty()) end = std::min(end, on_its_way_.front().first);
+    if (sync_period.count() == 0) end = std::min(end, next_period_);
+    for (const auto* way : {&on_its_way_, &to_drives_on_its_way_}) {
+      if (!way->empty()) end = std::min(end, way->front().first);
+    }
     return std::max(end, time);
   }
-  /// Lets time pass on a bus on which another node sends SYNC.
+  /// Lets time pass on a bus on which another node sends SYNC or frames take their time. A
+  /// millisecond in which nothing reaches the drives is a period without SYNC.
   void pass(std::chrono::nanoseconds duration) {
     const auto end = time + duration;
     for (;;) {
       time = next_event(end);
+      while (!to_drives_on_its_way_.empty() && to_drives_on_its_way_.front().first <= time) {
+        arrive(to_drives_on_its_way_.front().second);
+        to_drives_on_its_way_.pop_front();
+      }
       while (!on_its_way_.empty() && on_its_way_.front().first <= time) {
         to_host.push_back(on_its_way_.front().second);
         on_its_way_.pop_front();
@@ -69,6 +88,9 @@ struct FakeCanBus {
       if (sync_period.count() > 0 && next_sync <= time) {
         next_sync += sync_period;
         send_sync();
+      } else if (sync_period.count() == 0 && next_period_ <= time) {
+        next_period_ = time + std::chrono::milliseconds(1);
+        if (!std::exchange(reached_, false)) silent_period();
       } else if (time >= end) {
         return;
       }
@@ -89,7 +111,18 @@ struct FakeCanBus {
   }
 
  private:
-  std::deque<std::pair<std::chrono::nanoseconds, articula::CanFrame>> on_its_way_{};
+  void arrive(const articula::CanFrame& frame) {
+    reached_ = true;
+    articula::CanBatch answers;
+    drives.receive(frame, answers);
+    deliver(answers);
+  }
+
+  using Way = std::deque<std::pair<std::chrono::nanoseconds, articula::CanFrame>>;
+  Way on_its_way_{};
+  Way to_drives_on_its_way_{};
+  std::chrono::nanoseconds next_period_{};
+  bool reached_ = false;  ///< something has reached the drives in this millisecond
 };
 
 /// The host's end of the bus.
@@ -116,18 +149,12 @@ class FakeCanTransport {
     const bool taken = bus_->sending == articula::CanSending::sent ||
                        bus_->sending == articula::CanSending::unconfirmed;
     if (!taken) return bus_->sending;
-    for (articula::CanFrame frame : batch) {
-      if (!bus_->on_command(frame)) continue;
-      bus_->to_drives.push_back(frame);
-      articula::CanBatch answers;
-      bus_->drives.receive(frame, answers);
-      bus_->deliver(answers);
-    }
+    for (const articula::CanFrame& frame : batch) bus_->accept(frame);
     return bus_->sending;
   }
   void wait(std::chrono::nanoseconds time) noexcept {
     if (!bus_->to_host.empty()) return;
-    if (bus_->sync_period.count() > 0) {
+    if (bus_->sync_period.count() > 0 || bus_->delays()) {
       return bus_->pass(bus_->next_event(bus_->time + time) - bus_->time);
     }
     bus_->time += time;

@@ -12,6 +12,7 @@
 namespace articula::cia402 {
 
 // Objects of the profile [CiA 402-2, CiA 402-3].
+inline constexpr canopen::ObjectAddress abort_connection{0x6007, 0};
 inline constexpr canopen::ObjectAddress error_code{0x603f, 0};
 inline constexpr canopen::ObjectAddress controlword{0x6040, 0};
 inline constexpr canopen::ObjectAddress statusword{0x6041, 0};
@@ -92,6 +93,13 @@ enum class State : std::uint8_t {
     default:
       return {};
   }
+}
+
+/// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
+/// Real-time: yes.
+[[nodiscard]] constexpr bool may_exert(State state) noexcept {
+  return state == State::operation_enabled || state == State::quick_stop_active ||
+         state == State::fault_reaction_active;
 }
 
 // Values of the controlword.

@@ -48,6 +48,7 @@ class SimulatedCia402Node {
     if (frame.identifier == canopen::nmt_identifier && frame.length == 2) {
       if (frame.data[1] == 0 || frame.data[1] == node_) manage(frame.data[0]);
     } else if (frame.identifier == canopen::sdo_request_base + node_) {
+      if (nmt_ == canopen::NmtState::stopped) return;  // no access then [CiA 301, table 37]
       if (const auto request = canopen::decode_request(frame)) {
         answers.push_back(canopen::encode_answer(serve(*request), node_));
       }
@@ -183,6 +184,7 @@ class SimulatedCia402Node {
       {{0x1a01, 1}, 4, true, 0},
       {{0x1a01, 2}, 4, true, 0},
       {{0x1a01, 3}, 4, true, 0},
+      {cia402::abort_connection, 2, true, 0},
       {cia402::error_code, 2, false, 0},
       {cia402::controlword, 2, true, 0},
       {cia402::statusword, 2, false, 0x40},
@@ -225,13 +227,21 @@ class SimulatedCia402Node {
         nmt_ = command == static_cast<std::uint8_t>(canopen::NmtCommand::stop)
                    ? canopen::NmtState::stopped
                    : canopen::NmtState::pre_operational;
-        has_received_ = false;
-        obey(cia402::disable_voltage);
+        has_received_ = supervised_ = false;  // commands are watched in operation alone
+        react_to_abort();
         return;
       case canopen::NmtCommand::reset_node:
       case canopen::NmtCommand::reset_communication:
         return restart();
     }
+  }
+
+  /// What the node does when it leaves the operational state, as object 6007h says
+  /// [CiA 402-2, abort connection option code]: 0 nothing, 1 a fault, 2 and 3 a stop.
+  void react_to_abort() noexcept {
+    const std::uint32_t option = value(cia402::abort_connection);
+    if (option == 1 && enabled()) raise_fault(0x8130);  // life guard error [CiA 301, table 26]
+    if (option == 2 || option == 3) obey(cia402::disable_voltage);
   }
 
   /// The answer of the object dictionary's server; abort codes of [CiA 301, table 22].
