@@ -14,7 +14,6 @@
 
 #include <chrono>
 #include <deque>
-#include <functional>
 #include <memory>
 #include <numbers>
 
@@ -347,6 +346,7 @@ TEST_CASE("a drive that leaves operation while enabled is stopped by access to i
   Bench bench;
   bench.cycles(10);
   REQUIRE(bench.bus->drives.node(joint).value(cia402::abort_connection) == 0);  // it does nothing
+  REQUIRE(bench.bus->drives.effort()[joint] != 0);
   CanBatch answers;
   bench.bus->drives.receive(canopen::encode(left, drives[static_cast<std::size_t>(joint)].node),
                             answers);
@@ -358,7 +358,6 @@ TEST_CASE("a drive that leaves operation while enabled is stopped by access to i
     REQUIRE(++kept <= static_cast<int>(options.silent_after) + 15);
     bench.cycles(1);
   }
-  CHECK(bench.bus->drives.effort()[joint] != 0);  // until the next period
   CHECK(bench.reading == Status::hardware_fault);
   CHECK(bench.arm.fault().joint == joint);
   bench.cycles(10);
@@ -413,29 +412,40 @@ TEST_CASE("activation takes the power from a drive before it leaves operation") 
 
 namespace {
 
-/// A queue between the drives and the host in which feedback waits for later feedback.
+/// A queue between the drives and the host in which frames wait for later feedback.
 struct Queue {
-  std::deque<CanFrame> frames{};
-  std::size_t cycles = 0;  ///< how much waits
+  std::size_t cycles = 0;  ///< whose feedback waits
 
-  bool operator()(CanFrame& frame) {
-    const std::uint32_t base = frame.identifier & 0x780;
-    if (base != canopen::transmit_pdo_1_base && base != canopen::transmit_pdo_2_base) return true;
-    frames.push_back(frame);
-    if (frames.size() <= 4 * cycles) return false;
-    frame = frames.front();
-    frames.pop_front();
-    return true;
+  void attach(const std::shared_ptr<Bus>& bus) {
+    bus->on_feedback = [this, to = bus.get()](CanFrame& frame) {
+      frames_.push_back(frame);
+      if (is_feedback(frame)) ++waiting_;
+      while (waiting_ > 4 * cycles) {
+        if (is_feedback(frames_.front())) --waiting_;
+        to->to_host.push_back(frames_.front());
+        frames_.pop_front();
+      }
+      return false;
+    };
   }
+  [[nodiscard]] std::size_t lag() const { return waiting_ / 4; }
+
+ private:
+  static bool is_feedback(const CanFrame& frame) {
+    const std::uint32_t base = frame.identifier & 0x780;
+    return base == canopen::transmit_pdo_1_base || base == canopen::transmit_pdo_2_base;
+  }
+  std::deque<CanFrame> frames_{};
+  std::size_t waiting_ = 0;
 };
 
 }  // namespace
 
 TEST_CASE("feedback behind a queue has the age that it has") {
+  Queue queue;
   Bench bench;
   bench.cycles(10);
-  Queue queue;
-  bench.bus->on_feedback = std::ref(queue);
+  queue.attach(bench.bus);
   for (const std::uint32_t lag : {1U, 2U}) {
     queue.cycles = lag;
     bench.cycles(300);
@@ -453,36 +463,33 @@ TEST_CASE("feedback behind a queue has the age that it has") {
   CHECK(bench.arm.fault().cause == CanCause::drive_silent);
   CHECK(bench.arm.fault().joint == 0);
   CHECK(bench.bus->drives.effort() == JointVector<2>(0, 0));
-  bench.bus->on_feedback = [](CanFrame&) { return true; };
 }
 
 TEST_CASE("feedback whose lag grows is stale, then a fault") {
+  Queue queue;
   Bench bench;
   bench.cycles(10);
-  Queue queue;
-  bench.bus->on_feedback = std::ref(queue);
+  queue.attach(bench.bus);
   int cycles_ok = 0, cycle = 0;
   for (; bench.arm.fault().cause == CanCause::none; ++cycle) {
     REQUIRE(cycle < 100);
     if (cycle % 2 == 0) ++queue.cycles;  // the drives answer every other cycle
     bench.cycles(1);
-    const auto lag = static_cast<std::uint32_t>(queue.frames.size() / 4);
-    CAPTURE(cycle, lag);
+    CAPTURE(cycle, queue.lag());
     if (bench.reading == Status::ok) ++cycles_ok;
-    if (lag > 4) CHECK(bench.reading != Status::ok);
+    if (queue.lag() > 4) CHECK(bench.reading != Status::ok);
   }
   CHECK(cycles_ok < 10);
   CHECK(bench.arm.fault().cause == CanCause::drive_silent);
-  bench.bus->on_feedback = [](CanFrame&) { return true; };
 }
 
 TEST_CASE("feedback that was lost is not taken for late") {
   const std::uint32_t identifier = GENERATE(0x185U, 0x285U, 0x186U);
   CAPTURE(identifier);
+  int number = 0;
   Bench bench;
   bench.cycles(10);
   // One lost frame in 50 cycles, a thousand times.
-  int number = 0;
   bench.bus->on_feedback = [&](CanFrame& frame) {
     return frame.identifier != identifier || ++number % 50 != 0;
   };
@@ -532,7 +539,7 @@ TEST_CASE("drives that answer later than one period are enabled, driven and stop
   for (int k = 0; k < 10; ++k) static_cast<void>(cycle());
   REQUIRE(loop.mode() == LoopMode::active);
   for (int k = 0; k < 200; ++k) REQUIRE(cycle() == Status::ok);
-  CHECK((loop.hardware().reports()[0].age > 0) == (2 * delay > 1ms));
+  CHECK(loop.hardware().reports()[0].age > 0);
   bus->drives.raise_fault(0, 0x2310);
   for (int k = 0; k < 20; ++k) static_cast<void>(cycle());
   REQUIRE(loop.mode() == LoopMode::fault);

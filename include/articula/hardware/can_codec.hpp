@@ -51,7 +51,7 @@ enum class [[nodiscard]] CanDecoding : unsigned char{
 /// How far the set-up of the drives is.
 enum class [[nodiscard]] CanSetUp : unsigned char{
     in_progress,  ///< Go on.
-    done,         ///< All drives are enabled at zero effort (or where they are) and report it.
+    done,         ///< All drives are enabled at zero effort (or where they are) and have said so.
     failed,       ///< A drive has refused.
 };
 
@@ -61,11 +61,19 @@ enum class [[nodiscard]] CanSetUp : unsigned char{
 /// - `subscription()` tells which frames matter.
 /// - `restart()` forgets all: the drives' condition is unknown from here on.
 /// - `set_up(elapsed, batch)` appends the frames that bring the drives a step nearer to being
-///   enabled; it is called about once a cycle, `elapsed` since `restart`, until it says done.
+///   enabled; it is called about once a cycle, `elapsed` since `restart`, until it says done and
+///   the reports are young enough for the caller. Once all are enabled, each call begins a cycle.
 /// - `encode(command, batch)` begins a cycle: appends the frames that hand it to the drives.
 /// - `encode_stop(batch)` begins a cycle in which all drives are to let go: no effort, disabled.
 /// - `decode(frame)` takes in a frame. It is total: any frame gives an answer.
 /// - `reports()` tells what is known of each drive, in the order of the joints.
+///
+/// A codec may have two more functions:
+///
+/// - `withdraw()`: the bus did not take all frames of the last `set_up`, `encode` or `encode_stop`.
+///   For codecs that count the frames that they wait for.
+/// - `let_go()`: whether all drives have said that they exert nothing. For drives that can say so
+///   in other ways than by feedback; without it, feedback has to say so.
 ///
 /// Everything but `subscription` is noexcept and real-time.
 /// @tparam C  the codec

@@ -16,7 +16,7 @@ enum class CanCause : unsigned char {
   bus_off,        ///< The controller has left the bus after too many errors.
   not_sent,       ///< The bus has not taken our frames for too many cycles.
   no_sync,        ///< The node that begins the bus's cycles is silent.
-  drive_silent,   ///< A drive's feedback is missing for too many cycles.
+  drive_silent,   ///< A drive's feedback is missing, or late, for too many cycles.
   drive_fault,    ///< A drive reports a fault.
   drive_let_go,   ///< A drive reports that it does not follow commands, without a fault.
 };
@@ -46,7 +46,7 @@ struct CanFault {
     case CanCause::no_sync:
       return "the bus's SYNC stays away";
     case CanCause::drive_silent:
-      return "a drive is silent";
+      return "a drive's feedback is missing or late";
     case CanCause::drive_fault:
       return "a drive reports a fault";
     case CanCause::drive_let_go:

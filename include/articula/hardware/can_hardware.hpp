@@ -67,6 +67,7 @@ class CanHardware {
         fault_(other.fault_),
         dropped_(other.dropped_),
         not_sent_(other.not_sent_),
+        stale_(other.stale_),
         unpaced_(other.unpaced_),
         read_cycle_(other.read_cycle_),
         awaited_cycle_(other.awaited_cycle_),
@@ -86,7 +87,7 @@ class CanHardware {
   [[nodiscard]] Status activate() noexcept {
     mode_ = Mode::inactive;
     fault_ = {};
-    dropped_ = not_sent_ = unpaced_ = 0;
+    dropped_ = not_sent_ = stale_ = unpaced_ = 0;
     codec_.restart();
     if (transport_.open(codec_.subscription()) != Status::ok) {
       fault_ = {CanCause::link_gone};
@@ -96,15 +97,17 @@ class CanHardware {
     codec_.restart();  // what had been waiting in the receive queue told of the past
     const std::uint64_t heard_before = heard_cycles();
     const auto begin = transport_.now();
-    CanSetUp progress = CanSetUp::in_progress;
-    for (auto tick = begin; progress == CanSetUp::in_progress; tick += options_.set_up_period) {
+    bool is_ready = false;
+    for (auto tick = begin; !is_ready; tick += options_.set_up_period) {
       if (tick - begin > options_.set_up_time) break;
       CanBatch batch;
-      progress = codec_.set_up(tick - begin, batch);
-      if (!batch.empty()) static_cast<void>(transport_.send(batch));
-      if (progress == CanSetUp::in_progress) listen_until(tick + options_.set_up_period);
+      const CanSetUp progress = codec_.set_up(tick - begin, batch);
+      if (!batch.empty()) static_cast<void>(hand_over(batch));
+      if (progress == CanSetUp::failed) break;
+      listen_until(tick + options_.set_up_period);
+      is_ready = progress == CanSetUp::done && all_young();
     }
-    if (progress == CanSetUp::done) {
+    if (is_ready) {
       dropped_ = not_sent_ = 0;
       read_cycle_ = awaited_cycle_ = heard_cycles();
       mode_ = Mode::active;
@@ -114,7 +117,7 @@ class CanHardware {
     blame([&](const DriveReport& r) { return r.fault != 0 || r.age >= options_.stale_after; });
     if (fault_.joint < 0) blame([](const DriveReport& r) { return !r.enabled; });
     if (is_paced && heard_cycles() == heard_before) fault_ = {CanCause::no_sync};
-    send_stop();
+    static_cast<void>(stop());
     return Status::hardware_fault;
   }
 
@@ -128,17 +131,7 @@ class CanHardware {
         transport_.open(codec_.subscription()) != Status::ok) {
       return Status::hardware_fault;
     }
-    constexpr int patience = 20;  // set-up periods
-    // Where the cycles are another node's, a new one may just have begun.
-    constexpr std::uint32_t fresh = is_paced ? 1 : 0;
-    for (int k = 0; k < patience; ++k) {
-      send_stop();
-      listen_until(transport_.now() + options_.set_up_period);
-      const bool let_go = std::ranges::all_of(
-          reports(), [](const DriveReport& r) { return r.age <= fresh && !r.enabled; });
-      if (let_go) return Status::ok;
-    }
-    return Status::hardware_fault;
+    return stop();
   }
 
   /// Takes in what the drives have said and judges it.
@@ -302,12 +295,18 @@ class CanHardware {
         return fail({CanCause::link_gone});
     }
     if (unpaced_ >= options_.silent_after) return fail({CanCause::no_sync});
+    int oldest = 0;
     for (int j = 0; j < joint_count; ++j) {
       const DriveReport& report = reports()[static_cast<std::size_t>(j)];
+      if (report.age > reports()[static_cast<std::size_t>(oldest)].age) oldest = j;
       if (report.fault != 0) return fail({CanCause::drive_fault, j, report.fault});
       if (!report.enabled) return fail({CanCause::drive_let_go, j});
       if (report.age >= options_.silent_after) return fail({CanCause::drive_silent, j});
     }
+    // Feedback that comes in every cycle, but late.
+    const bool late = reports()[static_cast<std::size_t>(oldest)].age >= options_.stale_after;
+    stale_ = late ? stale_ + 1 : 0;
+    if (stale_ >= options_.silent_after) fail({CanCause::drive_silent, oldest});
   }
 
   void fail(const CanFault& fault) noexcept {
@@ -335,20 +334,54 @@ class CanHardware {
     return command;
   }
 
-  CanSending send(const CanBatch& batch) noexcept {
+  [[nodiscard]] static bool is_taken(CanSending sending) noexcept {
+    return sending == CanSending::sent || sending == CanSending::unconfirmed;
+  }
+  CanSending hand_over(const CanBatch& batch) noexcept {
     const CanSending sending = transport_.send(batch);
+    if constexpr (requires { codec_.withdraw(); }) {
+      if (!is_taken(sending)) codec_.withdraw();
+    }
+    return sending;
+  }
+  CanSending send(const CanBatch& batch) noexcept {
+    const CanSending sending = hand_over(batch);
     if (sending == CanSending::unconfirmed) ++statistics_.unconfirmed;
-    const bool taken = sending == CanSending::sent || sending == CanSending::unconfirmed;
+    const bool taken = is_taken(sending);
     if (!taken) ++statistics_.not_sent;
     dropped_ = taken ? 0 : dropped_ + 1;
     not_sent_ = sending == CanSending::sent ? 0 : not_sent_ + 1;
     return sending;
   }
 
-  void send_stop() noexcept {
-    CanBatch batch;
-    codec_.encode_stop(batch);
-    static_cast<void>(send(batch));
+  /// What the drives have said is young enough to begin with.
+  [[nodiscard]] bool all_young() const noexcept {
+    return std::ranges::all_of(reports(), [this](const DriveReport& r) {
+      return r.age < options_.stale_after || r.age == DriveReport::never;
+    });
+  }
+
+  [[nodiscard]] bool all_let_go() const noexcept {
+    if constexpr (requires { codec_.let_go(); }) {
+      return codec_.let_go();
+    } else {
+      return std::ranges::all_of(reports(), [this](const DriveReport& r) {
+        return !r.enabled && r.age < options_.stale_after;
+      });
+    }
+  }
+
+  /// Tells the drives to let go until all have said that they have.
+  [[nodiscard]] Status stop() noexcept {
+    constexpr int patience = 100;  // set-up periods; some drives answer an access that late
+    for (int k = 0; k < patience; ++k) {
+      CanBatch batch;
+      codec_.encode_stop(batch);
+      static_cast<void>(send(batch));
+      listen_until(transport_.now() + options_.set_up_period);
+      if (all_let_go()) return Status::ok;
+    }
+    return Status::hardware_fault;
   }
 
   void listen_until(std::chrono::nanoseconds end) noexcept {
@@ -366,6 +399,7 @@ class CanHardware {
   CanFault fault_{};
   std::uint32_t dropped_ = 0;     ///< cycles in a row that the bus did not take
   std::uint32_t not_sent_ = 0;    ///< cycles in a row that did not, or not surely, get onto it
+  std::uint32_t stale_ = 0;       ///< readings in a row with figures of a joint that are too old
   std::uint32_t unpaced_ = 0;     ///< readings in a row before which no cycle of the bus had begun
   std::uint64_t read_cycle_ = 0;  ///< cycles that had been heard at the last reading
   std::uint64_t awaited_cycle_ = 0;  ///< and at the end of the last wait

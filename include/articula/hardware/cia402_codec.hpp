@@ -6,7 +6,9 @@
 #include "articula/hardware/can_codec.hpp"
 #include "articula/hardware/cia402.hpp"
 #include "articula/hardware/cia402_drive.hpp"
+#include "articula/hardware/cia402_feedback.hpp"
 #include "articula/hardware/cia402_set_up.hpp"
+#include "articula/hardware/cia402_stop.hpp"
 
 #include <algorithm>
 #include <array>
@@ -79,11 +81,11 @@ class Cia402Codec {
   /// Real-time: no (allocates).
   [[nodiscard]] CanSubscription subscription() const {
     CanSubscription subscription{.last_of_cycle = canopen::sync_identifier,
-                                 .frames_per_cycle = drives_.size() + 1};
+                                 .frames_per_cycle = count + most_accesses + 1};
     if (!sends_sync) {
       subscription.identifiers.push_back(canopen::sync_identifier);
       subscription.last_of_cycle = canopen::receive_pdo_1_base + drives_.back().node;
-      subscription.frames_per_cycle = 2 * drives_.size();  // a stop takes that many
+      subscription.frames_per_cycle = count + most_accesses;
     }
     for (const Cia402Drive& drive : drives_) {
       for (const std::uint32_t base :
@@ -98,27 +100,30 @@ class Cia402Codec {
   /// Forgets what the drives have said. Real-time: yes.
   void restart() noexcept {
     reports_.fill({});
-    halves_.fill({});
+    for (Cia402Feedback& feedback : feedbacks_) feedback.restart();
+    for (Cia402Stop& stop : stops_) stop.restart();
     for (Cia402SetUp& set_up : set_ups_) set_up.restart();
   }
 
-  /// Brings all drives to operation enabled, side by side, then begins cycles until all have told
-  /// where they are. Real-time: yes. O(N).
+  /// Brings all drives to operation enabled, side by side, then begins a cycle with each call and
+  /// is done when all have said where they are. Real-time: yes. O(N).
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
-    constexpr std::uint32_t fresh = sends_sync ? 0 : 1;  // another's cycle may just have begun
+    sync_pushed_ = false;
     bool all_enabled = true, all_known = true;
     for (std::size_t j = 0; j < drives_.size(); ++j) {
+      const std::size_t before = batch.size();
       const CanSetUp progress = set_ups_[j].advance(elapsed, batch);
       if (progress == CanSetUp::failed) return progress;
+      if (batch.size() != before) feedbacks_[j].place_mark(set_ups_[j].object());
       all_enabled = all_enabled && progress == CanSetUp::done;
-      const bool known = reports_[j].age <= fresh && reports_[j].enabled;
+      const bool known = reports_[j].age < doubtful_age && reports_[j].enabled;
       if (!known) set_ups_[j].doubt(elapsed);
       all_known = all_known && known;
     }
     if (!all_enabled) return CanSetUp::in_progress;
-    if (all_known) return CanSetUp::done;
-    if (sends_sync) send_sync(batch);
-    return CanSetUp::in_progress;
+    push_marks(batch);
+    if (sends_sync) end_output(batch);
+    return all_known ? CanSetUp::done : CanSetUp::in_progress;
   }
 
   /// RPDO 1 for each drive, in the drive's units, rounded and held within their range, and SYNC if
@@ -127,20 +132,19 @@ class Cia402Codec {
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       push_command(j, cia402::enable_operation, target(command, j), batch);
     }
+    push_marks(batch);
     end_output(batch);
   }
 
-  /// Takes the power from all drives. Real-time: yes. O(N).
+  /// Takes the power from all drives: by RPDO 1, and by access to its objects from each drive that
+  /// has not yet said that it has none. Real-time: yes. O(N).
   void encode_stop(CanBatch& batch) noexcept {
     Command still;
-    if (!sends_sync && !heard_) {
-      // What waits for a SYNC that does not come is not done.
-      for (const Cia402Drive& drive : drives_) {
-        batch.push_back(canopen::encode_request(
-            {canopen::SdoKind::download, cia402::controlword, cia402::disable_voltage, 2},
-            drive.node));
-      }
-    }
+    access(
+        [this](std::size_t j, CanBatch& b) {
+          return feedbacks_[j].powered() ? stops_[j].advance(drives_[j].node, b) : push_mark(j, b);
+        },
+        batch);
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
         still.position[static_cast<int>(j)] = reports_[j].position;
@@ -150,6 +154,14 @@ class Cia402Codec {
     end_output(batch);
   }
 
+  /// The last frames appended did not all get onto the bus, so SYNC, the last, did not.
+  /// Real-time: yes. O(N).
+  void withdraw() noexcept {
+    if (!sync_pushed_) return;
+    for (Cia402Feedback& feedback : feedbacks_) feedback.withdraw_sync();
+    sync_pushed_ = false;
+  }
+
   /// Takes in a drive's frame. Real-time: yes. O(N).
   [[nodiscard]] CanDecoding decode(const CanFrame& frame) noexcept {
     if (frame.extended) return CanDecoding::foreign;
@@ -157,25 +169,17 @@ class Cia402Codec {
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       switch (frame.identifier - drives_[j].node) {
         case canopen::transmit_pdo_1_base:
-          return take_transmit_pdo_1(j, frame);
+          return feedbacks_[j].take_transmit_pdo_1(frame, drives_[j], reports_[j]);
         case canopen::transmit_pdo_2_base:
-          return take_transmit_pdo_2(j, frame);
+          return feedbacks_[j].take_transmit_pdo_2(frame, drives_[j], reports_[j]);
         case canopen::emergency_base:
-          if (const auto emergency = canopen::decode_emergency(frame)) {
-            // It gives a fault its name. Whether there is one, the statusword tells.
-            halves_[j].emergency = emergency->code;
-            return CanDecoding::accepted;
-          }
-          return CanDecoding::malformed;
+          return feedbacks_[j].take_emergency(frame);
         case canopen::sdo_answer_base:
-          if (const auto answer = canopen::decode_answer(frame)) {
-            set_ups_[j].take(*answer);
-            return CanDecoding::accepted;
-          }
-          return CanDecoding::malformed;
+          return take_answer(j, frame);
         case canopen::heartbeat_base:
           if (const auto state = canopen::decode_heartbeat(frame)) {
-            // A node that is not operational, such as one that has restarted, hears no commands.
+            // A node that is not operational, such as one that has restarted, obeys no process
+            // data.
             if (*state != canopen::NmtState::operational) reports_[j].enabled = false;
             return CanDecoding::accepted;
           }
@@ -192,6 +196,10 @@ class Cia402Codec {
       const noexcept {
     return reports_;
   }
+  /// Whether all drives have said that they exert nothing. Real-time: yes.
+  [[nodiscard]] bool let_go() const noexcept {
+    return std::ranges::none_of(feedbacks_, [](const Cia402Feedback& f) { return f.powered(); });
+  }
   /// How far the set-up of one drive is, for messages. Real-time: yes.
   [[nodiscard]] const Cia402SetUp& set_up_of(int joint) const noexcept {
     return set_ups_[static_cast<std::size_t>(joint)];
@@ -203,14 +211,6 @@ class Cia402Codec {
   }
 
  private:
-  /// What has come of a drive's two feedback frames since the last SYNC.
-  struct Halves {
-    bool first = false;
-    bool second = false;
-    double position = 0, effort = 0, velocity = 0;
-    std::uint16_t emergency = 0;
-  };
-
   template <std::size_t... J>
   static std::array<Cia402SetUp, sizeof...(J)> make_set_ups(
       const Cia402DriveList<joint_count>& drives, std::uint8_t period, std::uint16_t deadline,
@@ -252,81 +252,76 @@ class Cia402Codec {
     batch.push_back(frame);
   }
 
-  void begin_cycle() noexcept {
-    for (DriveReport& report : reports_) {
-      if (report.age < DriveReport::never - 1) ++report.age;
+  /// Appends what a few drives in turn need beside their process data.
+  /// @param append_for  (j, batch) appends a frame for drive j and returns whether it did
+  template <class Append>
+  void access(Append append_for, CanBatch& batch) noexcept {
+    std::size_t left = most_accesses;
+    for (std::size_t k = 0; k < drives_.size() && left > 0; ++k) {
+      if (append_for(next_access_, batch)) --left;
+      next_access_ = (next_access_ + 1) % drives_.size();
     }
-    for (Halves& half : halves_) half.first = half.second = false;
   }
-  void send_sync(CanBatch& batch) noexcept {
-    begin_cycle();
-    batch.push_back(canopen::encode_sync());
+  bool push_mark(std::size_t j, CanBatch& batch) noexcept {
+    const auto request = feedbacks_[j].next_mark();
+    return request && batch.push_back(canopen::encode_request(*request, drives_[j].node));
+  }
+  void push_marks(CanBatch& batch) noexcept {
+    access([this](std::size_t j, CanBatch& b) { return push_mark(j, b); }, batch);
+  }
+
+  void begin_cycle(bool with_sync) noexcept {
+    for (std::size_t j = 0; j < drives_.size(); ++j) {
+      feedbacks_[j].begin_cycle(with_sync, reports_[j]);
+    }
   }
 
   /// After the commands of a cycle.
   void end_output(CanBatch& batch) noexcept {
-    if (sends_sync) return send_sync(batch);
-    if (!heard_) begin_cycle();  // what is known grows older without SYNC, too
-    heard_ = false;
+    if (sends_sync) {
+      begin_cycle(true);
+      batch.push_back(canopen::encode_sync());
+      sync_pushed_ = true;
+    } else {
+      if (!heard_) begin_cycle(false);  // what is known grows older without SYNC, too
+      heard_ = false;
+    }
   }
 
   [[nodiscard]] CanDecoding take_sync(const CanFrame& frame) noexcept {
     if (frame.length > 1) return CanDecoding::malformed;  // 1: with a counter, of no use here
-    begin_cycle();
+    begin_cycle(true);
     heard_ = true;
     ++heard_cycles_;
     return CanDecoding::accepted;
   }
 
-  [[nodiscard]] CanDecoding take_transmit_pdo_1(std::size_t j, const CanFrame& frame) noexcept {
-    const auto statusword = load_little_endian<std::uint16_t, 0>(frame.data);
-    const auto state = cia402::state_of(statusword);
-    if (frame.length != 8 || !state) return CanDecoding::malformed;
-    const Cia402Drive& drive = drives_[j];
-    const auto units = load_little_endian<std::int32_t, 2>(frame.data);
-    halves_[j].first = true;
-    halves_[j].position = (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
-    halves_[j].effort = load_little_endian<std::int16_t, 6>(frame.data) * drive.rated_effort / 1e3;
-    reports_[j].enabled = *state == cia402::State::operation_enabled;
-    const bool fault =
-        *state == cia402::State::fault || *state == cia402::State::fault_reaction_active;
-    if (!fault) {
-      reports_[j].fault = 0;
-    } else if (reports_[j].fault == 0) {
-      reports_[j].fault = halves_[j].emergency != 0 ? halves_[j].emergency : generic_error;
+  [[nodiscard]] CanDecoding take_answer(std::size_t j, const CanFrame& frame) noexcept {
+    const auto answer = canopen::decode_answer(frame);
+    if (!answer) return CanDecoding::malformed;
+    set_ups_[j].take(*answer);
+    feedbacks_[j].take_answer(answer->address);
+    if (const auto statusword = stops_[j].take(*answer)) {
+      feedbacks_[j].take_statusword(*statusword);
     }
-    complete(j);
     return CanDecoding::accepted;
   }
 
-  [[nodiscard]] CanDecoding take_transmit_pdo_2(std::size_t j, const CanFrame& frame) noexcept {
-    if (frame.length != 6) return CanDecoding::malformed;
-    halves_[j].second = true;
-    halves_[j].velocity =
-        load_little_endian<std::int32_t, 0>(frame.data) / drives_[j].velocity_scale;
-    const auto code = load_little_endian<std::uint16_t, 4>(frame.data);
-    if (reports_[j].fault != 0 && code != 0) reports_[j].fault = code;
-    complete(j);
-    return CanDecoding::accepted;
-  }
-
-  void complete(std::size_t j) noexcept {
-    const Halves& half = halves_[j];
-    if (!half.first || !half.second) return;
-    reports_[j].position = half.position;
-    reports_[j].velocity = half.velocity;
-    reports_[j].effort = half.effort;
-    reports_[j].age = 0;
-  }
-
-  static constexpr std::uint16_t generic_error =
-      0x1000;  ///< of CiA 301, for a fault without a name
+  static constexpr auto count = static_cast<std::size_t>(joint_count);
+  /// Frames of access to objects in a cycle, at most: the queue of a CAN interface takes ten frames
+  /// by default, and commands and SYNC need room.
+  static constexpr std::size_t most_accesses = count < 8 ? 9 - count : 1;
+  /// Cycles without feedback after which the set-up does not trust that a drive is enabled.
+  static constexpr std::uint32_t doubtful_age = 20;
 
   Cia402DriveList<joint_count> drives_;
-  std::array<Cia402SetUp, static_cast<std::size_t>(joint_count)> set_ups_;
-  std::array<DriveReport, static_cast<std::size_t>(joint_count)> reports_{};
-  std::array<Halves, static_cast<std::size_t>(joint_count)> halves_{};
-  bool heard_ = false;  ///< SYNC has come since the last output
+  std::array<Cia402SetUp, count> set_ups_;
+  std::array<Cia402Stop, count> stops_{};
+  std::array<Cia402Feedback, count> feedbacks_{};
+  std::array<DriveReport, count> reports_{};
+  std::size_t next_access_ = 0;
+  bool sync_pushed_ = false;  ///< the last frames appended have SYNC
+  bool heard_ = false;        ///< SYNC has come since the last output
   std::uint64_t heard_cycles_ = 0;
 };
 

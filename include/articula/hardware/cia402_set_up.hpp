@@ -40,6 +40,8 @@ class Cia402SetUp {
     const auto command = [](canopen::NmtCommand wanted) {
       return Step{{}, Action::command_node, static_cast<std::uint32_t>(wanted)};
     };
+    // An enabled drive may keep its effort where it leaves the operational state.
+    add({cia402::controlword, Action::try_to_write, cia402::disable_voltage, 2});
     add(command(canopen::NmtCommand::enter_pre_operational));
     add({{0x1000, 0}, Action::expect_profile_402});
     add({{0x1017, 0}, Action::write, 100, 2});  // heartbeat every 100 ms
@@ -115,6 +117,11 @@ class Cia402SetUp {
         ++step_;
         continue;
       }
+      if (waiting_ && step.action == Action::try_to_write) {
+        waiting_ = false;
+        ++step_;
+        continue;
+      }
       batch.push_back(canopen::encode_request(request(step), node_));
       asked_ = elapsed;
       waiting_ = true;
@@ -129,7 +136,7 @@ class Cia402SetUp {
     waiting_ = false;
     if (answer.kind == canopen::SdoKind::abort) {
       abort_code_ = answer.value;
-      failed_ = step.action != Action::write_if_there;
+      failed_ = step.action != Action::write_if_there && step.action != Action::try_to_write;
       if (!failed_) ++step_;
       return;
     }
@@ -165,6 +172,7 @@ class Cia402SetUp {
         return;
       case Action::write:
       case Action::write_if_there:
+      case Action::try_to_write:
       case Action::write_remembered:
       case Action::command_node:
         break;
@@ -183,6 +191,7 @@ class Cia402SetUp {
   enum class Action : unsigned char {
     write,
     write_if_there,  ///< an object that drives need not have
+    try_to_write,    ///< once; a node in the stopped state does not answer
     expect_profile_402,
     expect_mode,
     remember,

@@ -66,11 +66,10 @@ class QuanserCodec {
   /// Real-time: yes.
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
     const auto all = [&](auto condition) { return std::ranges::all_of(reports_, condition); };
-    if (enabling_ &&
-        all([](const DriveReport& r) { return r.age == 0 && r.enabled && r.fault == 0; })) {
-      return CanSetUp::done;
-    }
-    if (elapsed >= next_request_) {
+    const bool done = enabling_ && all([](const DriveReport& r) {
+                        return r.age != DriveReport::never && r.enabled && r.fault == 0;
+                      });
+    if (!done && elapsed >= next_request_) {
       constexpr std::chrono::milliseconds between_requests{20};
       const bool begun = next_request_ > std::chrono::nanoseconds{};
       next_request_ = elapsed + between_requests;
@@ -85,7 +84,7 @@ class QuanserCodec {
       }
     }
     begin_cycle(batch);
-    return CanSetUp::in_progress;
+    return done ? CanSetUp::done : CanSetUp::in_progress;
   }
 
   /// One effort frame for each module, rounded to 1e-3 N m and held within the range of the frame,

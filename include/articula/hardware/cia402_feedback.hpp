@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What the feedback of one CiA 402 drive says, and how old it is.
+#pragma once
+
+#include "articula/hardware/can_codec.hpp"
+#include "articula/hardware/cia402.hpp"
+#include "articula/hardware/cia402_drive.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace articula {
+
+/// What the feedback of one drive says, and how old it is.
+///
+/// A drive answers each SYNC with one frame of each process data object, in order. A frame has no
+/// number, so frames are counted: one that comes answers the oldest SYNC without an answer, and its
+/// age is the number of SYNCs that are still without one.
+///
+/// A frame that was lost looks like one that is late. A mark tells them apart. It is a request to
+/// read an object; a drive answers it later than every SYNC before it, and frames do not overtake.
+/// So the feedback that is missing when the answer comes, to a SYNC before the request, is lost.
+/// The count is as good as the answers are fast: a drive that answers a request after n cycles may
+/// seem n - 1 cycles late after as many losses.
+class Cia402Feedback {
+ public:
+  /// Forgets all. Real-time: yes.
+  void restart() noexcept { *this = {}; }
+
+  /// A cycle begins.
+  /// @param with_sync  SYNC begins it, so an answer is due
+  /// @param report     of the drive; grows older
+  /// Real-time: yes.
+  void begin_cycle(bool with_sync, DriveReport& report) noexcept {
+    idle_before_ = idle_;
+    idle_ = with_sync ? 0 : idle_ + 1;
+    for (Stream& stream : streams_) {
+      if (with_sync) ++stream.unanswered;
+      if (stream.age < DriveReport::never - 1) ++stream.age;
+    }
+    if (with_sync) {
+      has_begun_ = true;
+      if (since_mark_ < std::numeric_limits<std::uint32_t>::max()) ++since_mark_;
+    }
+    report.age = age();
+  }
+
+  /// The last SYNC did not get onto the bus. Real-time: yes.
+  void withdraw_sync() noexcept {
+    idle_ = idle_before_ + 1;
+    for (Stream& stream : streams_) {
+      if (stream.unanswered > 0) --stream.unanswered;
+    }
+    awaits_mark_ = false;  // the request did not either
+  }
+
+  /// Takes in statusword, position and torque.
+  /// @param frame   with the identifier of TPDO 1
+  /// @param drive   whose it is
+  /// @param report  of the drive
+  /// Real-time: yes.
+  [[nodiscard]] CanDecoding take_transmit_pdo_1(const CanFrame& frame, const Cia402Drive& drive,
+                                                DriveReport& report) noexcept {
+    const auto state = cia402::state_of(load_little_endian<std::uint16_t, 0>(frame.data));
+    if (frame.length != 8 || !state) return CanDecoding::malformed;
+    if (!has_begun_) return CanDecoding::outdated;
+    const auto units = load_little_endian<std::int32_t, 2>(frame.data);
+    report.position = (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
+    report.effort = load_little_endian<std::int16_t, 6>(frame.data) * drive.rated_effort / 1e3;
+    report.enabled = *state == cia402::State::operation_enabled;
+    powered_ = cia402::may_exert(*state);
+    const bool fault =
+        *state == cia402::State::fault || *state == cia402::State::fault_reaction_active;
+    if (!fault) {
+      report.fault = 0;
+    } else if (report.fault == 0) {
+      report.fault = emergency_ != 0 ? emergency_ : generic_error;
+    }
+    answer(streams_[0], report);
+    return CanDecoding::accepted;
+  }
+
+  /// Takes in velocity and error code, as take_transmit_pdo_1. Real-time: yes.
+  [[nodiscard]] CanDecoding take_transmit_pdo_2(const CanFrame& frame, const Cia402Drive& drive,
+                                                DriveReport& report) noexcept {
+    if (frame.length != 6) return CanDecoding::malformed;
+    if (!has_begun_) return CanDecoding::outdated;
+    report.velocity = load_little_endian<std::int32_t, 0>(frame.data) / drive.velocity_scale;
+    const auto code = load_little_endian<std::uint16_t, 4>(frame.data);
+    if (report.fault != 0 && code != 0) report.fault = code;
+    answer(streams_[1], report);
+    return CanDecoding::accepted;
+  }
+
+  /// Takes in an emergency message. It gives a fault its name; whether there is one, the statusword
+  /// says. Real-time: yes.
+  [[nodiscard]] CanDecoding take_emergency(const CanFrame& frame) noexcept {
+    const auto emergency = canopen::decode_emergency(frame);
+    if (!emergency) return CanDecoding::malformed;
+    emergency_ = emergency->code;
+    return CanDecoding::accepted;
+  }
+
+  /// The request for a mark, where some answer is missing and no mark was placed of late. The
+  /// object is one that every node has or refuses; either is an answer. Real-time: yes.
+  [[nodiscard]] std::optional<canopen::Sdo> next_mark() noexcept {
+    if (streams_[0].unanswered == 0 && streams_[1].unanswered == 0) return {};
+    constexpr std::uint32_t interval = 10, patience = 20;  // [cycles]
+    if (since_mark_ < (awaits_mark_ ? patience : interval)) return {};
+    // A late answer to the mark before must not pass for one to this.
+    constexpr std::uint8_t objects = 5;  // of the identity [CiA 301, object 1018h]
+    mark_number_ = static_cast<std::uint8_t>((mark_number_ + 1) % objects);
+    place_mark({0x1018, mark_number_});
+    return canopen::Sdo{canopen::SdoKind::upload, mark_, 0, 0};
+  }
+
+  /// Any access to an object is a mark: it is requested now. Real-time: yes.
+  void place_mark(const canopen::ObjectAddress& object) noexcept {
+    mark_ = object;
+    since_mark_ = 0;
+    awaits_mark_ = true;
+  }
+
+  /// Takes in a statusword that was read by access to the object. Real-time: yes.
+  void take_statusword(std::uint16_t bits) noexcept {
+    const auto state = cia402::state_of(bits);
+    powered_ = !state || cia402::may_exert(*state);
+  }
+
+  /// Whether the drive may exert effort: it has not said that it does not. Real-time: yes.
+  [[nodiscard]] bool powered() const noexcept { return powered_; }
+
+  /// The answer to an access has come. Real-time: yes.
+  void take_answer(const canopen::ObjectAddress& object) noexcept {
+    if (!awaits_mark_ || object != mark_) return;
+    awaits_mark_ = false;
+    for (Stream& stream : streams_) stream.unanswered = std::min(stream.unanswered, since_mark_);
+  }
+
+ private:
+  /// One process data object.
+  struct Stream {
+    std::uint32_t unanswered = 0;            ///< SYNCs that it has not answered
+    std::uint32_t age = DriveReport::never;  ///< of its last frame [cycles]
+  };
+
+  [[nodiscard]] std::uint32_t age() const noexcept {
+    return std::max(streams_[0].age, streams_[1].age);
+  }
+  void answer(Stream& stream, DriveReport& report) noexcept {
+    if (stream.unanswered > 0) --stream.unanswered;
+    stream.age = stream.unanswered + idle_;
+    report.age = age();
+  }
+
+  static constexpr std::uint16_t generic_error =
+      0x1000;  ///< of CiA 301, for a fault without a name
+  static constexpr std::uint32_t long_ago = 1000;
+
+  std::array<Stream, 2> streams_{};
+  bool powered_ = true;
+  bool has_begun_ = false;         ///< a SYNC has been since the beginning
+  std::uint32_t idle_ = 0;         ///< cycles since the last SYNC
+  std::uint32_t idle_before_ = 0;  ///< the same, before the last cycle began
+  bool awaits_mark_ = false;
+  canopen::ObjectAddress mark_{};
+  std::uint8_t mark_number_ = 0;
+  std::uint32_t since_mark_ = long_ago;  ///< SYNCs since the mark was placed
+  std::uint16_t emergency_ = 0;
+};
+
+}  // namespace articula
