@@ -317,6 +317,30 @@ TEST_CASE("a drive that is silent does not shift the loop's pace") {
   CHECK(bench.loop.hardware().fault().joint == 1);
 }
 
+TEST_CASE("drives that answer another node's SYNC after the next one are late, and driven") {
+  for (const auto delay : {1200us, 2200us, 3200us}) {
+    CAPTURE(delay.count());
+    const auto bus = make_bus();
+    bus->feedback_delay = delay;
+    bus->pass(500us);  // the host's cycles are half a period after SYNC
+    Arm arm = make_arm(bus);
+    const bool too_late = delay > 3ms;
+    CHECK(arm.activate() == (too_late ? Status::hardware_fault : Status::ok));
+    if (too_late) continue;
+    JointState<2> state;
+    for (int k = 0; k < 200; ++k) {
+      bus->pass(1ms);
+      REQUIRE(arm.read(state) == Status::ok);
+      // Before the first marks are answered a drive may seem later than it is.
+      const auto age = static_cast<std::uint32_t>(delay / 1ms);
+      REQUIRE(arm.reports()[0].age >= age);
+      if (k >= 20) REQUIRE(arm.reports()[0].age == age);
+      REQUIRE(arm.write({{1, -1}}) == Status::ok);
+    }
+    CHECK(arm.deactivate() == Status::ok);
+  }
+}
+
 TEST_CASE("SYNC may have a counter, and no more than that") {
   Cia402Codec<Q2d, EffortCommand<2>, SyncProducer::another_node> codec(drives);
   CanFrame sync = canopen::encode_sync();

@@ -154,9 +154,10 @@ class Cia402Codec {
     end_output(batch);
   }
 
-  /// The last frames appended did not all get onto the bus, so SYNC, the last, did not.
+  /// The bus did not take all frames of the last output, so it did not take SYNC, the last.
   /// Real-time: yes. O(N).
   void withdraw() noexcept {
+    for (Cia402Stop& stop : stops_) stop.withdraw();
     if (!sync_pushed_) return;
     for (Cia402Feedback& feedback : feedbacks_) feedback.withdraw_sync();
     sync_pushed_ = false;

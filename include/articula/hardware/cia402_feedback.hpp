@@ -105,12 +105,14 @@ class Cia402Feedback {
     return CanDecoding::accepted;
   }
 
-  /// The request for a mark, where some answer is missing and no mark was placed of late. The
-  /// object is one that every node has or refuses; either is an answer. Real-time: yes.
+  /// The request for a mark, where more answers are missing than at the last mark, or some are and
+  /// that one was long ago. Every node has the object or refuses it; either is an answer.
+  /// Real-time: yes.
   [[nodiscard]] std::optional<canopen::Sdo> next_mark() noexcept {
-    if (streams_[0].unanswered == 0 && streams_[1].unanswered == 0) return {};
     constexpr std::uint32_t interval = 10, patience = 20;  // [cycles]
-    if (since_mark_ < (awaits_mark_ ? patience : interval)) return {};
+    if (lag() == 0 || since_mark_ == 0) return {};
+    const bool known = lag() <= known_lag_ && since_mark_ < interval;
+    if (awaits_mark_ ? since_mark_ < patience : known) return {};
     // A late answer to the mark before must not pass for one to this.
     constexpr std::uint8_t objects = 5;  // of the identity [CiA 301, object 1018h]
     mark_number_ = static_cast<std::uint8_t>((mark_number_ + 1) % objects);
@@ -139,6 +141,7 @@ class Cia402Feedback {
     if (!awaits_mark_ || object != mark_) return;
     awaits_mark_ = false;
     for (Stream& stream : streams_) stream.unanswered = std::min(stream.unanswered, since_mark_);
+    known_lag_ = lag();
   }
 
  private:
@@ -148,6 +151,9 @@ class Cia402Feedback {
     std::uint32_t age = DriveReport::never;  ///< of its last frame [cycles]
   };
 
+  [[nodiscard]] std::uint32_t lag() const noexcept {
+    return std::max(streams_[0].unanswered, streams_[1].unanswered);
+  }
   [[nodiscard]] std::uint32_t age() const noexcept {
     return std::max(streams_[0].age, streams_[1].age);
   }
@@ -170,6 +176,7 @@ class Cia402Feedback {
   canopen::ObjectAddress mark_{};
   std::uint8_t mark_number_ = 0;
   std::uint32_t since_mark_ = long_ago;  ///< SYNCs since the mark was placed
+  std::uint32_t known_lag_ = 0;          ///< SYNCs without an answer when the last mark's came
   std::uint16_t emergency_ = 0;
 };
 

@@ -37,6 +37,9 @@ class Cia402Stop {
     return batch.push_back(canopen::encode_request(request(), node));
   }
 
+  /// The bus did not take the last frame. Real-time: yes.
+  void withdraw() noexcept { waits_ = false; }
+
   /// Takes in the node's answer; one to another question is ignored.
   /// @return the statusword, if that is the answer
   /// Real-time: yes.
