@@ -284,7 +284,9 @@ TEST_CASE("the loop is paced by the drives' SYNC, which stops for a moment, then
     const auto unpaced = loop.hardware().statistics().unpaced;
     recovered = recovered || (unpaced >= 3 && now.status == Status::ok);
     cause = loop.hardware().fault().cause;
-    return cause == CanCause::none;
+    if (cause != CanCause::none) return false;
+    static_cast<void>(peer.receive_all());
+    return true;
   });
   CAPTURE(ok, heard, clock.timeouts(), clock.skipped(), report.cycles, to_string(cause));
   CHECK(ok >= paced_cycles * 9 / 10);
@@ -293,9 +295,9 @@ TEST_CASE("the loop is paced by the drives' SYNC, which stops for a moment, then
   CHECK(recovered);
   CHECK(cause == CanCause::no_sync);
 
-  // Without SYNC the drives are stopped through their objects, and get no command any more.
-  static_cast<void>(peer.receive_all());
-  CHECK(loop.hardware().deactivate() == Status::hardware_fault);
+  // Without SYNC the drives are stopped through their objects, which they confirm, and get no
+  // command any more.
+  CHECK(loop.hardware().deactivate() == Status::ok);
   bool stopped = false;
   for (const can_frame& frame : peer.receive_all()) {
     const auto controlword = static_cast<unsigned>(frame.data[0] | frame.data[1] << 8);
@@ -309,6 +311,31 @@ TEST_CASE("the loop is paced by the drives' SYNC, which stops for a moment, then
   CHECK(run(loop, clock, {.cycles = 20}, [](auto&, const RunReport&) { return true; }).end ==
         RunEnd::finished);
   CHECK(loop.hardware().fault().cause == CanCause::none);
+}
+
+TEST_CASE("a CiA 402 drive that is made to leave operation is stopped, and says so") {
+  const Interface interface;
+  const DrivesProcess drives({"--lockstep", "--protocol=cia402"});
+  using Arm = CanHardware<Q2d, Cia402Codec<Q2d>, SocketCan>;
+  Loop<Arm, PidPlusGravity> loop(Arm(Cia402Codec<Q2d>(examples::q2d_cia402), SocketCan("vcan0")));
+  loop.reference().position = {-0.5, 0.5};
+  for (int k = 0; k < 20; ++k) REQUIRE(paced_update(loop, 60s) == Status::ok);
+  const auto statusword = [] {
+    const RawPeer peer;
+    REQUIRE(peer.send(0x602, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}));
+    while (const auto frame = peer.receive(60'000)) {
+      if (frame->can_id == 0x582) return frame->data[4] | frame->data[5] << 8;
+    }
+    return -1;
+  };
+  CHECK((statusword() & 0x6f) == 0x27);  // operation enabled
+  shell("cansend vcan0 000#8002");
+  REQUIRE(fails_within(loop, 100));
+  CHECK(loop.hardware().fault().joint == 1);
+  CHECK(loop.hardware().deactivate() == Status::ok);
+  CHECK((statusword() & 0x4f) == 0x40);  // switch on disabled
+  REQUIRE(loop.hardware().activate() == Status::ok);
+  CHECK(paced_update(loop, 2s) == Status::ok);
 }
 
 #ifdef ARTICULA_ALLOCATION_GUARD

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -19,7 +20,7 @@ namespace articula {
 ///
 /// A drive answers each SYNC with one frame of each process data object, in order. A frame has no
 /// number, so frames are counted: one that comes answers the oldest SYNC without an answer, and its
-/// age is the number of SYNCs that are still without one.
+/// age is the number of cycles since that SYNC.
 ///
 /// A frame that was lost looks like one that is late. A mark tells them apart. It is a request to
 /// read an object; a drive answers it later than every SYNC before it, and frames do not overtake.
@@ -36,8 +37,7 @@ class Cia402Feedback {
   /// @param report     of the drive; grows older
   /// Real-time: yes.
   void begin_cycle(bool with_sync, DriveReport& report) noexcept {
-    idle_before_ = idle_;
-    idle_ = with_sync ? 0 : idle_ + 1;
+    syncs_ = syncs_ << 1 | std::uint64_t{with_sync};
     for (Stream& stream : streams_) {
       if (with_sync) ++stream.unanswered;
       if (stream.age < DriveReport::never - 1) ++stream.age;
@@ -51,7 +51,7 @@ class Cia402Feedback {
 
   /// The last SYNC did not get onto the bus. Real-time: yes.
   void withdraw_sync() noexcept {
-    idle_ = idle_before_ + 1;
+    syncs_ &= ~std::uint64_t{1};
     for (Stream& stream : streams_) {
       if (stream.unanswered > 0) --stream.unanswered;
     }
@@ -159,8 +159,15 @@ class Cia402Feedback {
   }
   void answer(Stream& stream, DriveReport& report) noexcept {
     if (stream.unanswered > 0) --stream.unanswered;
-    stream.age = stream.unanswered + idle_;
+    stream.age = cycles_since(stream.unanswered);
     report.age = age();
+  }
+  /// Cycles since the last SYNC but n.
+  [[nodiscard]] std::uint32_t cycles_since(std::uint32_t n) const noexcept {
+    constexpr std::uint32_t most = 64;
+    std::uint64_t syncs = n < most ? syncs_ : 0;
+    for (; n > 0 && syncs != 0; --n) syncs &= syncs - 1;  // leaves out the last one
+    return static_cast<std::uint32_t>(std::countr_zero(syncs));
   }
 
   static constexpr std::uint16_t generic_error =
@@ -169,9 +176,9 @@ class Cia402Feedback {
 
   std::array<Stream, 2> streams_{};
   bool powered_ = true;
-  bool has_begun_ = false;         ///< a SYNC has been since the beginning
-  std::uint32_t idle_ = 0;         ///< cycles since the last SYNC
-  std::uint32_t idle_before_ = 0;  ///< the same, before the last cycle began
+  bool has_begun_ = false;   ///< a SYNC has been since the beginning
+  std::uint64_t syncs_ = 0;  ///< a bit for each of the last cycles: it had SYNC; bit 0 is
+                             ///< the last one
   bool awaits_mark_ = false;
   canopen::ObjectAddress mark_{};
   std::uint8_t mark_number_ = 0;
