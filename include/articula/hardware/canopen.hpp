@@ -21,7 +21,8 @@ inline constexpr std::uint32_t receive_pdo_1_base = 0x200;   ///< host to node
 inline constexpr std::uint32_t transmit_pdo_2_base = 0x280;  ///< node to host
 inline constexpr std::uint32_t sdo_answer_base = 0x580;      ///< node to host
 inline constexpr std::uint32_t sdo_request_base = 0x600;     ///< host to node
-inline constexpr std::uint32_t heartbeat_base = 0x700;       ///< node to host
+inline constexpr std::uint32_t heartbeat_base = 0x700;       ///< node to all
+inline constexpr std::uint32_t pdo_spacing = 0x100;          ///< from one PDO's base to the next
 inline constexpr std::uint8_t last_node = 127;
 
 /// A network management command [CiA 301, 7.2.8].
@@ -61,7 +62,8 @@ struct Sdo {
   SdoKind kind = SdoKind::upload;
   ObjectAddress address{};
   std::uint32_t value = 0;  ///< little-endian bits; what lies beyond the size is 0
-  std::uint8_t size = 0;    ///< bytes of the value, 1 .. 4; 0 where there is none
+  std::uint8_t size = 0;    ///< bytes of the value, 1 .. 4; 0: there is none, or the node does
+                            ///< not tell how many of the four bytes count
 };
 
 /// An emergency message: what has gone wrong in a node.
@@ -93,21 +95,24 @@ namespace detail {
   return frame;
 }
 
-/// Command byte of an expedited transfer whose size is told: how many of the 4 bytes are empty
-/// stands in bits 2 and 3.
+/// Command byte of an expedited transfer. Bit 0 says that the size is told; bits 2 and 3 tell how
+/// many of the 4 bytes are empty then.
 [[nodiscard]] constexpr std::uint8_t expedited(std::uint8_t specifier, std::uint8_t size) noexcept {
+  if (size == 0) return static_cast<std::uint8_t>(specifier | 0x02);
   return static_cast<std::uint8_t>(specifier | (4 - size) << 2 | 0x03);
 }
 
-/// A value, if the command byte tells that there is one and the unused bytes are empty.
+/// A value, if the command byte says that the frame has one.
 [[nodiscard]] constexpr std::optional<Sdo> with_value(const CanFrame& frame, std::uint8_t specifier,
                                                       SdoKind kind) noexcept {
   const std::uint8_t command = frame.data[0];
-  if ((command & 0xe3) != (specifier | 0x03) || (command & 0x10) != 0) return {};
+  if ((command & 0xf2) != (specifier | 0x02)) return {};
   Sdo sdo{kind,
           {load_little_endian<std::uint16_t, 1>(frame.data), frame.data[3]},
           load_little_endian<std::uint32_t, 4>(frame.data),
-          static_cast<std::uint8_t>(4 - (command >> 2 & 3))};
+          0};
+  if ((command & 0x01) == 0) return sdo;  // the size is not told
+  sdo.size = static_cast<std::uint8_t>(4 - (command >> 2 & 3));
   // Nodes may leave rubbish in the bytes beyond the size [CiA 301, 7.2.4.3.3: "do not care"].
   if (sdo.size < 4) sdo.value &= (std::uint32_t{1} << (8 * sdo.size)) - 1;
   return sdo;

@@ -23,6 +23,8 @@ inline constexpr canopen::ObjectAddress velocity_actual{0x606c, 0};
 inline constexpr canopen::ObjectAddress target_torque{0x6071, 0};
 inline constexpr canopen::ObjectAddress torque_actual{0x6077, 0};
 inline constexpr canopen::ObjectAddress target_position{0x607a, 0};
+inline constexpr canopen::ObjectAddress velocity_offset{0x60b1, 0};
+inline constexpr canopen::ObjectAddress torque_offset{0x60b2, 0};
 inline constexpr canopen::ObjectAddress interpolation_period{0x60c2, 1};
 inline constexpr canopen::ObjectAddress interpolation_exponent{0x60c2, 2};
 inline constexpr canopen::ObjectAddress target_velocity{0x60ff, 0};
@@ -94,6 +96,17 @@ enum class State : std::uint8_t {
       return {};
   }
 }
+
+/// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
+/// Real-time: yes.
+[[nodiscard]] constexpr bool may_exert(State state) noexcept {
+  return state == State::operation_enabled || state == State::quick_stop_active ||
+         state == State::fault_reaction_active;
+}
+
+/// In the cyclic modes this bit of the statusword says that the drive follows the target
+/// [CiA 402-2, cyclic synchronous modes]. Some drives never set it.
+inline constexpr std::uint16_t follows_target = 0x1000;
 
 /// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
 /// Real-time: yes.

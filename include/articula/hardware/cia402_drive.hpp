@@ -5,6 +5,7 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/hardware/canopen.hpp"
+#include "articula/hardware/canopen_object_value.hpp"
 #include "articula/model/robot.hpp"
 
 #include <array>
@@ -15,6 +16,13 @@
 
 namespace articula {
 
+/// What stops a drive when its host is gone: the program has ended, or the cable is cut.
+enum class Cia402Watchdog : unsigned char {
+  commands,   ///< RPDOs that stay away: the deadline of object 1400h,5. Not all drives have it.
+  heartbeat,  ///< The host's heartbeats that stay away: object 1016h. See Cia402Drive::host_node.
+  none,       ///< Nothing: the drive goes on with its last command until its power is taken.
+};
+
 /// One CiA 402 drive: its node and its units, seen from the joint.
 struct Cia402Drive {
   std::uint8_t node = 0;      ///< 1 .. 127, no two alike
@@ -24,13 +32,20 @@ struct Cia402Drive {
   double velocity_scale = 1;  ///< velocity units per rad/s or m/s of the joint
   std::int32_t zero_position =
       0;  ///< position of the drive where the joint's is 0 [position units]
+  Cia402Watchdog watchdog = Cia402Watchdog::commands;  ///< what stops it when the host is gone
+  std::uint8_t host_node = canopen::last_node;  ///< node that the host's heartbeats come from, for
+                                                ///< Cia402Watchdog::heartbeat
+  /// Further objects that activation writes, after its own and before the drive is enabled, such as
+  /// 6072h (most torque), 605Ah .. 605Eh (ways to stop), 1006h or 60C2h (the period).
+  canopen::ObjectValues objects{};
 };
 
 /// Drives in the order of the joints.
 template <int N>
 using Cia402DriveList = std::array<Cia402Drive, static_cast<std::size_t>(N)>;
 
-/// Refuses drives that cannot drive a robot: nodes out of range or used twice, scales that are not
+/// Refuses drives that cannot drive a robot: nodes out of range or used twice, host nodes that are
+/// drives, or differ, scales that are not
 /// finite or 0, positions and efforts that do not fit into the objects.
 /// @throws std::invalid_argument naming the joint, the value and the limit
 /// Real-time: no (throws).
@@ -47,6 +62,21 @@ void validate(const R& robot, const Cia402DriveList<joint_count<R>>& drives) {
     }
     for (std::size_t other = 0; other < j; ++other) {
       if (drives[other].node == drive.node) refuse({"node ", int{drive.node}, " is used twice"});
+    }
+    if (drive.watchdog == Cia402Watchdog::heartbeat) {
+      if (drive.host_node < 1 || drive.host_node > canopen::last_node) {
+        refuse({"host_node ", int{drive.host_node}, " is not within 1 .. ",
+                int{canopen::last_node}});
+      }
+      for (const Cia402Drive& other : drives) {
+        if (other.node == drive.host_node) {
+          refuse({"host_node ", int{drive.host_node}, " is the node of a drive"});
+        }
+        if (other.watchdog == drive.watchdog && other.host_node != drive.host_node) {
+          refuse({"host_node ", int{drive.host_node}, " differs from another drive's ",
+                  int{other.host_node}});
+        }
+      }
     }
     const auto scale = [&](std::string_view what, double value) {
       if (is_finite(value) && value != 0) return;
