@@ -4,6 +4,7 @@
 
 #include "articula/core/joint_command.hpp"
 #include "articula/hardware/can_batch.hpp"
+#include "articula/hardware/can_fault.hpp"
 
 #include <chrono>
 #include <concepts>
@@ -95,6 +96,24 @@ concept CanCodec = JointCommand<typename C::Command, C::joint_count> &&
   { constant.reports() }
   noexcept
       ->std::convertible_to<std::span<const DriveReport, static_cast<std::size_t>(C::joint_count)>>;
+};
+
+/// A codec whose drives have watchdogs that would report a fault after a clean end. Once the drives
+/// have let go, `release(elapsed, batch)` appends the frames that take the watchdogs off; it is
+/// called about once a cycle, `elapsed` from zero on, until it says done.
+template <class C>
+concept ReleasingCanCodec = CanCodec<C> &&
+    requires(C codec, std::chrono::nanoseconds elapsed, CanBatch& batch) {
+  { codec.release(elapsed, batch) }
+  noexcept->std::same_as<CanSetUp>;
+};
+
+/// A codec that can tell why the set-up has not come to its end: which drive it was, and what it
+/// has refused.
+template <class C>
+concept ExplainingCanCodec = CanCodec<C> && requires(const C& constant) {
+  { constant.set_up_fault() }
+  noexcept->std::same_as<CanFault>;
 };
 
 /// A codec whose drives' cycles are begun by a frame of another node, which can pace a loop:

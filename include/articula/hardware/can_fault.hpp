@@ -2,6 +2,8 @@
 /// @file What can go wrong between a loop and its drives.
 #pragma once
 
+#include "articula/hardware/canopen.hpp"
+
 #include <cstdint>
 #include <string_view>
 
@@ -11,6 +13,7 @@ namespace articula {
 enum class CanCause : unsigned char {
   none,           ///< All is well.
   no_activation,  ///< The drives could not be enabled in time, or one has refused.
+  no_watchdog,    ///< A drive has no watchdog as its description asks for.
   link_down,      ///< The interface is switched off.
   link_gone,      ///< The interface does not exist any more.
   bus_off,        ///< The controller has left the bus after too many errors.
@@ -26,6 +29,10 @@ struct CanFault {
   CanCause cause = CanCause::none;
   int joint = -1;          ///< index of the joint whose drive it was; -1 if it was no drive
   std::uint16_t code = 0;  ///< the drive's own fault code; 0 if it gave none
+  /// At activation of CANopen drives: the object that the drive has refused, or has not answered
+  /// for; index 0 if it was none.
+  canopen::ObjectAddress object{};
+  std::uint32_t abort_code = 0;  ///< with which the drive has refused [CiA 301, table 22], or 0
 };
 
 /// The cause in words, for messages and logs. Real-time: yes.
@@ -35,6 +42,8 @@ struct CanFault {
       return "no fault";
     case CanCause::no_activation:
       return "the drives could not be enabled";
+    case CanCause::no_watchdog:
+      return "a drive has no watchdog";
     case CanCause::link_down:
       return "the CAN interface is down";
     case CanCause::link_gone:

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace articula {
 
@@ -50,6 +51,31 @@ template <class T, std::size_t Offset, std::size_t Bytes = sizeof(T)>
     return static_cast<T>(static_cast<std::int32_t>(extended));
   } else {
     return static_cast<T>(bits);
+  }
+}
+
+/// Reads an integer of as many bytes as its type has, where the first byte is known at run time.
+/// @param offset  first byte; the integer must end within the payload
+/// Real-time: yes.
+template <class T>
+[[nodiscard]] constexpr T load_little_endian(const std::array<std::uint8_t, 8>& data,
+                                             std::size_t offset) noexcept {
+  std::make_unsigned_t<T> bits = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    bits = static_cast<decltype(bits)>(bits | std::uint32_t{data[offset + i]} << (8 * i));
+  }
+  return static_cast<T>(bits);
+}
+
+/// Writes an integer where the first byte is known at run time.
+/// @param offset  first byte; the integer must end within the payload
+/// Real-time: yes.
+template <class T>
+constexpr void store_little_endian(std::array<std::uint8_t, 8>& data, std::size_t offset,
+                                   T value) noexcept {
+  const auto bits = static_cast<std::uint32_t>(value);
+  for (std::size_t i = 0; i < sizeof(T); ++i) {
+    data[offset + i] = static_cast<std::uint8_t>(bits >> (8 * i) & 0xff);
   }
 }
 

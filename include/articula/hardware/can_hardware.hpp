@@ -116,7 +116,9 @@ class CanHardware {
     fault_ = {CanCause::no_activation};
     blame([&](const DriveReport& r) { return r.fault != 0 || r.age >= options_.stale_after; });
     if (fault_.joint < 0) blame([](const DriveReport& r) { return !r.enabled; });
-    if (is_paced && heard_cycles() == heard_before) fault_ = {CanCause::no_sync};
+    if constexpr (ExplainingCanCodec<Codec>) fault_ = codec_.set_up_fault();
+    const bool refused = fault_.abort_code != 0;
+    if (is_paced && !refused && heard_cycles() == heard_before) fault_ = {CanCause::no_sync};
     static_cast<void>(stop());
     return Status::hardware_fault;
   }
@@ -371,8 +373,14 @@ class CanHardware {
     }
   }
 
-  /// Tells the drives to let go until all have said that they have.
+  /// Tells the drives to let go until all have said that they have, and releases them.
   [[nodiscard]] Status stop() noexcept {
+    const Status status = let_go();
+    release();
+    return status;
+  }
+
+  [[nodiscard]] Status let_go() noexcept {
     constexpr int patience = 100;  // set-up periods; some drives answer an access that late
     for (int k = 0; k < patience; ++k) {
       CanBatch batch;
@@ -382,6 +390,21 @@ class CanHardware {
       if (all_let_go()) return Status::ok;
     }
     return Status::hardware_fault;
+  }
+
+  /// Takes the drives' watchdogs off, where the codec can.
+  void release() noexcept {
+    if constexpr (ReleasingCanCodec<Codec>) {
+      constexpr std::chrono::milliseconds patience{250};  // an access may be lost, twice
+      const auto begin = transport_.now();
+      for (auto tick = begin; tick - begin <= patience; tick += options_.set_up_period) {
+        CanBatch batch;
+        if (codec_.release(tick - begin, batch) == CanSetUp::done) return;
+        if (batch.empty()) codec_.encode_stop(batch);  // until then the watchdogs want commands
+        static_cast<void>(send(batch));
+        listen_until(tick + options_.set_up_period);
+      }
+    }
   }
 
   void listen_until(std::chrono::nanoseconds end) noexcept {

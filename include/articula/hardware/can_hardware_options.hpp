@@ -25,8 +25,9 @@ struct CanHardwareOptions {
   std::chrono::nanoseconds feedback_time = std::chrono::microseconds(500);
   /// Time between two steps of the drives' set-up, about the period of the loop.
   std::chrono::nanoseconds set_up_period = std::chrono::milliseconds(1);
-  /// Longest time that the set-up may take.
-  std::chrono::nanoseconds set_up_time = std::chrono::seconds(5);
+  /// Longest time that the set-up may take. Some drives take many seconds to boot, to charge their
+  /// capacitors, or to find how motor and encoder stand to each other.
+  std::chrono::nanoseconds set_up_time = std::chrono::seconds(20);
 };
 
 /// Refuses options that make no sense.

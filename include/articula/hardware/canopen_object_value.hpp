@@ -39,12 +39,13 @@ class ObjectValues {
   /// Real-time: no (throws).
   constexpr ObjectValues(std::initializer_list<ObjectValue> values) {
     if (values.size() > capacity) {
-      detail::refuse({"CANopen: ", values.size(), " objects are more than the ", capacity,
-                      " that a node can be given"});
+      articula::detail::refuse({"CANopen: ", values.size(), " objects are more than the ", capacity,
+                                " that a node can be given"});
     }
     for (const ObjectValue& value : values) {
       if (value.size < 1 || value.size > 4) {
-        detail::refuse({"CANopen: object ", to_string(value.address), ": size ", int{value.size}, " is not within 1 .. 4 bytes"});
+        articula::detail::refuse({"CANopen: object ", to_string(value.address), ": size ",
+                                  int{value.size}, " is not within 1 .. 4 bytes"});
       }
       values_[size_++] = value;
     }

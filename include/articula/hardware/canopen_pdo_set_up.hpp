@@ -178,8 +178,11 @@ class PdoSetUp {
     ready_ = true;
     return fixed_ ? Stage::switch_on : Stage::clear;
   }
+  [[nodiscard]] constexpr bool is_left_out(const PdoTask::Wish& wish) const noexcept {
+    return !wish.required && (!optional_ || mapping_.length() + wish.object.bits / 8U > 8);
+  }
   constexpr void next_wish() noexcept {
-    while (wish_ < task_.wish_count && !task_.wishes[wish_].required && !optional_) ++wish_;
+    while (wish_ < task_.wish_count && is_left_out(task_.wishes[wish_])) ++wish_;
     stage_ = wish_ < task_.wish_count ? Stage::map : Stage::count;
   }
   constexpr void next_entry() noexcept {
@@ -189,8 +192,8 @@ class PdoSetUp {
     }
     const auto has = [&](const PdoTask::Wish& wish) { return mapping_.contains(wish.object); };
     const auto wishes = std::span(task_.wishes).first(task_.wish_count);
-    const bool of_use = is_receive() ? std::ranges::all_of(wishes, has)
-                                     : std::ranges::any_of(wishes, has);
+    const bool of_use =
+        is_receive() ? std::ranges::all_of(wishes, has) : std::ranges::any_of(wishes, has);
     if (!of_use) mapping_.clear();
     stage_ = Stage::done;
     if (of_use) stage_ = ready_ ? Stage::switch_on : Stage::read_identifier;

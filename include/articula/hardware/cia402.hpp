@@ -108,13 +108,6 @@ enum class State : std::uint8_t {
 /// [CiA 402-2, cyclic synchronous modes]. Some drives never set it.
 inline constexpr std::uint16_t follows_target = 0x1000;
 
-/// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
-/// Real-time: yes.
-[[nodiscard]] constexpr bool may_exert(State state) noexcept {
-  return state == State::operation_enabled || state == State::quick_stop_active ||
-         state == State::fault_reaction_active;
-}
-
 // Values of the controlword.
 inline constexpr std::uint16_t disable_voltage = 0x00;
 inline constexpr std::uint16_t shutdown = 0x06;

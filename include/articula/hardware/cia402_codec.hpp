@@ -4,6 +4,7 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/hardware/can_codec.hpp"
+#include "articula/hardware/can_fault.hpp"
 #include "articula/hardware/cia402.hpp"
 #include "articula/hardware/cia402_drive.hpp"
 #include "articula/hardware/cia402_feedback.hpp"
@@ -19,6 +20,7 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace articula {
@@ -37,9 +39,13 @@ namespace articula {
 /// another device, one of the drives or a master (objects 1005h, 1006h), at the loop's period. The
 /// drives are stopped by access to their objects as well then, since without SYNC no RPDO counts.
 ///
-/// A drive is to fault when RPDO 1 stays away for the deadline (object 1400h, 5, where it has one).
-/// Other process data objects that a drive sends by itself are to be switched off in its
-/// configuration: they would only load the bus.
+/// Drives without torque, velocity or error code do without them: effort is 0 then, velocity the
+/// difference of two positions. Mappings that a drive does not let change are used as they are, see
+/// Cia402PdoSetUp.
+///
+/// A drive is to fault when RPDOs, or the host's heartbeats, stay away for the deadline, see
+/// Cia402Watchdog. Other process data objects that a drive sends by itself are to be switched off
+/// in its configuration: they would only load the bus.
 /// @tparam R            the robot
 /// @tparam CommandType  what the drives follow
 /// @tparam Sync         who sends SYNC
@@ -67,9 +73,13 @@ class Cia402Codec {
   Cia402Codec(const R& robot, const Cia402DriveList<joint_count>& drives, std::uint8_t period = 1,
               std::uint16_t deadline = 10)
       : drives_(drives),
+        cycles_per_beat_(std::max(1, deadline / (3 * std::max<int>(1, period)))),
         set_ups_(make_set_ups(drives, period, deadline,
                               std::make_index_sequence<static_cast<std::size_t>(joint_count)>())) {
     validate(robot, drives);
+    for (const Cia402Drive& drive : drives) {
+      if (drive.watchdog == Cia402Watchdog::heartbeat) host_node_ = drive.host_node;
+    }
     if (period == 0) throw std::invalid_argument("CiA 402: the period is 0 ms");
     if (deadline == 0) throw std::invalid_argument("CiA 402: the deadline is 0 ms");
   }
@@ -87,9 +97,11 @@ class Cia402Codec {
       subscription.last_of_cycle = canopen::receive_pdo_1_base + drives_.back().node;
       subscription.frames_per_cycle = count + most_accesses;
     }
+    if (host_node_ != 0) ++subscription.frames_per_cycle;
     for (const Cia402Drive& drive : drives_) {
       for (const std::uint32_t base :
-           {canopen::transmit_pdo_1_base, canopen::transmit_pdo_2_base, canopen::emergency_base,
+           {canopen::transmit_pdo_1_base, canopen::transmit_pdo_2_base,
+            canopen::transmit_pdo_3_base, canopen::transmit_pdo_4_base, canopen::emergency_base,
             canopen::sdo_answer_base, canopen::heartbeat_base}) {
         subscription.identifiers.push_back(base + drive.node);
       }
@@ -101,6 +113,7 @@ class Cia402Codec {
   void restart() noexcept {
     reports_.fill({});
     for (Cia402Feedback& feedback : feedbacks_) feedback.restart();
+    since_beat_ = cycles_per_beat_;
     for (Cia402Stop& stop : stops_) stop.restart();
     for (Cia402SetUp& set_up : set_ups_) set_up.restart();
   }
@@ -109,7 +122,7 @@ class Cia402Codec {
   /// is done when all have said where they are. Real-time: yes. O(N).
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
     sync_pushed_ = false;
-    bool all_enabled = true, all_known = true;
+    bool all_enabled = true, all_known = true, all_follow = true;
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       const std::size_t before = batch.size();
       const CanSetUp progress = set_ups_[j].advance(elapsed, batch);
@@ -119,16 +132,50 @@ class Cia402Codec {
       const bool known = reports_[j].age < doubtful_age && reports_[j].enabled;
       if (!known) set_ups_[j].doubt(elapsed);
       all_known = all_known && known;
+      all_follow = all_follow && feedbacks_[j].has_followed();
     }
+    if (!all_known) known_since_ = elapsed;
     if (!all_enabled) return CanSetUp::in_progress;
     push_marks(batch);
     if (sends_sync) end_output(batch);
-    return all_known ? CanSetUp::done : CanSetUp::in_progress;
+    // A drive may take a moment until it follows its target. Some follow and never say so.
+    const bool never_said = elapsed - known_since_ >= canopen::SdoClient::patience;
+    return all_known && (all_follow || never_said) ? CanSetUp::done : CanSetUp::in_progress;
   }
 
-  /// RPDO 1 for each drive, in the drive's units, rounded and held within their range, and SYNC if
+  /// Takes the watchdogs off the drives, so that none of them faults when commands end. A drive that
+  /// may exert effort yet keeps its own: that is what is left to stop it.
+  /// @param elapsed  since the release began; zero at first
+  /// Real-time: yes. O(N).
+  [[nodiscard]] CanSetUp release(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
+    bool all_done = true;
+    for (std::size_t j = 0; j < drives_.size(); ++j) {
+      if (elapsed.count() == 0) set_ups_[j].begin_release();
+      if (feedbacks_[j].powered()) continue;
+      all_done = set_ups_[j].advance(elapsed, batch) == CanSetUp::done && all_done;
+    }
+    return all_done ? CanSetUp::done : CanSetUp::in_progress;
+  }
+
+  /// Why the set-up has failed or is not done: the first drive that has refused, or else the first
+  /// that is not ready, and the object with which it is at. Real-time: yes. O(N).
+  [[nodiscard]] CanFault set_up_fault() const noexcept {
+    CanFault fault{CanCause::no_activation};
+    for (std::size_t j = 0; j < drives_.size(); ++j) {
+      const Cia402SetUp& set_up = set_ups_[j];
+      const bool ready = set_up.ended() && !set_up.failed() && reports_[j].enabled;
+      if (ready || (fault.joint >= 0 && !set_up.failed())) continue;
+      fault = {set_up.lacks_watchdog() ? CanCause::no_watchdog : CanCause::no_activation,
+               static_cast<int>(j), reports_[j].fault, set_up.object(), set_up.abort_code()};
+      if (set_up.failed()) break;
+    }
+    return fault;
+  }
+
+  /// An RPDO for each drive, in the drive's units, rounded and held within their range, and SYNC if
   /// it is ours. A NaN gives zero; for a position, the measured one. Real-time: yes. O(N).
   void encode(const Command& command, CanBatch& batch) noexcept {
+    push_heartbeat(batch);
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       push_command(j, cia402::enable_operation, target(command, j), batch);
     }
@@ -136,10 +183,11 @@ class Cia402Codec {
     end_output(batch);
   }
 
-  /// Takes the power from all drives: by RPDO 1, and by access to its objects from each drive that
+  /// Takes the power from all drives: by RPDO, and by access to its objects from each drive that
   /// has not yet said that it has none. Real-time: yes. O(N).
   void encode_stop(CanBatch& batch) noexcept {
     Command still;
+    push_heartbeat(batch);
     access(
         [this](std::size_t j, CanBatch& b) {
           return feedbacks_[j].powered() ? stops_[j].advance(drives_[j].node, b) : push_mark(j, b);
@@ -170,9 +218,13 @@ class Cia402Codec {
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       switch (frame.identifier - drives_[j].node) {
         case canopen::transmit_pdo_1_base:
-          return feedbacks_[j].take_transmit_pdo_1(frame, drives_[j], reports_[j]);
+          return take_transmit_pdo(frame, 0, j);
         case canopen::transmit_pdo_2_base:
-          return feedbacks_[j].take_transmit_pdo_2(frame, drives_[j], reports_[j]);
+          return take_transmit_pdo(frame, 1, j);
+        case canopen::transmit_pdo_3_base:
+          return take_transmit_pdo(frame, 2, j);
+        case canopen::transmit_pdo_4_base:
+          return take_transmit_pdo(frame, 3, j);
         case canopen::emergency_base:
           return feedbacks_[j].take_emergency(frame);
         case canopen::sdo_answer_base:
@@ -216,7 +268,7 @@ class Cia402Codec {
   static std::array<Cia402SetUp, sizeof...(J)> make_set_ups(
       const Cia402DriveList<joint_count>& drives, std::uint8_t period, std::uint16_t deadline,
       std::index_sequence<J...>) {
-    return {Cia402SetUp(drives[J].node, mode, period, deadline)...};
+    return {Cia402SetUp(drives[J], mode, period, deadline, Sync)...};
   }
 
   /// A number in the drive's units, as 16 or 32 bits.
@@ -244,13 +296,19 @@ class Cia402Codec {
 
   void push_command(std::size_t j, std::uint16_t controlword, std::int32_t target,
                     CanBatch& batch) const noexcept {
-    constexpr std::uint8_t size = cia402::target_of(mode).size;
-    CanFrame frame;
-    frame.identifier = canopen::receive_pdo_1_base + drives_[j].node;
-    frame.length = 2 + size;
-    store_little_endian<0, 2>(frame.data, controlword);
-    store_little_endian<2, size>(frame.data, target);
+    using Target =
+        std::conditional_t<cia402::target_of(mode).size == 2, std::int16_t, std::int32_t>;
+    const cia402::ReceiveLayout& layout = set_ups_[j].process_data().receive;
+    CanFrame frame = layout.frame;
+    store_little_endian(frame.data, layout.controlword, controlword);
+    store_little_endian(frame.data, layout.target, static_cast<Target>(target));
     batch.push_back(frame);
+  }
+
+  void push_heartbeat(CanBatch& batch) noexcept {
+    if (host_node_ == 0 || ++since_beat_ < cycles_per_beat_) return;
+    since_beat_ = 0;
+    batch.push_back(canopen::encode(canopen::NmtState::operational, host_node_));
   }
 
   /// Appends what a few drives in turn need beside their process data.
@@ -273,7 +331,7 @@ class Cia402Codec {
 
   void begin_cycle(bool with_sync) noexcept {
     for (std::size_t j = 0; j < drives_.size(); ++j) {
-      feedbacks_[j].begin_cycle(with_sync, reports_[j]);
+      feedbacks_[j].begin_cycle(with_sync, set_ups_[j].process_data(), reports_[j]);
     }
   }
 
@@ -297,6 +355,12 @@ class Cia402Codec {
     return CanDecoding::accepted;
   }
 
+  [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame, std::size_t number,
+                                              std::size_t j) noexcept {
+    return feedbacks_[j].take_transmit_pdo(frame, number, set_ups_[j].process_data(), drives_[j],
+                                           reports_[j]);
+  }
+
   [[nodiscard]] CanDecoding take_answer(std::size_t j, const CanFrame& frame) noexcept {
     const auto answer = canopen::decode_answer(frame);
     if (!answer) return CanDecoding::malformed;
@@ -316,13 +380,17 @@ class Cia402Codec {
   static constexpr std::uint32_t doubtful_age = 20;
 
   Cia402DriveList<joint_count> drives_;
+  int cycles_per_beat_;  ///< three heartbeats within the deadline, so that two may be lost
   std::array<Cia402SetUp, count> set_ups_;
   std::array<Cia402Stop, count> stops_{};
   std::array<Cia402Feedback, count> feedbacks_{};
   std::array<DriveReport, count> reports_{};
   std::size_t next_access_ = 0;
-  bool sync_pushed_ = false;  ///< the last frames appended have SYNC
-  bool heard_ = false;        ///< SYNC has come since the last output
+  std::chrono::nanoseconds known_since_{};  ///< all drives were enabled and had reported
+  std::uint8_t host_node_ = 0;  ///< that the host's heartbeats come from; 0: there are none
+  int since_beat_ = 0;          ///< cycles since the last one
+  bool sync_pushed_ = false;    ///< the last frames appended have SYNC
+  bool heard_ = false;          ///< SYNC has come since the last output
   std::uint64_t heard_cycles_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "articula/hardware/can_codec.hpp"
 #include "articula/hardware/cia402.hpp"
 #include "articula/hardware/cia402_drive.hpp"
+#include "articula/hardware/cia402_process_data.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace articula {
 
@@ -34,16 +36,19 @@ class Cia402Feedback {
 
   /// A cycle begins.
   /// @param with_sync  SYNC begins it, so an answer is due
+  /// @param data       the drive's process data
   /// @param report     of the drive; grows older
   /// Real-time: yes.
-  void begin_cycle(bool with_sync, DriveReport& report) noexcept {
+  void begin_cycle(bool with_sync, const cia402::ProcessData& data, DriveReport& report) noexcept {
+    stream_count_ = data.stream_count;
     syncs_ = syncs_ << 1 | std::uint64_t{with_sync};
-    for (Stream& stream : streams_) {
+    for (Stream& stream : streams()) {
       if (with_sync) ++stream.unanswered;
       if (stream.age < DriveReport::never - 1) ++stream.age;
     }
     if (with_sync) {
       has_begun_ = true;
+      ++cycle_;
       if (since_mark_ < std::numeric_limits<std::uint32_t>::max()) ++since_mark_;
     }
     report.age = age();
@@ -52,47 +57,58 @@ class Cia402Feedback {
   /// The last SYNC did not get onto the bus. Real-time: yes.
   void withdraw_sync() noexcept {
     syncs_ &= ~std::uint64_t{1};
-    for (Stream& stream : streams_) {
+    --cycle_;
+    for (Stream& stream : streams()) {
       if (stream.unanswered > 0) --stream.unanswered;
     }
     awaits_mark_ = false;  // the request did not either
   }
 
-  /// Takes in statusword, position and torque.
-  /// @param frame   with the identifier of TPDO 1
+  /// Takes in one of the drive's process data objects.
+  /// @param frame   with its identifier
+  /// @param number  of the object, 0 for TPDO 1
+  /// @param data    the drive's process data
   /// @param drive   whose it is
   /// @param report  of the drive
   /// Real-time: yes.
-  [[nodiscard]] CanDecoding take_transmit_pdo_1(const CanFrame& frame, const Cia402Drive& drive,
-                                                DriveReport& report) noexcept {
-    const auto state = cia402::state_of(load_little_endian<std::uint16_t, 0>(frame.data));
-    if (frame.length != 8 || !state) return CanDecoding::malformed;
-    if (!has_begun_) return CanDecoding::outdated;
-    const auto units = load_little_endian<std::int32_t, 2>(frame.data);
-    report.position = (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
-    report.effort = load_little_endian<std::int16_t, 6>(frame.data) * drive.rated_effort / 1e3;
-    report.enabled = *state == cia402::State::operation_enabled;
-    powered_ = cia402::may_exert(*state);
-    const bool fault =
-        *state == cia402::State::fault || *state == cia402::State::fault_reaction_active;
-    if (!fault) {
-      report.fault = 0;
-    } else if (report.fault == 0) {
-      report.fault = emergency_ != 0 ? emergency_ : generic_error;
+  [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame, std::size_t number,
+                                              const cia402::ProcessData& data,
+                                              const Cia402Drive& drive,
+                                              DriveReport& report) noexcept {
+    constexpr std::uint8_t absent = cia402::TransmitLayout::absent;
+    const cia402::TransmitLayout& layout = data.transmit[number];
+    if (layout.length == 0) return CanDecoding::foreign;
+    if (frame.length != layout.length) return CanDecoding::malformed;
+    if (layout.statusword != absent) {
+      const auto bits = load_little_endian<std::uint16_t>(frame.data, layout.statusword);
+      const auto state = cia402::state_of(bits);
+      if (!state) return CanDecoding::malformed;
+      if (!has_begun_) return CanDecoding::outdated;
+      take_state(*state, (bits & cia402::follows_target) != 0, report);
     }
-    answer(streams_[0], report);
-    return CanDecoding::accepted;
-  }
-
-  /// Takes in velocity and error code, as take_transmit_pdo_1. Real-time: yes.
-  [[nodiscard]] CanDecoding take_transmit_pdo_2(const CanFrame& frame, const Cia402Drive& drive,
-                                                DriveReport& report) noexcept {
-    if (frame.length != 6) return CanDecoding::malformed;
     if (!has_begun_) return CanDecoding::outdated;
-    report.velocity = load_little_endian<std::int32_t, 0>(frame.data) / drive.velocity_scale;
-    const auto code = load_little_endian<std::uint16_t, 4>(frame.data);
-    if (report.fault != 0 && code != 0) report.fault = code;
-    answer(streams_[1], report);
+    answer(streams_[layout.stream], report);
+    if (layout.torque != absent) {
+      const auto per_mille = load_little_endian<std::int16_t>(frame.data, layout.torque);
+      report.effort = per_mille * drive.rated_effort / 1e3;
+    }
+    if (layout.velocity != absent) {
+      const auto units = load_little_endian<std::int32_t>(frame.data, layout.velocity);
+      report.velocity = units / drive.velocity_scale;
+    }
+    if (layout.position != absent) {
+      const auto units = load_little_endian<std::int32_t>(frame.data, layout.position);
+      const double position =
+          (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
+      if (!data.has_velocity) {
+        take_difference(position, cycle_ - streams_[layout.stream].unanswered, data, report);
+      }
+      report.position = position;
+    }
+    if (layout.error_code != absent) {
+      const auto code = load_little_endian<std::uint16_t>(frame.data, layout.error_code);
+      if (report.fault != 0 && code != 0) report.fault = code;
+    }
     return CanDecoding::accepted;
   }
 
@@ -133,6 +149,10 @@ class Cia402Feedback {
     powered_ = !state || cia402::may_exert(*state);
   }
 
+  /// Whether the drive has said, in operation, that it follows its target: not all drives do.
+  /// Real-time: yes.
+  [[nodiscard]] bool has_followed() const noexcept { return has_followed_; }
+
   /// Whether the drive may exert effort: it has not said that it does not. Real-time: yes.
   [[nodiscard]] bool powered() const noexcept { return powered_; }
 
@@ -140,7 +160,7 @@ class Cia402Feedback {
   void take_answer(const canopen::ObjectAddress& object) noexcept {
     if (!awaits_mark_ || object != mark_) return;
     awaits_mark_ = false;
-    for (Stream& stream : streams_) stream.unanswered = std::min(stream.unanswered, since_mark_);
+    for (Stream& stream : streams()) stream.unanswered = std::min(stream.unanswered, since_mark_);
     known_lag_ = lag();
   }
 
@@ -151,12 +171,44 @@ class Cia402Feedback {
     std::uint32_t age = DriveReport::never;  ///< of its last frame [cycles]
   };
 
+  [[nodiscard]] std::span<Stream> streams() noexcept {
+    return std::span(streams_).first(stream_count_);
+  }
   [[nodiscard]] std::uint32_t lag() const noexcept {
-    return std::max(streams_[0].unanswered, streams_[1].unanswered);
+    std::uint32_t most = streams_[0].unanswered;
+    for (std::size_t i = 1; i < stream_count_; ++i) most = std::max(most, streams_[i].unanswered);
+    return most;
   }
   [[nodiscard]] std::uint32_t age() const noexcept {
-    return std::max(streams_[0].age, streams_[1].age);
+    std::uint32_t oldest = streams_[0].age;
+    for (std::size_t i = 1; i < stream_count_; ++i) oldest = std::max(oldest, streams_[i].age);
+    return oldest;
   }
+
+  void take_state(cia402::State state, bool follows, DriveReport& report) noexcept {
+    const bool in_operation = state == cia402::State::operation_enabled;
+    has_followed_ = has_followed_ || (in_operation && follows);
+    report.enabled = in_operation && (follows || !has_followed_);
+    powered_ = cia402::may_exert(state);
+    const bool fault =
+        state == cia402::State::fault || state == cia402::State::fault_reaction_active;
+    if (!fault) {
+      report.fault = 0;
+    } else if (report.fault == 0) {
+      report.fault = emergency_ != 0 ? emergency_ : generic_error;
+    }
+  }
+
+  /// The velocity between two positions, for a drive that does not say it. Real-time: yes.
+  void take_difference(double position, std::uint32_t cycle, const cia402::ProcessData& data,
+                       DriveReport& report) noexcept {
+    const auto cycles = static_cast<std::int32_t>(cycle - position_cycle_);
+    if (has_position_ && cycles <= 0) return;
+    if (has_position_) report.velocity = (position - report.position) / (cycles * data.sync_period);
+    has_position_ = true;
+    position_cycle_ = cycle;
+  }
+
   void answer(Stream& stream, DriveReport& report) noexcept {
     if (stream.unanswered > 0) --stream.unanswered;
     stream.age = cycles_since(stream.unanswered);
@@ -174,7 +226,12 @@ class Cia402Feedback {
       0x1000;  ///< of CiA 301, for a fault without a name
   static constexpr std::uint32_t long_ago = 1000;
 
-  std::array<Stream, 2> streams_{};
+  std::array<Stream, cia402::ProcessData::most> streams_{};
+  std::size_t stream_count_ = 2;
+  bool has_followed_ = false;
+  bool has_position_ = false;         ///< for differences
+  std::uint32_t position_cycle_ = 0;  ///< that the last position belongs to
+  std::uint32_t cycle_ = 0;           ///< SYNCs since the beginning, modulo 2^32
   bool powered_ = true;
   bool has_begun_ = false;   ///< a SYNC has been since the beginning
   std::uint64_t syncs_ = 0;  ///< a bit for each of the last cycles: it had SYNC; bit 0 is

@@ -35,6 +35,7 @@ struct ReceiveLayout {
 struct TransmitLayout {
   static constexpr std::uint8_t absent = canopen::PdoMapping::absent;
   std::uint8_t length = 0;
+  std::uint8_t stream = 0;  ///< its place among those that are used
   std::uint8_t statusword = absent;
   std::uint8_t position = absent;
   std::uint8_t torque = absent;
@@ -48,7 +49,9 @@ struct ProcessData {
   std::uint8_t receive_number = 0;        ///< which of the drive's RPDOs is used, from 0
   ReceiveLayout receive{};
   std::array<TransmitLayout, most> transmit{};
-  bool has_velocity = true;  ///< else the codec takes differences of positions
+  std::size_t stream_count = 0;  ///< how many of these are used
+  double sync_period = 1e-3;     ///< [s]
+  bool has_velocity = true;      ///< else the codec takes differences of positions
 };
 
 /// The layout of the host's frame.
@@ -62,24 +65,24 @@ struct ProcessData {
 [[nodiscard]] constexpr ReceiveLayout receive_layout(std::size_t number, std::uint8_t node,
                                                      Mode mode,
                                                      const canopen::PdoMapping& mapping) noexcept {
-  ReceiveLayout layout{{}, mapping.offset_of(mapped_controlword),
-                       mapping.offset_of(mapped_target(mode))};
+  ReceiveLayout layout{
+      {}, mapping.offset_of(mapped_controlword), mapping.offset_of(mapped_target(mode))};
   if (layout.controlword == canopen::PdoMapping::absent) return {};
   if (layout.target == canopen::PdoMapping::absent) return {};
   for (const canopen::MappedObject& object : mapping) {
     constexpr std::uint16_t last_dummy = 7;  // data types stand for bytes without meaning
     const bool harmless = object == mapped_controlword || object == mapped_target(mode) ||
                           object.address.index <= last_dummy || object.address == target_torque ||
-                          object.address == target_velocity ||
-                          object.address == velocity_offset || object.address == torque_offset;
+                          object.address == target_velocity || object.address == velocity_offset ||
+                          object.address == torque_offset;
     if (object.address == mode_of_operation) {
       layout.frame.data[mapping.offset_of(object)] = static_cast<std::uint8_t>(mode);
     } else if (!harmless) {
       return {};
     }
   }
-  layout.frame.identifier =
-      canopen::receive_pdo_1_base + canopen::pdo_spacing * static_cast<std::uint32_t>(number) + node;
+  layout.frame.identifier = canopen::receive_pdo_1_base +
+                            canopen::pdo_spacing * static_cast<std::uint32_t>(number) + node;
   layout.frame.length = mapping.length();
   return layout;
 }
@@ -88,6 +91,7 @@ struct ProcessData {
 [[nodiscard]] constexpr TransmitLayout transmit_layout(
     const canopen::PdoMapping& mapping) noexcept {
   const TransmitLayout layout{mapping.length(),
+                              0,
                               mapping.offset_of(mapped_statusword),
                               mapping.offset_of(mapped_position),
                               mapping.offset_of(mapped_torque),
