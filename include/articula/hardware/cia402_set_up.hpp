@@ -43,10 +43,17 @@ class Cia402SetUp {
   }
 
   /// Begins anew. Real-time: yes.
-  void restart() noexcept { begin(script_.set_up()); }
+  void restart() noexcept {
+    begin(script_.set_up());
+    pdos_.restart();
+    abort_code_ = 0;
+    failed_object_ = {};
+    lacks_watchdog_ = false;
+  }
 
   /// Begins to release the drive: takes its watchdog off. For a drive that is not enabled: if the
-  /// node does not allow that in operation, it leaves operation. Real-time: yes.
+  /// node does not allow that in operation, it leaves operation. What the set-up has failed at is
+  /// still known. Real-time: yes.
   void begin_release() noexcept { begin(script_.release()); }
 
   /// Starts the node again and looks at its state, where the drive does not show that it is enabled
@@ -146,15 +153,12 @@ class Cia402SetUp {
   /// The drive has refused what is needed. Real-time: yes.
   [[nodiscard]] bool failed() const noexcept { return failed_; }
   /// The set-up has ended because the drive has no watchdog as was asked for. Real-time: yes.
-  [[nodiscard]] bool lacks_watchdog() const noexcept {
-    return failed_ &&
-           (pdos_.lacks_deadline() || script_[step_].address == Cia402Script::heartbeat_consumer);
-  }
+  [[nodiscard]] bool lacks_watchdog() const noexcept { return lacks_watchdog_; }
   /// The code with which the node has aborted an access last; 0 if it has not. Real-time: yes.
   [[nodiscard]] std::uint32_t abort_code() const noexcept { return abort_code_; }
   /// The object that is being dealt with, or was when the set-up failed. Real-time: yes.
   [[nodiscard]] canopen::ObjectAddress object() const noexcept {
-    if (failed_) return failed_object_;
+    if (failed_object_.index != 0) return failed_object_;
     return step_ < end_ ? request(script_[step_]).address : canopen::ObjectAddress{};
   }
 
@@ -166,13 +170,12 @@ class Cia402SetUp {
     finished_ = std::chrono::nanoseconds(-1);
     failed_ = checking_ = resetting_ = doubted_ = false;
     left_operation_ = leave_operation_due_ = false;
-    abort_code_ = 0;
     client_.restart();
-    if (part.begin == script_.set_up().begin) pdos_.restart();
   }
   void advance_step() noexcept { ++step_; }
   void fail() noexcept {
     failed_object_ = client_.request().address;
+    lacks_watchdog_ = failed_object_ == Cia402Script::heartbeat_consumer;
     failed_ = true;
   }
   [[nodiscard]] bool shows_mode(const canopen::Sdo& answer) const noexcept {
@@ -185,6 +188,7 @@ class Cia402SetUp {
     if (!pdos_.failed()) return;
     fail();
     failed_object_ = pdos_.refusal().address;
+    lacks_watchdog_ = pdos_.lacks_deadline();
     abort_code_ = pdos_.refusal().value;
   }
 
@@ -246,6 +250,7 @@ class Cia402SetUp {
   std::size_t end_ = 0;
   std::size_t begun_step_ = Cia402Script::capacity;
   bool failed_ = false;
+  bool lacks_watchdog_ = false;
   bool checking_ = false;        ///< whether what could not be written has the value already
   bool resetting_ = false;       ///< the controlword is to reset a fault
   bool doubted_ = false;         ///< it was done, but that does not show

@@ -19,8 +19,9 @@
 namespace articula {
 
 /// CiA 402 drives in the cyclic synchronous modes with a simulated arm behind them. Frames go in
-/// and out; there is no bus in it. Its time is the host's: each SYNC lets one period pass, and the
-/// feedback shows the arm at the end of that period.
+/// and out; there is no bus in it. Its time is the host's: each SYNC lets one period pass. At SYNC
+/// the drives measure, and put into force what has come; so feedback shows the arm at SYNC, one
+/// period before the host can answer it.
 ///
 /// In position and velocity mode the drives close their own loop: a stiffness and a damping that
 /// would give the joint's own inertia a natural frequency of 10 Hz, critically damped.
@@ -29,17 +30,20 @@ template <Robot R>
 class SimulatedCia402Drives {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
+  using Quirks = std::array<SimulatedCia402Quirks, static_cast<std::size_t>(joint_count)>;
 
   /// @param robot   whose joints these are
   /// @param drives   in the order of the joints
   /// @param options  of the simulated arm
+  /// @param quirks   of the drives: what each lacks or does in its own way
   /// @throws std::invalid_argument if either makes no sense
   SimulatedCia402Drives(const R& robot, const Cia402DriveList<joint_count>& drives,
-                        const SimulatorOptions<joint_count>& options = {})
+                        const SimulatorOptions<joint_count>& options = {},
+                        const Quirks& quirks = {})
       : drives_(drives), simulator_(robot, options), effort_limits_(effort_limits(robot)) {
     validate(robot, drives);
     for (std::size_t j = 0; j < drives.size(); ++j) {
-      nodes_[j] = SimulatedCia402Node(drives[j].node, options.period);
+      nodes_[j] = SimulatedCia402Node(drives[j].node, options.period, quirks[j]);
     }
     const JointVector<joint_count> inertia =
         mass_matrix(robot, initial_position(robot, options)).diagonal();
@@ -51,8 +55,9 @@ class SimulatedCia402Drives {
   }
   /// For a robot known at compile time.
   explicit SimulatedCia402Drives(const Cia402DriveList<joint_count>& drives,
-                                 const SimulatorOptions<joint_count>& options = {}) requires
-      DescribedRobot<R> : SimulatedCia402Drives(R(), drives, options) {}
+                                 const SimulatorOptions<joint_count>& options = {},
+                                 const Quirks& quirks = {}) requires DescribedRobot<R>
+      : SimulatedCia402Drives(R(), drives, options, quirks) {}
 
   /// Takes a frame from the bus. SYNC lets a period pass and is answered.
   /// @param frame    any frame
@@ -60,10 +65,9 @@ class SimulatedCia402Drives {
   /// Real-time: yes.
   void receive(const CanFrame& frame, CanBatch& answers) noexcept {
     for (SimulatedCia402Node& node : nodes_) node.receive(frame, answers);
-    if (frame != canopen::encode_sync()) return;
-    for (SimulatedCia402Node& node : nodes_) node.put_into_force();
+    if (frame.extended || frame.identifier != canopen::sync_identifier || frame.length > 1) return;
+    for (SimulatedCia402Node& node : nodes_) node.take_sync(frame, answers);
     pass_period(answers);
-    for (SimulatedCia402Node& node : nodes_) node.report(answers);
   }
 
   /// Lets a period pass in which there was no SYNC.

@@ -4,47 +4,48 @@
 
 #include "articula/hardware/can_batch.hpp"
 #include "articula/hardware/cia402.hpp"
+#include "articula/hardware/simulated_cia402_objects.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace articula {
 
 /// One CANopen node of the profile CiA 402: object dictionary with an expedited server, network
 /// management, process data that follow their mapping objects, state machine, heartbeat and
-/// emergency messages, and the deadline for commands. It is written from the standard's point of
-/// view and shares nothing with the codec but the layout of frames, so each checks the other.
+/// emergency messages, and the deadlines for commands and for the host's heartbeat. It is written
+/// from the standard's point of view and shares nothing with the codec but the layout of frames, so
+/// each checks the other.
 class SimulatedCia402Node {
  public:
   SimulatedCia402Node() = default;
 
   /// @param node    1 .. 127
   /// @param period  of SYNC [s]
-  SimulatedCia402Node(std::uint8_t node, double period) : node_(node), period_(period) {
+  /// @param quirks  what it lacks or does in its own way
+  SimulatedCia402Node(std::uint8_t node, double period, const SimulatedCia402Quirks& quirks = {})
+      : node_(node), period_(period), quirks_(quirks) {
     restart();
   }
 
   /// As after switching on. Real-time: yes.
   void restart() noexcept {
-    objects_ = factory_objects;
-    const auto with_node = [&](const canopen::ObjectAddress& address, std::uint32_t base) {
-      find(address)->value = 0x8000'0000U | (base + node_);
-    };
-    with_node({0x1400, 1}, canopen::receive_pdo_1_base);
-    with_node({0x1800, 1}, canopen::transmit_pdo_1_base);
-    with_node({0x1801, 1}, canopen::transmit_pdo_2_base);
+    objects_.restart(node_, quirks_);
     nmt_ = canopen::NmtState::boot_up;
-    state_ = cia402::State::switch_on_disabled;
+    booting_ = quirks_.boot_time;
+    state_ = next_state_ = cia402::State::switch_on_disabled;
     last_controlword_ = 0;
-    has_received_ = supervised_ = emergency_due_ = false;
-    silence_ = since_heartbeat_ = 0;
+    received_.fill({});
+    watches_commands_ = watches_host_ = false;
+    emergency_ = 0;
+    silence_ = host_silence_ = since_heartbeat_ = 0;
   }
 
   /// Takes a frame from the bus. Real-time: yes.
   void receive(const CanFrame& frame, CanBatch& answers) noexcept {
-    if (frame.extended) return;
+    if (frame.extended || booting_ > 0) return;
     if (frame.identifier == canopen::nmt_identifier && frame.length == 2) {
       if (frame.data[1] == 0 || frame.data[1] == node_) manage(frame.data[0]);
     } else if (frame.identifier == canopen::sdo_request_base + node_) {
@@ -52,45 +53,41 @@ class SimulatedCia402Node {
       if (const auto request = canopen::decode_request(frame)) {
         answers.push_back(canopen::encode_answer(serve(*request), node_));
       }
-    } else if (nmt_ == canopen::NmtState::operational && frame.identifier == value({0x1400, 1})) {
-      received_ = frame;
-      has_received_ = true;
+    } else if (canopen::decode_heartbeat(frame) && is_of_host(frame)) {
+      watches_host_ = true;
+      host_silence_ = 0;
+    } else if (nmt_ == canopen::NmtState::operational) {
+      for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
+        // What has none is 0, which is the identifier of network management.
+        if (frame.identifier == value(parameter(0x1400, k))) received_[k] = {true, frame};
+      }
     }
   }
 
-  /// SYNC: the process data that have come are put into force. Real-time: yes.
-  void put_into_force() noexcept {
-    if (!has_received_) return;
-    has_received_ = false;
-    std::size_t length = 0;
-    for_each_mapped(0x1600, [&](const Object& object) { length += object.size; });
-    if (received_.length < length) return;  // too short: not applied [CiA 301, 7.2.2]
-    std::size_t offset = 0;
-    for_each_mapped(0x1600, [&](Object& object) {
-      object.value = 0;
-      for (std::size_t k = 0; k < object.size; ++k) {
-        object.value |= std::uint32_t{received_.data[offset++]} << (8 * k);
-      }
-    });
-    obey(static_cast<std::uint16_t>(value(cia402::controlword)));
-    supervised_ = true;
-    silence_ = 0;
+  /// SYNC: what has been measured is sent, and the process data that have come are put into force.
+  /// @param sync  the frame; one without the counter that is expected, or with one, is ignored
+  /// Real-time: yes.
+  void take_sync(const CanFrame& sync, CanBatch& answers) noexcept {
+    const bool has_counter = value(SimulatedCia402Objects::sync_counter) != 0;
+    if (sync.length != (has_counter ? 1 : 0)) return;
+    report(answers);
+    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) put_into_force(k);
   }
 
-  /// Lets a period pass: boot-up message, heartbeat, deadline, emergency. Real-time: yes.
+  /// Lets a period pass: boot-up message, heartbeat, deadlines, emergency. Real-time: yes.
   void pass_period(CanBatch& answers) noexcept {
+    if (booting_ > 0) booting_ -= period_;
+    if (booting_ > period_ / 2) return;
     if (nmt_ == canopen::NmtState::boot_up) {
+      booting_ = 0;
       answers.push_back(canopen::encode(nmt_, node_));
       nmt_ = canopen::NmtState::pre_operational;
     }
-    silence_ += period_;
-    const double deadline = value({0x1400, 5}) * 1e-3;
-    const bool late = supervised_ && deadline > 0 && silence_ > deadline + period_ / 2;
-    if (late && enabled()) raise_fault(0x8250);  // RPDO timeout [CiA 301, table 26]
-    if (emergency_due_) {
-      emergency_due_ = false;
-      answers.push_back(canopen::encode(
-          canopen::Emergency{static_cast<std::uint16_t>(value(cia402::error_code)), 0x01}, node_));
+    go_on_with_transition();
+    watch();
+    if (emergency_ != 0) {
+      answers.push_back(
+          canopen::encode(canopen::Emergency{std::exchange(emergency_, {}), 0x01}, node_));
     }
     since_heartbeat_ += period_;
     const double interval = value({0x1017, 0}) * 1e-3;
@@ -100,37 +97,19 @@ class SimulatedCia402Node {
     }
   }
 
-  /// SYNC: the process data that are to be sent. Real-time: yes.
-  void report(CanBatch& answers) noexcept {
-    if (nmt_ != canopen::NmtState::operational) return;
-    for (const std::uint16_t pdo : {std::uint16_t{0}, std::uint16_t{1}}) {
-      const std::uint32_t identifier = value({static_cast<std::uint16_t>(0x1800 + pdo), 1});
-      if ((identifier & 0x8000'0000U) != 0) continue;
-      CanFrame frame;
-      frame.identifier = identifier & 0x7ff;
-      for_each_mapped(static_cast<std::uint16_t>(0x1a00 + pdo), [&](const Object& object) {
-        for (std::size_t k = 0; k < object.size && frame.length < 8; ++k) {
-          frame.data[frame.length++] = static_cast<std::uint8_t>(object.value >> (8 * k) & 0xff);
-        }
-      });
-      answers.push_back(frame);
-    }
-  }
-
   /// The joint as the node is to show it, in its units. Real-time: yes.
   void show(std::int32_t position, std::int32_t velocity, std::int32_t torque) noexcept {
-    find(cia402::position_actual)->value = static_cast<std::uint32_t>(position);
-    find(cia402::velocity_actual)->value = static_cast<std::uint32_t>(velocity);
-    find(cia402::torque_actual)->value = static_cast<std::uint32_t>(torque) & 0xffff;
+    objects_.set(cia402::position_actual, static_cast<std::uint32_t>(position));
+    objects_.set(cia402::velocity_actual, static_cast<std::uint32_t>(velocity));
+    objects_.set(cia402::torque_actual, static_cast<std::uint32_t>(torque) & 0xffff);
     show_state();
   }
 
   /// Faults with an error code that is not 0. Real-time: yes.
   void raise_fault(std::uint16_t code) noexcept {
-    state_ = cia402::State::fault;
-    supervised_ = false;
-    find(cia402::error_code)->value = code;
-    emergency_due_ = true;
+    state_ = next_state_ = cia402::State::fault;
+    objects_.set(cia402::error_code, code);
+    emergency_ = code;
     show_state();
   }
 
@@ -148,72 +127,77 @@ class SimulatedCia402Node {
   }
   /// Any object's value; 0 if there is none at the address. Real-time: yes.
   [[nodiscard]] std::uint32_t value(const canopen::ObjectAddress& address) const noexcept {
-    for (const Object& object : objects_) {
-      if (object.address == address) return object.value;
-    }
-    return 0;
+    return objects_.value(address);
   }
 
  private:
-  struct Object {
-    canopen::ObjectAddress address{};
-    std::uint8_t size = 0;  ///< [bytes]
-    bool writable = false;
-    std::uint32_t value = 0;
+  struct Received {
+    bool is_new = false;
+    CanFrame frame{};
   };
 
-  static constexpr auto factory_objects = std::to_array<Object>({
-      {{0x1000, 0}, 4, false, 0x0002'0192},  // servo drive of the profile 402
-      {{0x1017, 0}, 2, true, 0},
-      {{0x1400, 1}, 4, true, 0},
-      {{0x1400, 2}, 1, true, 255},
-      {{0x1400, 5}, 2, true, 0},
-      {{0x1600, 0}, 1, true, 0},
-      {{0x1600, 1}, 4, true, 0},
-      {{0x1600, 2}, 4, true, 0},
-      {{0x1600, 3}, 4, true, 0},
-      {{0x1800, 1}, 4, true, 0},
-      {{0x1800, 2}, 1, true, 255},
-      {{0x1a00, 0}, 1, true, 0},
-      {{0x1a00, 1}, 4, true, 0},
-      {{0x1a00, 2}, 4, true, 0},
-      {{0x1a00, 3}, 4, true, 0},
-      {{0x1801, 1}, 4, true, 0},
-      {{0x1801, 2}, 1, true, 255},
-      {{0x1a01, 0}, 1, true, 0},
-      {{0x1a01, 1}, 4, true, 0},
-      {{0x1a01, 2}, 4, true, 0},
-      {{0x1a01, 3}, 4, true, 0},
-      {cia402::abort_connection, 2, true, 0},
-      {cia402::error_code, 2, false, 0},
-      {cia402::controlword, 2, true, 0},
-      {cia402::statusword, 2, false, 0x40},
-      {cia402::mode_of_operation, 1, true, 0},
-      {cia402::mode_display, 1, false, 0},
-      {cia402::position_actual, 4, false, 0},
-      {cia402::velocity_actual, 4, false, 0},
-      {cia402::target_torque, 2, true, 0},
-      {cia402::torque_actual, 2, false, 0},
-      {cia402::target_position, 4, true, 0},
-      {cia402::interpolation_period, 1, true, 1},
-      {cia402::interpolation_exponent, 1, true, 0xfd},
-      {cia402::target_velocity, 4, true, 0},
-  });
-
-  [[nodiscard]] Object* find(const canopen::ObjectAddress& address) noexcept {
-    const auto at = std::ranges::find(objects_, address, &Object::address);
-    return at == objects_.end() ? nullptr : &*at;
+  [[nodiscard]] static canopen::ObjectAddress parameter(std::uint16_t base, std::uint16_t number,
+                                                        std::uint8_t subindex = 1) noexcept {
+    return {static_cast<std::uint16_t>(base + number), subindex};
+  }
+  /// A heartbeat of the node that object 1016h has.
+  [[nodiscard]] bool is_of_host(const CanFrame& frame) const noexcept {
+    const std::uint32_t consumer = value(SimulatedCia402Objects::heartbeat_consumer);
+    return (consumer & 0xffff) != 0 &&
+           frame.identifier == canopen::heartbeat_base + (consumer >> 16 & 0x7f);
   }
 
-  /// Calls function(object) for each object that a process data object is made of.
-  template <class Function>
-  void for_each_mapped(std::uint16_t mapping, Function function) noexcept {
-    const std::uint32_t count = std::min(value({mapping, 0}), std::uint32_t{3});
-    for (std::uint8_t k = 1; k <= count; ++k) {
-      const std::uint32_t entry = value({mapping, k});
-      Object* const object = find(
-          {static_cast<std::uint16_t>(entry >> 16), static_cast<std::uint8_t>(entry >> 8 & 0xff)});
-      if (object) function(*object);
+  void put_into_force(std::uint16_t number) noexcept {
+    if (!std::exchange(received_[number].is_new, false)) return;
+    const CanFrame& frame = received_[number].frame;
+    const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
+    std::size_t length = 0;
+    objects_.for_each_mapped(mapping, [&](const auto& object) { length += object.size; });
+    if (frame.length < length) return;  // too short: not applied [CiA 301, 7.2.2]
+    std::size_t offset = 0;
+    objects_.for_each_mapped(mapping, [&](auto& object) {
+      object.value = 0;
+      for (std::size_t k = 0; k < object.size; ++k) {
+        object.value |= std::uint32_t{frame.data[offset++]} << (8 * k);
+      }
+    });
+    obey(static_cast<std::uint16_t>(value(cia402::controlword)));
+    watches_commands_ = true;
+    silence_ = 0;
+    deadline_ = value(parameter(0x1400, number, 5)) * 1e-3;
+  }
+
+  void report(CanBatch& answers) noexcept {
+    if (nmt_ != canopen::NmtState::operational) return;
+    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
+      const std::uint32_t identifier = value(parameter(0x1800, k));
+      if (identifier == 0 || (identifier & SimulatedCia402Objects::off) != 0) continue;
+      CanFrame frame;
+      frame.identifier = identifier & 0x7ff;
+      objects_.for_each_mapped(static_cast<std::uint16_t>(0x1a00 + k), [&](const auto& object) {
+        for (std::size_t byte = 0; byte < object.size && frame.length < 8; ++byte) {
+          const std::uint32_t bits = object.value >> (8 * byte);
+          frame.data[frame.length++] = static_cast<std::uint8_t>(bits & 0xff);
+        }
+      });
+      answers.push_back(frame);
+    }
+  }
+
+  /// Each deadline is watched from the first frame on that it is for, whatever the drive's state.
+  void watch() noexcept {
+    silence_ += period_;
+    if (watches_commands_ && deadline_ > 0 && silence_ > deadline_ + period_ / 2) {
+      watches_commands_ = false;
+      emergency_ = 0x8250;  // RPDO timeout [CiA 301, table 26]
+      if (enabled()) raise_fault(emergency_);
+    }
+    host_silence_ += period_;
+    const double deadline = (value(SimulatedCia402Objects::heartbeat_consumer) & 0xffff) * 1e-3;
+    if (watches_host_ && deadline > 0 && host_silence_ > deadline + period_ / 2) {
+      watches_host_ = false;
+      emergency_ = 0x8130;  // heartbeat error
+      if (nmt_ == canopen::NmtState::operational) leave_operation();
     }
   }
 
@@ -223,13 +207,11 @@ class SimulatedCia402Node {
         nmt_ = canopen::NmtState::operational;
         return;
       case canopen::NmtCommand::stop:
-      case canopen::NmtCommand::enter_pre_operational:
-        nmt_ = command == static_cast<std::uint8_t>(canopen::NmtCommand::stop)
-                   ? canopen::NmtState::stopped
-                   : canopen::NmtState::pre_operational;
-        has_received_ = supervised_ = false;  // commands are watched in operation alone
-        react_to_abort();
+        leave_operation();
+        nmt_ = canopen::NmtState::stopped;
         return;
+      case canopen::NmtCommand::enter_pre_operational:
+        return leave_operation();
       case canopen::NmtCommand::reset_node:
       case canopen::NmtCommand::reset_communication:
         return restart();
@@ -238,43 +220,27 @@ class SimulatedCia402Node {
 
   /// What the node does when it leaves the operational state, as object 6007h says
   /// [CiA 402-2, abort connection option code]: 0 nothing, 1 a fault, 2 and 3 a stop.
-  void react_to_abort() noexcept {
+  void leave_operation() noexcept {
+    nmt_ = canopen::NmtState::pre_operational;
+    received_.fill({});
+    watches_commands_ = false;  // commands are watched in operation alone
     const std::uint32_t option = value(cia402::abort_connection);
     if (option == 1 && enabled()) raise_fault(0x8130);  // life guard error [CiA 301, table 26]
     if (option == 2 || option == 3) obey(cia402::disable_voltage);
   }
 
-  /// The answer of the object dictionary's server; abort codes of [CiA 301, table 22].
   [[nodiscard]] canopen::Sdo serve(const canopen::Sdo& request) noexcept {
-    const auto abort = [&](std::uint32_t code) {
-      return canopen::Sdo{canopen::SdoKind::abort, request.address, code, 4};
-    };
-    Object* const object = find(request.address);
-    if (!object) return abort(0x0602'0000);  // object does not exist
-    if (request.kind == canopen::SdoKind::upload) {
-      return {request.kind, request.address, object->value, object->size};
-    }
-    if (!object->writable) return abort(0x0601'0002);             // read only
-    if (request.size != object->size) return abort(0x0607'0010);  // length does not match
-    if (is_locked(request)) return abort(0x0800'0022);            // present device state
-    object->value = request.value;
+    const canopen::Sdo answer = objects_.serve(request, nmt_ == canopen::NmtState::operational);
+    if (answer.kind != canopen::SdoKind::download) return answer;
     // What has come for a process data object that is switched off is dropped.
-    if ((value({0x1400, 1}) & 0x8000'0000U) != 0) has_received_ = false;
-    if (request.address == cia402::controlword) obey(static_cast<std::uint16_t>(request.value));
-    if (request.address == cia402::mode_of_operation) {
-      find(cia402::mode_display)->value = request.value;
+    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
+      const std::uint32_t identifier = value(parameter(0x1400, k));
+      if ((identifier & SimulatedCia402Objects::off) != 0) received_[k] = {};
+      if (request.address == parameter(0x1400, k, 5)) deadline_ = request.value * 1e-3;
     }
-    return {request.kind, request.address, 0, 0};
-  }
-
-  /// Mapping objects are locked while their process data object is switched on, and its entries
-  /// while their number is not 0.
-  [[nodiscard]] bool is_locked(const canopen::Sdo& request) const noexcept {
-    const std::uint16_t index = request.address.index;
-    if (index != 0x1600 && index != 0x1a00 && index != 0x1a01) return false;
-    const auto parameters = static_cast<std::uint16_t>(index - 0x0200);
-    const bool on = (value({parameters, 1}) & 0x8000'0000U) == 0;
-    return on || (request.address.subindex > 0 && value({index, 0}) != 0);
+    if (request.address == cia402::controlword) obey(static_cast<std::uint16_t>(request.value));
+    show_state();
+    return answer;
   }
 
   /// The state machine [CiA 402-2, controlword].
@@ -284,44 +250,70 @@ class SimulatedCia402Node {
     last_controlword_ = word;
     if (state_ == State::fault) {
       if (reset) {
-        state_ = State::switch_on_disabled;
-        find(cia402::error_code)->value = 0;
+        go_to(State::switch_on_disabled);
+        objects_.set(cia402::error_code, 0);
       }
     } else if ((word & 0x06) != 0x06) {  // no voltage, or quick stop
-      state_ = State::switch_on_disabled;
+      go_to(State::switch_on_disabled);
     } else if ((word & 0x01) == 0) {
-      state_ = State::ready_to_switch_on;
+      go_to(State::ready_to_switch_on);
     } else if ((word & 0x08) == 0) {
-      if (state_ == State::ready_to_switch_on || enabled()) state_ = State::switched_on;
+      if (state_ == State::ready_to_switch_on || enabled()) go_to(State::switched_on);
     } else if (state_ == State::switched_on) {
-      state_ = State::operation_enabled;
+      go_to(State::operation_enabled);
     }
-    if (!enabled()) supervised_ = false;
+    show_state();
+  }
+
+  /// Upwards takes its time, downwards none.
+  void go_to(cia402::State state) noexcept {
+    const bool upwards = state > state_ && state <= cia402::State::operation_enabled;
+    if (upwards && quirks_.transition_time > 0) {
+      if (next_state_ != state) transition_left_ = quirks_.transition_time;
+      next_state_ = state;
+    } else {
+      state_ = next_state_ = state;
+    }
+  }
+  void go_on_with_transition() noexcept {
+    if (next_state_ == state_) return;
+    transition_left_ -= period_;
+    if (transition_left_ > period_ / 2) return;
+    state_ = next_state_;
     show_state();
   }
 
   void show_state() noexcept {
+    if (quirks_.shows_mode_at_once || enabled()) {
+      objects_.set(cia402::mode_display, value(cia402::mode_of_operation));
+    }
     std::uint32_t bits = 0x40;
     if (state_ == cia402::State::ready_to_switch_on) bits = 0x21;
     if (state_ == cia402::State::switched_on) bits = 0x33;
-    if (enabled()) bits = 0x37;
+    if (enabled()) bits = quirks_.shows_following ? 0x37 | cia402::follows_target : 0x37;
     if (state_ == cia402::State::fault) bits = 0x08;
     constexpr std::uint32_t remote = 0x200;
-    find(cia402::statusword)->value = bits | remote;
+    objects_.set(cia402::statusword, bits | remote);
   }
 
   std::uint8_t node_ = 0;
   double period_ = 1e-3;
-  std::array<Object, factory_objects.size()> objects_ = factory_objects;
+  SimulatedCia402Quirks quirks_{};
+  SimulatedCia402Objects objects_{};
   canopen::NmtState nmt_ = canopen::NmtState::boot_up;
   cia402::State state_ = cia402::State::switch_on_disabled;
+  cia402::State next_state_ = cia402::State::switch_on_disabled;
   std::uint16_t last_controlword_ = 0;
-  CanFrame received_{};
-  bool has_received_ = false;
-  bool supervised_ = false;  ///< commands have come since operation was enabled
-  bool emergency_due_ = false;
-  double silence_ = 0;          ///< since the last command [s]
-  double since_heartbeat_ = 0;  ///< [s]
+  std::array<Received, SimulatedCia402Objects::pdo_count> received_{};
+  bool watches_commands_ = false;  ///< some have come since the node is in operation
+  bool watches_host_ = false;      ///< a heartbeat has come
+  std::uint16_t emergency_ = 0;    ///< code of the message that is due
+  double deadline_ = 0;            ///< for commands [s]
+  double booting_ = 0;             ///< how long yet [s]
+  double transition_left_ = 0;     ///< [s]
+  double silence_ = 0;             ///< since the last command [s]
+  double host_silence_ = 0;        ///< since the last heartbeat of the host [s]
+  double since_heartbeat_ = 0;     ///< [s]
 };
 
 }  // namespace articula

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a simulated CiA 402 drive lacks or does in its own way, as many real ones do.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace articula {
+
+/// What a simulated CiA 402 drive lacks or does in its own way, as many real ones do.
+struct SimulatedCia402Quirks {
+  /// A mapping that cannot be changed: the index of its object, 1600h .. 1603h or 1a00h .. 1a03h,
+  /// and its entries, zero after the last.
+  struct FixedMapping {
+    std::uint16_t index = 0;
+    std::array<std::uint32_t, 8> entries{};
+  };
+
+  bool has_error_code = true;          ///< object 603Fh
+  bool has_torque = true;              ///< object 6077h
+  bool has_velocity = true;            ///< object 606Ch
+  bool has_deadline = true;            ///< object 1400h,5
+  bool has_heartbeat_consumer = true;  ///< object 1016h
+  bool allows_remote_requests = true;  ///< Else identifiers of TPDOs have bit 30, and must keep it.
+  bool tells_size = true;              ///< of what is read (43h .. 4fh, else 42h)
+  bool shows_mode_at_once = true;      ///< Else object 6061h follows in operation enabled alone.
+  bool shows_following = true;         ///< bit 12 of the statusword
+  bool is_open_in_operation = true;    ///< Else 1400h .. 1BFFh are locked then.
+  std::uint8_t sync_counter = 0;       ///< object 1019h at first; other SYNCs are not obeyed
+  double boot_time = 0;                ///< [s]
+  double transition_time = 0;          ///< for each transition towards operation enabled [s]
+  std::array<FixedMapping, 8> fixed_mappings{};  ///< If there is one, there are no others.
+
+  [[nodiscard]] constexpr bool has_fixed_mappings() const noexcept {
+    return fixed_mappings[0].index != 0;
+  }
+};
+
+}  // namespace articula
