@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 #include "fake_can_bus.hpp"
+#include "one_period_late.hpp"
 #include "random.hpp"
 
 #include <chrono>
@@ -107,7 +108,7 @@ std::ptrdiff_t count(const std::vector<Status>& statuses, Status status) {
 // since a command is put into force by the SYNC after the feedback that it answers, either way.
 TEST_CASE("the loop that the bus paces follows the loop in one process") {
   Bench bench;
-  Loop<Q2dSim, PidPlusGravity> in_process;
+  Loop<support::OnePeriodLate<Q2dSim>, PidPlusGravity> in_process;
   double position_difference = 0, velocity_difference = 0;
   const auto turn = [](auto& loop, std::uint64_t k) {
     const double side = (k / 1000) % 2 == 0 ? 1 : -1;

@@ -9,6 +9,7 @@
 #include "catch.hpp"
 #include "fake_can_bus.hpp"
 #include "numbers.hpp"
+#include "one_period_late.hpp"
 #include "random.hpp"
 
 #include <deque>
@@ -71,7 +72,7 @@ TEST_CASE("the loop over CiA 402 drives follows the loop in one process") {
   // Velocity: 0.015 N m over the damping of 2.6 N m s/rad is 6e-3 rad/s.
   const double position_bound = 4e-4, velocity_bound = 6e-3;
   Loop<Arm, PidPlusGravity> over_can(make_arm(make_bus()));
-  Loop<Q2dSim, PidPlusGravity> in_process;
+  Loop<support::OnePeriodLate<Q2dSim>, PidPlusGravity> in_process;
   double position_difference = 0, velocity_difference = 0;
   for (int k = 0; k < 3000; ++k) {
     const double side = (k / 1000) % 2 == 0 ? 1 : -1;

@@ -4,6 +4,7 @@
 
 #include "articula/hardware/can_batch.hpp"
 #include "articula/hardware/cia402.hpp"
+#include "articula/hardware/simulated_cia402_machine.hpp"
 #include "articula/hardware/simulated_cia402_objects.hpp"
 
 #include <array>
@@ -35,8 +36,7 @@ class SimulatedCia402Node {
     objects_.restart(node_, quirks_);
     nmt_ = canopen::NmtState::boot_up;
     booting_ = quirks_.boot_time;
-    state_ = next_state_ = cia402::State::switch_on_disabled;
-    last_controlword_ = 0;
+    machine_ = SimulatedCia402Machine(quirks_.transition_time);
     received_.fill({});
     watches_commands_ = watches_host_ = false;
     emergency_ = 0;
@@ -83,7 +83,7 @@ class SimulatedCia402Node {
       answers.push_back(canopen::encode(nmt_, node_));
       nmt_ = canopen::NmtState::pre_operational;
     }
-    go_on_with_transition();
+    if (machine_.pass(period_)) show_state();
     watch();
     if (emergency_ != 0) {
       answers.push_back(
@@ -107,14 +107,14 @@ class SimulatedCia402Node {
 
   /// Faults with an error code that is not 0. Real-time: yes.
   void raise_fault(std::uint16_t code) noexcept {
-    state_ = next_state_ = cia402::State::fault;
+    machine_.fault();
     objects_.set(cia402::error_code, code);
     emergency_ = code;
     show_state();
   }
 
-  [[nodiscard]] bool enabled() const noexcept { return state_ == cia402::State::operation_enabled; }
-  [[nodiscard]] cia402::State state() const noexcept { return state_; }
+  [[nodiscard]] bool enabled() const noexcept { return machine_.enabled(); }
+  [[nodiscard]] cia402::State state() const noexcept { return machine_.state(); }
   [[nodiscard]] cia402::Mode mode() const noexcept {
     return static_cast<cia402::Mode>(value(cia402::mode_display));
   }
@@ -243,43 +243,8 @@ class SimulatedCia402Node {
     return answer;
   }
 
-  /// The state machine [CiA 402-2, controlword].
   void obey(std::uint16_t word) noexcept {
-    using cia402::State;
-    const bool reset = (word & 0x80) != 0 && (last_controlword_ & 0x80) == 0;
-    last_controlword_ = word;
-    if (state_ == State::fault) {
-      if (reset) {
-        go_to(State::switch_on_disabled);
-        objects_.set(cia402::error_code, 0);
-      }
-    } else if ((word & 0x06) != 0x06) {  // no voltage, or quick stop
-      go_to(State::switch_on_disabled);
-    } else if ((word & 0x01) == 0) {
-      go_to(State::ready_to_switch_on);
-    } else if ((word & 0x08) == 0) {
-      if (state_ == State::ready_to_switch_on || enabled()) go_to(State::switched_on);
-    } else if (state_ == State::switched_on) {
-      go_to(State::operation_enabled);
-    }
-    show_state();
-  }
-
-  /// Upwards takes its time, downwards none.
-  void go_to(cia402::State state) noexcept {
-    const bool upwards = state > state_ && state <= cia402::State::operation_enabled;
-    if (upwards && quirks_.transition_time > 0) {
-      if (next_state_ != state) transition_left_ = quirks_.transition_time;
-      next_state_ = state;
-    } else {
-      state_ = next_state_ = state;
-    }
-  }
-  void go_on_with_transition() noexcept {
-    if (next_state_ == state_) return;
-    transition_left_ -= period_;
-    if (transition_left_ > period_ / 2) return;
-    state_ = next_state_;
+    if (machine_.obey(word)) objects_.set(cia402::error_code, 0);
     show_state();
   }
 
@@ -287,13 +252,7 @@ class SimulatedCia402Node {
     if (quirks_.shows_mode_at_once || enabled()) {
       objects_.set(cia402::mode_display, value(cia402::mode_of_operation));
     }
-    std::uint32_t bits = 0x40;
-    if (state_ == cia402::State::ready_to_switch_on) bits = 0x21;
-    if (state_ == cia402::State::switched_on) bits = 0x33;
-    if (enabled()) bits = quirks_.shows_following ? 0x37 | cia402::follows_target : 0x37;
-    if (state_ == cia402::State::fault) bits = 0x08;
-    constexpr std::uint32_t remote = 0x200;
-    objects_.set(cia402::statusword, bits | remote);
+    objects_.set(cia402::statusword, machine_.statusword(quirks_.shows_following));
   }
 
   std::uint8_t node_ = 0;
@@ -301,16 +260,13 @@ class SimulatedCia402Node {
   SimulatedCia402Quirks quirks_{};
   SimulatedCia402Objects objects_{};
   canopen::NmtState nmt_ = canopen::NmtState::boot_up;
-  cia402::State state_ = cia402::State::switch_on_disabled;
-  cia402::State next_state_ = cia402::State::switch_on_disabled;
-  std::uint16_t last_controlword_ = 0;
+  SimulatedCia402Machine machine_{};
   std::array<Received, SimulatedCia402Objects::pdo_count> received_{};
   bool watches_commands_ = false;  ///< some have come since the node is in operation
   bool watches_host_ = false;      ///< a heartbeat has come
   std::uint16_t emergency_ = 0;    ///< code of the message that is due
   double deadline_ = 0;            ///< for commands [s]
   double booting_ = 0;             ///< how long yet [s]
-  double transition_left_ = 0;     ///< [s]
   double silence_ = 0;             ///< since the last command [s]
   double host_silence_ = 0;        ///< since the last heartbeat of the host [s]
   double since_heartbeat_ = 0;     ///< [s]
