@@ -2,9 +2,11 @@
 /// @file What can go wrong between a loop and its drives.
 #pragma once
 
-#include "articula/hardware/canopen.hpp"
+#include "articula/core/hexadecimal.hpp"
+#include "articula/hardware/canopen_object_value.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace articula {
@@ -62,6 +64,21 @@ struct CanFault {
       return "a drive has let go";
   }
   return "unknown fault";
+}
+
+/// A fault in full: the cause, the joint, the drive's code, and at activation the object that the
+/// drive has refused or not answered for. Real-time: no (allocates).
+[[nodiscard]] inline std::string describe(const CanFault& fault) {
+  std::string text(to_string(fault.cause));
+  if (fault.joint >= 0) text += ": joint " + std::to_string(fault.joint);
+  if (fault.code != 0) text += ", fault code " + detail::hexadecimal(fault.code, 4);
+  if (fault.object.index == 0) return text;
+  text += fault.abort_code != 0 ? ", refuses object " : ", waits at object ";
+  text += canopen::to_string(fault.object);
+  if (fault.abort_code != 0) {
+    text += " with abort code " + detail::hexadecimal(fault.abort_code, 8);
+  }
+  return text;
 }
 
 }  // namespace articula

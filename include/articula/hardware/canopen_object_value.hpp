@@ -2,6 +2,7 @@
 /// @file Values for objects of a CANopen node, as its configuration lists them.
 #pragma once
 
+#include "articula/core/hexadecimal.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/hardware/canopen.hpp"
 
@@ -22,10 +23,7 @@ struct ObjectValue {
 
 /// An address as manuals write it, such as "6072h,0". Real-time: no (allocates).
 [[nodiscard]] inline std::string to_string(const ObjectAddress& address) {
-  constexpr const char* digits = "0123456789abcdef";
-  std::string text;
-  for (int shift = 12; shift >= 0; shift -= 4) text += digits[address.index >> shift & 0xf];
-  return text + "h," + std::to_string(address.subindex);
+  return articula::detail::hexadecimal(address.index, 4) + "," + std::to_string(address.subindex);
 }
 
 /// Up to 24 values, in the order in which they are to be written.

@@ -227,14 +227,14 @@ class PdoSetUp {
         optional_ = false;
         stage_ = Stage::clear;
         return;
-      case Stage::read_count:  // no such PDO
+      case Stage::read_identifier:  // no such PDO
+      case Stage::read_count:
       case Stage::read_entry:
         mapping_.clear();
         stage_ = Stage::done;
         return;
       case Stage::switch_on:
         return is_on ? void(stage_ = Stage::done) : fail();
-      case Stage::read_identifier:
       case Stage::check_synchronous:
       case Stage::done:
       case Stage::failed:

@@ -22,7 +22,7 @@ struct PdoTask {
   Direction direction = Direction::receive;
   std::uint8_t number = 0;  ///< 0 for PDO 1
   std::uint8_t node = 0;
-  bool may_map = true;       ///< Else the mapping is only read.
+  bool may_map = true;         ///< Else the mapping is only read.
   std::uint16_t deadline = 0;  ///< of an RPDO [ms]; 0: none
   std::array<Wish, most_wishes> wishes{};
   std::size_t wish_count = 0;

@@ -160,16 +160,18 @@ class Cia402Codec {
   /// Why the set-up has failed or is not done: the first drive that has refused, or else the first
   /// that is not ready, and the object with which it is at. Real-time: yes. O(N).
   [[nodiscard]] CanFault set_up_fault() const noexcept {
-    CanFault fault{CanCause::no_activation};
-    for (std::size_t j = 0; j < drives_.size(); ++j) {
-      const Cia402SetUp& set_up = set_ups_[j];
-      const bool ready = set_up.ended() && !set_up.failed() && reports_[j].enabled;
-      if (ready || (fault.joint >= 0 && !set_up.failed())) continue;
-      fault = {set_up.lacks_watchdog() ? CanCause::no_watchdog : CanCause::no_activation,
-               static_cast<int>(j), reports_[j].fault, set_up.object(), set_up.abort_code()};
-      if (set_up.failed()) break;
-    }
-    return fault;
+    const auto first = [this](auto condition) {
+      std::size_t j = 0;
+      while (j < count && !condition(j)) ++j;
+      return j;
+    };
+    std::size_t j = first([this](std::size_t k) { return set_ups_[k].failed(); });
+    if (j == count) j = first([this](std::size_t k) { return !set_ups_[k].ended(); });
+    if (j == count) j = first([this](std::size_t k) { return !reports_[k].enabled; });
+    if (j == count) return {CanCause::no_activation};
+    const Cia402SetUp& set_up = set_ups_[j];
+    return {set_up.lacks_watchdog() ? CanCause::no_watchdog : CanCause::no_activation,
+            static_cast<int>(j), reports_[j].fault, set_up.object(), set_up.abort_code()};
   }
 
   /// An RPDO for each drive, in the drive's units, rounded and held within their range, and SYNC if

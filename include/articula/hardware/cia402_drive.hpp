@@ -65,8 +65,8 @@ void validate(const R& robot, const Cia402DriveList<joint_count<R>>& drives) {
     }
     if (drive.watchdog == Cia402Watchdog::heartbeat) {
       if (drive.host_node < 1 || drive.host_node > canopen::last_node) {
-        refuse({"host_node ", int{drive.host_node}, " is not within 1 .. ",
-                int{canopen::last_node}});
+        refuse(
+            {"host_node ", int{drive.host_node}, " is not within 1 .. ", int{canopen::last_node}});
       }
       for (const Cia402Drive& other : drives) {
         if (other.node == drive.host_node) {

@@ -116,7 +116,10 @@ class Cia402PdoSetUp {
   void end_receive() noexcept {
     next_.receive = cia402::receive_layout(number_, node_, mode_, pdo_.mapping());
     next_.receive_number = number_;
-    if (next_.receive.frame.length > 0) return begin_transmit(0);
+    if (next_.receive.frame.length > 0) {
+      refusal_ = {};
+      return begin_transmit(0);
+    }
     failed_ = !any_fixed_ || number_ + 1U == cia402::ProcessData::most;
     if (!failed_) begin_receive(static_cast<std::uint8_t>(number_ + 1));
   }

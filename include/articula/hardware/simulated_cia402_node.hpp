@@ -70,6 +70,7 @@ class SimulatedCia402Node {
   void take_sync(const CanFrame& sync, CanBatch& answers) noexcept {
     const bool has_counter = value(SimulatedCia402Objects::sync_counter) != 0;
     if (sync.length != (has_counter ? 1 : 0)) return;
+    send_emergency(answers);
     report(answers);
     for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) put_into_force(k);
   }
@@ -85,10 +86,7 @@ class SimulatedCia402Node {
     }
     if (machine_.pass(period_)) show_state();
     watch();
-    if (emergency_ != 0) {
-      answers.push_back(
-          canopen::encode(canopen::Emergency{std::exchange(emergency_, {}), 0x01}, node_));
-    }
+    send_emergency(answers);
     since_heartbeat_ += period_;
     const double interval = value({0x1017, 0}) * 1e-3;
     if (interval > 0 && since_heartbeat_ > interval - period_ / 2) {
@@ -167,6 +165,12 @@ class SimulatedCia402Node {
     deadline_ = value(parameter(0x1400, number, 5)) * 1e-3;
   }
 
+  void send_emergency(CanBatch& answers) noexcept {
+    if (emergency_ == 0) return;
+    answers.push_back(
+        canopen::encode(canopen::Emergency{std::exchange(emergency_, {}), 0x01}, node_));
+  }
+
   void report(CanBatch& answers) noexcept {
     if (nmt_ != canopen::NmtState::operational) return;
     for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
@@ -238,6 +242,7 @@ class SimulatedCia402Node {
       if ((identifier & SimulatedCia402Objects::off) != 0) received_[k] = {};
       if (request.address == parameter(0x1400, k, 5)) deadline_ = request.value * 1e-3;
     }
+    if (request.address == SimulatedCia402Objects::heartbeat_consumer) watches_host_ = false;
     if (request.address == cia402::controlword) obey(static_cast<std::uint16_t>(request.value));
     show_state();
     return answer;
