@@ -41,6 +41,7 @@ class Cia402Feedback {
   /// Real-time: yes.
   void begin_cycle(bool with_sync, const cia402::ProcessData& data, DriveReport& report) noexcept {
     stream_count_ = data.stream_count;
+    ++cycle_;
     syncs_ = syncs_ << 1 | std::uint64_t{with_sync};
     for (Stream& stream : streams()) {
       if (with_sync) ++stream.unanswered;
@@ -48,7 +49,6 @@ class Cia402Feedback {
     }
     if (with_sync) {
       has_begun_ = true;
-      ++cycle_;
       if (since_mark_ < std::numeric_limits<std::uint32_t>::max()) ++since_mark_;
     }
     report.age = age();
@@ -57,7 +57,6 @@ class Cia402Feedback {
   /// The last SYNC did not get onto the bus. Real-time: yes.
   void withdraw_sync() noexcept {
     syncs_ &= ~std::uint64_t{1};
-    --cycle_;
     for (Stream& stream : streams()) {
       if (stream.unanswered > 0) --stream.unanswered;
     }
@@ -101,7 +100,7 @@ class Cia402Feedback {
       const double position =
           (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
       if (!data.has_velocity) {
-        take_difference(position, cycle_ - streams_[layout.stream].unanswered, data, report);
+        take_difference(position, cycle_ - streams_[layout.stream].age, data, report);
       }
       report.position = position;
     }
@@ -231,7 +230,7 @@ class Cia402Feedback {
   bool has_followed_ = false;
   bool has_position_ = false;         ///< for differences
   std::uint32_t position_cycle_ = 0;  ///< that the last position belongs to
-  std::uint32_t cycle_ = 0;           ///< SYNCs since the beginning, modulo 2^32
+  std::uint32_t cycle_ = 0;           ///< cycles since the beginning, modulo 2^32
   bool powered_ = true;
   bool has_begun_ = false;   ///< a SYNC has been since the beginning
   std::uint64_t syncs_ = 0;  ///< a bit for each of the last cycles: it had SYNC; bit 0 is
