@@ -363,6 +363,39 @@ TEST_CASE("SYNC may have a counter, and no more than that") {
   CHECK(Cia402Codec<Q2d>(drives).decode(canopen::encode_sync()) == CanDecoding::foreign);
 }
 
+TEST_CASE("drives that expect the counter of another node's SYNC keep it") {
+  SimulatedCia402Quirks quirks;
+  quirks.sync_counter = 10;
+  const auto bus = std::make_shared<Bus>(Drives(drives, {}, {quirks, quirks}));
+  bus->sync = canopen::encode_sync();
+  bus->sync.length = 1;
+  bus->sync_period = bus->next_sync = 1ms;
+  Arm arm = make_arm(bus);
+  CHECK(arm.activate() == Status::ok);
+  CHECK(bus->drives.node(0).value({0x1019, 0}) == 10);
+  CHECK(arm.deactivate() == Status::ok);
+}
+
+TEST_CASE("the host's heartbeat is a watchdog where another node sends SYNC, too") {
+  Cia402DriveList<2> list = drives;
+  for (Cia402Drive& drive : list) drive.watchdog = Cia402Watchdog::heartbeat;
+  const auto bus = make_bus();
+  Arm arm{Cia402Codec<Q2d, EffortCommand<2>, SyncProducer::another_node>(list),
+          support::FakeCanTransport<Drives>(bus)};
+  REQUIRE(arm.activate() == Status::ok);
+  JointState<2> state;
+  for (int k = 0; k < 50; ++k) {
+    bus->pass(1ms);
+    REQUIRE(arm.read(state) == Status::ok);
+    REQUIRE(arm.write({{3, -3}}) == Status::ok);
+  }
+  // The RPDOs' identifier ends the cycle's output.
+  CHECK(bus->to_drives.back().identifier == arm.codec().subscription().last_of_cycle);
+  bus->pass(12ms);  // the host is gone, SYNC is not
+  CHECK_FALSE(bus->drives.enabled(0));
+  CHECK_FALSE(bus->drives.enabled(1));
+}
+
 TEST_CASE("a link that fails does not turn the wait into a busy one") {
   Bench bench;
   bench.bus->on_sync = [&] { return bench.bus->link == CanLink::up; };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bytes on the wire, as CiA 301 and 402 have them.
 #include <articula/hardware/canopen.hpp>
+#include <articula/hardware/canopen_pdo_mapping.hpp>
 #include <articula/hardware/cia402.hpp>
 
 #include "catch.hpp"
@@ -56,6 +57,15 @@ TEST_CASE("golden frames of expedited access to objects") {
   CHECK(read->kind == SdoKind::upload);
   CHECK(read->value == 0x0237);  // what lies beyond the size does not count
   CHECK(read->size == 2);
+  // The node does not tell how many of the four bytes count: the host knows the object's size.
+  const auto untold = decode_answer(frame(0x582, {0x42, 0x41, 0x60, 0x00, 0x37, 0x02, 0xcc, 0xcc}));
+  REQUIRE(untold);
+  CHECK(untold->kind == SdoKind::upload);
+  CHECK(untold->value == 0xcccc'0237);
+  CHECK(untold->size == 0);
+  CHECK(encode_answer({SdoKind::upload, {0x6041, 0}, 0x0237, 0}, 2) ==
+        frame(0x582, {0x42, 0x41, 0x60, 0x00, 0x37, 0x02, 0, 0}));
+  CHECK(decode_request(frame(0x602, {0x22, 0x40, 0x60, 0x00, 0x0f, 0, 0, 0}))->size == 0);
   const auto refused = decode_answer(frame(0x582, {0x80, 0x60, 0x60, 0, 0x11, 0, 0x09, 0x06}));
   REQUIRE(refused);
   CHECK(refused->kind == SdoKind::abort);
@@ -84,6 +94,21 @@ TEST_CASE("what one end of an access encodes the other end decodes") {
   const auto upload = decode_request(encode_request({SdoKind::upload, {0x1234, 5}, 0, 0}, 9));
   REQUIRE(upload);
   CHECK(upload->kind == SdoKind::upload);
+}
+
+TEST_CASE("a mapping knows its frame") {
+  using namespace canopen;
+  PdoMapping mapping;
+  CHECK(mapping.push_back({{0x6041, 0}, 16}));
+  CHECK(mapping.push_back({{0x6061, 0}, 8}));
+  CHECK(mapping.push_back({{0x6064, 0}, 32}));
+  CHECK(mapping.length() == 7);
+  CHECK(mapping.offset_of({{0x6064, 0}, 32}) == 3);
+  CHECK_FALSE(mapping.contains({{0x6064, 0}, 16}));   // of another size
+  CHECK_FALSE(mapping.push_back({{0x6077, 0}, 16}));  // no room
+  CHECK_FALSE(mapping.push_back({{0x60fd, 0}, 1}));   // parts of bytes
+  CHECK(MappedObject{{0x6064, 0}, 32}.entry() == 0x6064'0020);
+  CHECK(MappedObject::of_entry(0x60c2'0108) == MappedObject{{0x60c2, 1}, 8});
 }
 
 TEST_CASE("statuswords tell the states of the profile") {

@@ -2,10 +2,12 @@
 /// @file A CAN frame as a value, without any bus.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
+#include <cstring>
 
 namespace articula {
 
@@ -58,25 +60,22 @@ template <class T, std::size_t Offset, std::size_t Bytes = sizeof(T)>
 /// @param offset  first byte; the integer must end within the payload
 /// Real-time: yes.
 template <class T>
-[[nodiscard]] constexpr T load_little_endian(const std::array<std::uint8_t, 8>& data,
-                                             std::size_t offset) noexcept {
-  std::make_unsigned_t<T> bits = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    bits = static_cast<decltype(bits)>(bits | std::uint32_t{data[offset + i]} << (8 * i));
-  }
-  return static_cast<T>(bits);
+[[nodiscard]] T load_little_endian(const std::array<std::uint8_t, 8>& data,
+                                   std::size_t offset) noexcept {
+  std::array<std::uint8_t, sizeof(T)> bytes;
+  std::memcpy(bytes.data(), data.data() + offset, sizeof(T));
+  if constexpr (std::endian::native != std::endian::little) std::ranges::reverse(bytes);
+  return std::bit_cast<T>(bytes);
 }
 
 /// Writes an integer where the first byte is known at run time.
 /// @param offset  first byte; the integer must end within the payload
 /// Real-time: yes.
 template <class T>
-constexpr void store_little_endian(std::array<std::uint8_t, 8>& data, std::size_t offset,
-                                   T value) noexcept {
-  const auto bits = static_cast<std::uint32_t>(value);
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    data[offset + i] = static_cast<std::uint8_t>(bits >> (8 * i) & 0xff);
-  }
+void store_little_endian(std::array<std::uint8_t, 8>& data, std::size_t offset, T value) noexcept {
+  auto bytes = std::bit_cast<std::array<std::uint8_t, sizeof(T)>>(value);
+  if constexpr (std::endian::native != std::endian::little) std::ranges::reverse(bytes);
+  std::memcpy(data.data() + offset, bytes.data(), sizeof(T));
 }
 
 /// Writes the low bytes of an integer into a payload, least significant byte first.

@@ -178,10 +178,10 @@ class Cia402Codec {
   /// it is ours. A NaN gives zero; for a position, the measured one. Real-time: yes. O(N).
   void encode(const Command& command, CanBatch& batch) noexcept {
     push_heartbeat(batch);
+    push_marks(batch);  // commands last: the transport looks for the end of a cycle's output
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       push_command(j, cia402::enable_operation, target(command, j), batch);
     }
-    push_marks(batch);
     end_output(batch);
   }
 
@@ -220,13 +220,13 @@ class Cia402Codec {
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       switch (frame.identifier - drives_[j].node) {
         case canopen::transmit_pdo_1_base:
-          return take_transmit_pdo(frame, 0, j);
+          return take_transmit_pdo<0>(frame, j);
         case canopen::transmit_pdo_2_base:
-          return take_transmit_pdo(frame, 1, j);
+          return take_transmit_pdo<1>(frame, j);
         case canopen::transmit_pdo_3_base:
-          return take_transmit_pdo(frame, 2, j);
+          return take_transmit_pdo<2>(frame, j);
         case canopen::transmit_pdo_4_base:
-          return take_transmit_pdo(frame, 3, j);
+          return take_transmit_pdo<3>(frame, j);
         case canopen::emergency_base:
           return feedbacks_[j].take_emergency(frame);
         case canopen::sdo_answer_base:
@@ -357,10 +357,10 @@ class Cia402Codec {
     return CanDecoding::accepted;
   }
 
-  [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame, std::size_t number,
-                                              std::size_t j) noexcept {
-    return feedbacks_[j].take_transmit_pdo(frame, number, set_ups_[j].process_data(), drives_[j],
-                                           reports_[j]);
+  template <std::size_t Number>
+  [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame, std::size_t j) noexcept {
+    return feedbacks_[j].template take_transmit_pdo<Number>(frame, set_ups_[j].process_data(),
+                                                            drives_[j], reports_[j]);
   }
 
   [[nodiscard]] CanDecoding take_answer(std::size_t j, const CanFrame& frame) noexcept {

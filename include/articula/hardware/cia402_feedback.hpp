@@ -64,51 +64,23 @@ class Cia402Feedback {
   }
 
   /// Takes in one of the drive's process data objects.
+  /// @tparam Number  of the object, 0 for TPDO 1
   /// @param frame   with its identifier
-  /// @param number  of the object, 0 for TPDO 1
   /// @param data    the drive's process data
   /// @param drive   whose it is
   /// @param report  of the drive
   /// Real-time: yes.
-  [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame, std::size_t number,
+  template <std::size_t Number>
+  [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame,
                                               const cia402::ProcessData& data,
                                               const Cia402Drive& drive,
                                               DriveReport& report) noexcept {
-    constexpr std::uint8_t absent = cia402::TransmitLayout::absent;
-    const cia402::TransmitLayout& layout = data.transmit[number];
-    if (layout.length == 0) return CanDecoding::foreign;
-    if (frame.length != layout.length) return CanDecoding::malformed;
-    if (layout.statusword != absent) {
-      const auto bits = load_little_endian<std::uint16_t>(frame.data, layout.statusword);
-      const auto state = cia402::state_of(bits);
-      if (!state) return CanDecoding::malformed;
-      if (!has_begun_) return CanDecoding::outdated;
-      take_state(*state, (bits & cia402::follows_target) != 0, report);
+    if constexpr (Number < cia402::usual_transmit.size()) {
+      constexpr cia402::TransmitLayout usual = cia402::usual_transmit[Number];
+      if (data.is_usual) [[likely]]
+        return take(usual, frame, data, drive, report);
     }
-    if (!has_begun_) return CanDecoding::outdated;
-    answer(streams_[layout.stream], report);
-    if (layout.torque != absent) {
-      const auto per_mille = load_little_endian<std::int16_t>(frame.data, layout.torque);
-      report.effort = per_mille * drive.rated_effort / 1e3;
-    }
-    if (layout.velocity != absent) {
-      const auto units = load_little_endian<std::int32_t>(frame.data, layout.velocity);
-      report.velocity = units / drive.velocity_scale;
-    }
-    if (layout.position != absent) {
-      const auto units = load_little_endian<std::int32_t>(frame.data, layout.position);
-      const double position =
-          (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
-      if (!data.has_velocity) {
-        take_difference(position, cycle_ - streams_[layout.stream].age, data, report);
-      }
-      report.position = position;
-    }
-    if (layout.error_code != absent) {
-      const auto code = load_little_endian<std::uint16_t>(frame.data, layout.error_code);
-      if (report.fault != 0 && code != 0) report.fault = code;
-    }
-    return CanDecoding::accepted;
+    return take(data.transmit[Number], frame, data, drive, report);
   }
 
   /// Takes in an emergency message. It gives a fault its name; whether there is one, the statusword
@@ -182,6 +154,48 @@ class Cia402Feedback {
     std::uint32_t oldest = streams_[0].age;
     for (std::size_t i = 1; i < stream_count_; ++i) oldest = std::max(oldest, streams_[i].age);
     return oldest;
+  }
+
+  /// Inlined, so that the usual layout costs no more than constants.
+  [[nodiscard, gnu::always_inline]] inline CanDecoding take(const cia402::TransmitLayout& layout,
+                                                            const CanFrame& frame,
+                                                            const cia402::ProcessData& data,
+                                                            const Cia402Drive& drive,
+                                                            DriveReport& report) noexcept {
+    constexpr std::uint8_t absent = cia402::TransmitLayout::absent;
+    if (layout.length == 0) return CanDecoding::foreign;
+    if (frame.length != layout.length) return CanDecoding::malformed;
+    if (layout.statusword != absent) {
+      const auto bits = load_little_endian<std::uint16_t>(frame.data, layout.statusword);
+      const auto state = cia402::state_of(bits);
+      if (!state) return CanDecoding::malformed;
+      if (!has_begun_) return CanDecoding::outdated;
+      take_state(*state, (bits & cia402::follows_target) != 0, report);
+    }
+    if (!has_begun_) return CanDecoding::outdated;
+    answer(streams_[layout.stream], report);
+    if (layout.torque != absent) {
+      const auto per_mille = load_little_endian<std::int16_t>(frame.data, layout.torque);
+      report.effort = per_mille * drive.rated_effort / 1e3;
+    }
+    if (layout.velocity != absent) {
+      const auto units = load_little_endian<std::int32_t>(frame.data, layout.velocity);
+      report.velocity = units / drive.velocity_scale;
+    }
+    if (layout.position != absent) {
+      const auto units = load_little_endian<std::int32_t>(frame.data, layout.position);
+      const double position =
+          (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
+      if (!data.has_velocity) {
+        take_difference(position, cycle_ - streams_[layout.stream].age, data, report);
+      }
+      report.position = position;
+    }
+    if (layout.error_code != absent) {
+      const auto code = load_little_endian<std::uint16_t>(frame.data, layout.error_code);
+      if (report.fault != 0 && code != 0) report.fault = code;
+    }
+    return CanDecoding::accepted;
   }
 
   void take_state(cia402::State state, bool follows, DriveReport& report) noexcept {

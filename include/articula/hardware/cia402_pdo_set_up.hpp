@@ -6,9 +6,11 @@
 #include "articula/hardware/cia402_drive.hpp"
 #include "articula/hardware/cia402_process_data.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace articula {
 
@@ -30,18 +32,11 @@ class Cia402PdoSetUp {
       : node_(drive.node),
         mode_(mode),
         deadline_(drive.watchdog == Cia402Watchdog::commands ? deadline : std::uint16_t{0}) {
-    canopen::PdoMapping command, state, rest;
+    canopen::PdoMapping command;
     command.push_back(cia402::mapped_controlword);
     command.push_back(cia402::mapped_target(mode));
-    state.push_back(cia402::mapped_statusword);
-    state.push_back(cia402::mapped_position);
-    state.push_back(cia402::mapped_torque);
-    rest.push_back(cia402::mapped_velocity);
-    rest.push_back(cia402::mapped_error_code);
     process_data_.receive = cia402::receive_layout(0, node_, mode, command);
-    process_data_.transmit[0] = cia402::transmit_layout(state);
-    process_data_.transmit[1] = cia402::transmit_layout(rest);
-    process_data_.transmit[1].stream = 1;
+    std::ranges::copy(cia402::usual_transmit, process_data_.transmit.begin());
     process_data_.stream_count = 2;
     process_data_.sync_period = period * 1e-3;
     restart();
@@ -156,6 +151,9 @@ class Cia402PdoSetUp {
     failed_ = (missing_ & needed) != 0;
     if (failed_) return;
     next_.has_velocity = (missing_ & velocity) == 0;
+    next_.is_usual =
+        next_.stream_count == 2 &&
+        std::ranges::equal(std::span(next_.transmit).first<2>(), cia402::usual_transmit);
     process_data_ = next_;
     done_ = true;
   }

@@ -41,7 +41,15 @@ struct TransmitLayout {
   std::uint8_t torque = absent;
   std::uint8_t velocity = absent;
   std::uint8_t error_code = absent;
+
+  friend constexpr bool operator==(const TransmitLayout&, const TransmitLayout&) = default;
 };
+
+/// TPDO 1 and 2 of a drive that has all, as Cia402PdoSetUp maps them.
+inline constexpr std::array<TransmitLayout, 2> usual_transmit{{
+    {.length = 8, .stream = 0, .statusword = 0, .position = 2, .torque = 6},
+    {.length = 6, .stream = 1, .velocity = 0, .error_code = 4},
+}};
 
 /// The process data of one drive.
 struct ProcessData {
@@ -51,6 +59,7 @@ struct ProcessData {
   std::array<TransmitLayout, most> transmit{};
   std::size_t stream_count = 0;  ///< how many of these are used
   double sync_period = 1e-3;     ///< [s]
+  bool is_usual = true;          ///< `transmit` is as `usual_transmit`: known when compiled
   bool has_velocity = true;      ///< else the codec takes differences of positions
 };
 
