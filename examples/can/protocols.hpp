@@ -61,6 +61,7 @@ struct Cia402Protocol {
     for (const Cia402Drive& drive : q2d_cia402) {
       wanted.identifiers.push_back(canopen::receive_pdo_1_base + drive.node);
       wanted.identifiers.push_back(canopen::sdo_request_base + drive.node);
+      wanted.identifiers.push_back(canopen::heartbeat_base + drive.host_node);
     }
     return wanted;
   }

@@ -35,7 +35,7 @@ int main(int argc, char** argv) try {
 
   std::printf("%d cycles, %s, %s, %d without SYNC, at %.3f %.3f rad\n",
               static_cast<int>(report.cycles), to_string(report.status).data(),
-              to_string(loop.hardware().fault().cause).data(),
+              describe(loop.hardware().fault()).c_str(),
               static_cast<int>(loop.hardware().statistics().unpaced), loop.state().position[0],
               loop.state().position[1]);  // 2000 cycles, ok, no fault, 0 without SYNC, ...
   return report.status == Status::ok ? 0 : 1;

@@ -160,7 +160,7 @@ class Cia402Codec {
   /// Why the set-up has failed or is not done: the first drive that has refused, or else the first
   /// that is not ready, and the object with which it is at. Real-time: yes. O(N).
   [[nodiscard]] CanFault set_up_fault() const noexcept {
-    const auto first = [this](auto condition) {
+    const auto first = [](auto condition) {
       std::size_t j = 0;
       while (j < count && !condition(j)) ++j;
       return j;
