@@ -12,6 +12,7 @@
 #include <chrono>
 #include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 using namespace articula;
@@ -310,6 +311,20 @@ TEST_CASE("drives that take seconds to boot and to switch on are waited for") {
   check_drives({.boot_time = 6});
   check_drives({.transition_time = 2});  // three of them
   check_drives({.boot_time = 2, .transition_time = 1.5});
+}
+
+TEST_CASE("a drive that has not left operation is told once more") {
+  Bench bench({.is_open_in_operation = false});
+  REQUIRE(bench.arm.activate() == Status::ok);
+  CHECK(bench.cycles(10, {}));
+  bool lost = false;
+  bench.bus->on_command = [&](CanFrame& frame) {
+    const bool leaves = frame == canopen::encode(canopen::NmtCommand::enter_pre_operational, 6);
+    return !leaves || std::exchange(lost, true);
+  };
+  CHECK(bench.arm.activate() == Status::ok);
+  CHECK(lost);
+  bench.bus->on_command = [](CanFrame&) { return true; };
 }
 
 TEST_CASE("mappings that cannot be changed are used as they are") {

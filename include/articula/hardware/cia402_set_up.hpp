@@ -48,7 +48,7 @@ class Cia402SetUp {
     pdos_.restart();
     abort_code_ = 0;
     failed_object_ = {};
-    lacks_watchdog_ = false;
+    lacks_watchdog_ = retried_ = false;
   }
 
   /// Begins to release the drive: takes its watchdog off. For a drive that is not enabled: if the
@@ -174,6 +174,13 @@ class Cia402SetUp {
   }
   void advance_step() noexcept { ++step_; }
   void fail() noexcept {
+    constexpr std::uint32_t present_device_state = 0x0800'0022;
+    if (abort_code_ == present_device_state && !retried_) {
+      // The command to leave operation may have been lost, or was not obeyed yet.
+      restart();
+      retried_ = true;
+      return;
+    }
     failed_object_ = client_.request().address;
     lacks_watchdog_ = failed_object_ == Cia402Script::heartbeat_consumer;
     failed_ = true;
@@ -186,10 +193,11 @@ class Cia402SetUp {
     pdos_.take(answer);
     if (pdos_.done()) return advance_step();
     if (!pdos_.failed()) return;
+    abort_code_ = pdos_.refusal().value;
     fail();
+    if (!failed_) return;  // another try
     failed_object_ = pdos_.refusal().address;
     lacks_watchdog_ = pdos_.lacks_deadline();
-    abort_code_ = pdos_.refusal().value;
   }
 
   void take_abort(const Cia402Step& step, const canopen::Sdo& answer) noexcept {
@@ -251,6 +259,7 @@ class Cia402SetUp {
   std::size_t begun_step_ = Cia402Script::capacity;
   bool failed_ = false;
   bool lacks_watchdog_ = false;
+  bool retried_ = false;         ///< the set-up has begun anew after a refusal
   bool checking_ = false;        ///< whether what could not be written has the value already
   bool resetting_ = false;       ///< the controlword is to reset a fault
   bool doubted_ = false;         ///< it was done, but that does not show
