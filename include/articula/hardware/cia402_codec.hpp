@@ -10,6 +10,7 @@
 #include "articula/hardware/cia402_feedback.hpp"
 #include "articula/hardware/cia402_set_up.hpp"
 #include "articula/hardware/cia402_stop.hpp"
+#include "articula/hardware/sync_history.hpp"
 
 #include <algorithm>
 #include <array>
@@ -112,6 +113,8 @@ class Cia402Codec {
   /// Forgets what the drives have said. Real-time: yes.
   void restart() noexcept {
     reports_.fill({});
+    syncs_ = {};
+    next_stop_ = 0;
     for (Cia402Feedback& feedback : feedbacks_) feedback.restart();
     since_beat_ = cycles_per_beat_;
     for (Cia402Stop& stop : stops_) stop.restart();
@@ -121,13 +124,12 @@ class Cia402Codec {
   /// Brings all drives to operation enabled, side by side, then begins a cycle with each call and
   /// is done when all have said where they are. Real-time: yes. O(N).
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
-    sync_pushed_ = false;
     bool all_enabled = true, all_known = true, all_follow = true;
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       const std::size_t before = batch.size();
       const CanSetUp progress = set_ups_[j].advance(elapsed, batch);
       if (progress == CanSetUp::failed) return progress;
-      if (batch.size() != before) feedbacks_[j].place_mark(set_ups_[j].object());
+      if (batch.size() != before) feedbacks_[j].place_mark(set_ups_[j].object(), syncs_);
       all_enabled = all_enabled && progress == CanSetUp::done;
       const bool known = reports_[j].age < doubtful_age && reports_[j].enabled;
       if (!known) set_ups_[j].doubt(elapsed);
@@ -135,7 +137,10 @@ class Cia402Codec {
       all_follow = all_follow && feedbacks_[j].has_followed();
     }
     if (!all_known) known_since_ = elapsed;
-    if (!all_enabled) return CanSetUp::in_progress;
+    if (!all_enabled) {
+      if (sends_sync) begin_cycle(false);
+      return CanSetUp::in_progress;
+    }
     push_marks(batch);
     if (sends_sync) end_output(batch);
     // A drive may take a moment until it follows its target. Some follow and never say so.
@@ -177,8 +182,9 @@ class Cia402Codec {
   /// An RPDO for each drive, in the drive's units, rounded and held within their range, and SYNC if
   /// it is ours. A NaN gives zero; for a position, the measured one. Real-time: yes. O(N).
   void encode(const Command& command, CanBatch& batch) noexcept {
-    push_heartbeat(batch);
-    push_marks(batch);  // commands last: the transport looks for the end of a cycle's output
+    if (host_node_ != 0) push_heartbeat(batch);
+    if (syncs_.is_missing())
+      push_marks(batch);  // commands last: the transport looks for the end of a cycle's output
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       push_command(j, cia402::enable_operation, target(command, j), batch);
     }
@@ -188,13 +194,9 @@ class Cia402Codec {
   /// Takes the power from all drives: by RPDO, and by access to its objects from each drive that
   /// has not yet said that it has none. Real-time: yes. O(N).
   void encode_stop(CanBatch& batch) noexcept {
+    if (host_node_ != 0) push_heartbeat(batch);
+    if (syncs_.is_missing() || syncs_.cycle() >= next_stop_) push_stops(batch);
     Command still;
-    push_heartbeat(batch);
-    access(
-        [this](std::size_t j, CanBatch& b) {
-          return feedbacks_[j].powered() ? stops_[j].advance(drives_[j].node, b) : push_mark(j, b);
-        },
-        batch);
     for (std::size_t j = 0; j < drives_.size(); ++j) {
       if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
         still.position[static_cast<int>(j)] = reports_[j].position;
@@ -207,10 +209,10 @@ class Cia402Codec {
   /// The bus did not take all frames of the last output, so it did not take SYNC, the last.
   /// Real-time: yes. O(N).
   void withdraw() noexcept {
+    if (sends_sync) syncs_.withdraw_sync();
     for (Cia402Stop& stop : stops_) stop.withdraw();
-    if (!sync_pushed_) return;
-    for (Cia402Feedback& feedback : feedbacks_) feedback.withdraw_sync();
-    sync_pushed_ = false;
+    for (Cia402Feedback& feedback : feedbacks_) feedback.withdraw();
+    syncs_.note_missing();
   }
 
   /// Takes in a drive's frame. Real-time: yes. O(N).
@@ -308,32 +310,43 @@ class Cia402Codec {
   }
 
   void push_heartbeat(CanBatch& batch) noexcept {
-    if (host_node_ == 0 || ++since_beat_ < cycles_per_beat_) return;
+    if (++since_beat_ < cycles_per_beat_) return;
     since_beat_ = 0;
     batch.push_back(canopen::encode(canopen::NmtState::operational, host_node_));
   }
 
   /// Appends what a few drives in turn need beside their process data.
-  /// @param append_for  (j, batch) appends a frame for drive j and returns whether it did
+  /// @param append_for  appends frames for a drive, and says how many
   template <class Append>
-  void access(Append append_for, CanBatch& batch) noexcept {
-    std::size_t left = most_accesses;
-    for (std::size_t k = 0; k < drives_.size() && left > 0; ++k) {
-      if (append_for(next_access_, batch)) --left;
-      next_access_ = (next_access_ + 1) % drives_.size();
+  void access(Append append_for) noexcept {
+    std::size_t frames = 0;
+    for (std::size_t k = 0; k < drives_.size() && frames < most_accesses; ++k) {
+      frames += append_for(next_drive_);
+      next_drive_ = (next_drive_ + 1) % drives_.size();
     }
+    if (frames < most_accesses) syncs_.forget_missing();
   }
-  bool push_mark(std::size_t j, CanBatch& batch) noexcept {
-    const auto request = feedbacks_[j].next_mark();
-    return request && batch.push_back(canopen::encode_request(*request, drives_[j].node));
+  std::size_t push_mark(std::size_t j, CanBatch& batch) noexcept {
+    const auto request = feedbacks_[j].next_mark(set_ups_[j].process_data().stream_count, syncs_);
+    if (!request) return 0;
+    return batch.push_back(canopen::encode_request(*request, drives_[j].node)) ? 1 : 0;
   }
-  void push_marks(CanBatch& batch) noexcept {
-    access([this](std::size_t j, CanBatch& b) { return push_mark(j, b); }, batch);
+  // Seldom needed; inlined, they would cost each cycle some registers.
+  [[gnu::noinline]] void push_marks(CanBatch& batch) noexcept {
+    access([&](std::size_t j) { return push_mark(j, batch); });
+  }
+  [[gnu::noinline]] void push_stops(CanBatch& batch) noexcept {
+    next_stop_ = syncs_.cycle() + Cia402Stop::patience;
+    access([&](std::size_t j) {
+      return feedbacks_[j].powered() ? stops_[j].advance(drives_[j].node, syncs_.cycle(), batch)
+                                     : push_mark(j, batch);
+    });
   }
 
   void begin_cycle(bool with_sync) noexcept {
-    for (std::size_t j = 0; j < drives_.size(); ++j) {
-      feedbacks_[j].begin_cycle(with_sync, set_ups_[j].process_data(), reports_[j]);
+    syncs_.begin_cycle(with_sync);
+    for (DriveReport& report : reports_) {
+      if (report.age < DriveReport::never - 1) ++report.age;
     }
   }
 
@@ -342,7 +355,6 @@ class Cia402Codec {
     if (sends_sync) {
       begin_cycle(true);
       batch.push_back(canopen::encode_sync());
-      sync_pushed_ = true;
     } else {
       if (!heard_) begin_cycle(false);  // what is known grows older without SYNC, too
       heard_ = false;
@@ -360,14 +372,15 @@ class Cia402Codec {
   template <std::size_t Number>
   [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame, std::size_t j) noexcept {
     return feedbacks_[j].template take_transmit_pdo<Number>(frame, set_ups_[j].process_data(),
-                                                            drives_[j], reports_[j]);
+                                                            drives_[j], syncs_, reports_[j]);
   }
 
   [[nodiscard]] CanDecoding take_answer(std::size_t j, const CanFrame& frame) noexcept {
     const auto answer = canopen::decode_answer(frame);
     if (!answer) return CanDecoding::malformed;
     set_ups_[j].take(*answer);
-    feedbacks_[j].take_answer(answer->address);
+    feedbacks_[j].take_answer(answer->address, set_ups_[j].process_data().stream_count, syncs_);
+    syncs_.note_missing();
     if (const auto statusword = stops_[j].take(*answer)) {
       feedbacks_[j].take_statusword(*statusword);
     }
@@ -377,7 +390,7 @@ class Cia402Codec {
   static constexpr auto count = static_cast<std::size_t>(joint_count);
   /// Frames of access to objects in a cycle, at most: the queue of a CAN interface takes ten frames
   /// by default, and commands and SYNC need room.
-  static constexpr std::size_t most_accesses = count < 8 ? 9 - count : 1;
+  static constexpr std::size_t most_accesses = count < 7 ? 8 - count : 1;
   /// Cycles without feedback after which the set-up does not trust that a drive is enabled.
   static constexpr std::uint32_t doubtful_age = 20;
 
@@ -387,11 +400,12 @@ class Cia402Codec {
   std::array<Cia402Stop, count> stops_{};
   std::array<Cia402Feedback, count> feedbacks_{};
   std::array<DriveReport, count> reports_{};
-  std::size_t next_access_ = 0;
+  SyncHistory syncs_{};
+  std::size_t next_drive_ = 0;              ///< whose turn it is for an access
+  std::uint64_t next_stop_ = 0;             ///< while stopping: when it may at the latest
   std::chrono::nanoseconds known_since_{};  ///< all drives were enabled and had reported
   std::uint8_t host_node_ = 0;  ///< that the host's heartbeats come from; 0: there are none
   int since_beat_ = 0;          ///< cycles since the last one
-  bool sync_pushed_ = false;    ///< the last frames appended have SYNC
   bool heard_ = false;          ///< SYNC has come since the last output
   std::uint64_t heard_cycles_ = 0;
 };

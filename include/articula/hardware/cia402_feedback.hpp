@@ -6,15 +6,13 @@
 #include "articula/hardware/cia402.hpp"
 #include "articula/hardware/cia402_drive.hpp"
 #include "articula/hardware/cia402_process_data.hpp"
+#include "articula/hardware/sync_history.hpp"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <span>
 
 namespace articula {
 
@@ -34,53 +32,30 @@ class Cia402Feedback {
   /// Forgets all. Real-time: yes.
   void restart() noexcept { *this = {}; }
 
-  /// A cycle begins.
-  /// @param with_sync  SYNC begins it, so an answer is due
-  /// @param data       the drive's process data
-  /// @param report     of the drive; grows older
-  /// Real-time: yes.
-  void begin_cycle(bool with_sync, const cia402::ProcessData& data, DriveReport& report) noexcept {
-    stream_count_ = data.stream_count;
-    ++cycle_;
-    syncs_ = syncs_ << 1 | std::uint64_t{with_sync};
-    for (Stream& stream : streams()) {
-      if (with_sync) ++stream.unanswered;
-      if (stream.age < DriveReport::never - 1) ++stream.age;
-    }
-    if (with_sync) {
-      has_begun_ = true;
-      if (since_mark_ < std::numeric_limits<std::uint32_t>::max()) ++since_mark_;
-    }
-    report.age = age();
-  }
-
-  /// The last SYNC did not get onto the bus. Real-time: yes.
-  void withdraw_sync() noexcept {
-    syncs_ &= ~std::uint64_t{1};
-    for (Stream& stream : streams()) {
-      if (stream.unanswered > 0) --stream.unanswered;
-    }
-    awaits_mark_ = false;  // the request did not either
-  }
-
   /// Takes in one of the drive's process data objects.
   /// @tparam Number  of the object, 0 for TPDO 1
   /// @param frame   with its identifier
   /// @param data    the drive's process data
   /// @param drive   whose it is
+  /// @param syncs   that the drive was to answer; receives the note that an answer is missing
   /// @param report  of the drive
+  /// @return        CanDecoding::outdated before the first SYNC
   /// Real-time: yes.
   template <std::size_t Number>
   [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame,
                                               const cia402::ProcessData& data,
-                                              const Cia402Drive& drive,
+                                              const Cia402Drive& drive, SyncHistory& syncs,
                                               DriveReport& report) noexcept {
     if constexpr (Number < cia402::usual_transmit.size()) {
+      // A frame in time with the usual layout costs no more than constants.
       constexpr cia402::TransmitLayout usual = cia402::usual_transmit[Number];
-      if (data.is_usual) [[likely]]
-        return take(usual, frame, data, drive, report);
+      constexpr std::size_t streams = cia402::usual_transmit.size();
+      if (data.is_usual && next_[usual.stream] == syncs.cycle() && syncs.is_new()) [[likely]] {
+        return take<true>(usual, streams, frame, data, drive, syncs, report);
+      }
+      if (data.is_usual) return take_any(usual, streams, frame, data, drive, syncs, report);
     }
-    return take(data.transmit[Number], frame, data, drive, report);
+    return take_any(data.transmit[Number], data.stream_count, frame, data, drive, syncs, report);
   }
 
   /// Takes in an emergency message. It gives a fault its name; whether there is one, the statusword
@@ -94,24 +69,44 @@ class Cia402Feedback {
 
   /// The request for a mark, where more answers are missing than at the last mark, or some are and
   /// that one was long ago. Every node has the object or refuses it; either is an answer.
+  /// @param streams  how many process data objects the drive sends
+  /// @param syncs    that it was to answer
   /// Real-time: yes.
-  [[nodiscard]] std::optional<canopen::Sdo> next_mark() noexcept {
-    constexpr std::uint32_t interval = 10, patience = 20;  // [cycles]
-    if (lag() == 0 || since_mark_ == 0) return {};
-    const bool known = lag() <= known_lag_ && since_mark_ < interval;
-    if (awaits_mark_ ? since_mark_ < patience : known) return {};
+  [[nodiscard]] std::optional<canopen::Sdo> next_mark(std::size_t streams,
+                                                      const SyncHistory& syncs) noexcept {
+    constexpr std::uint64_t interval = 10, patience = 20;  // [cycles]
+    const std::uint32_t missing = lag(streams, syncs);
+    if (missing == 0) return {};
+    const std::uint64_t since = syncs.cycle() - mark_cycle_;
+    const bool known = missing <= known_lag_ && since < interval;
+    if (awaits_mark_ ? since < patience : known) return {};
     // A late answer to the mark before must not pass for one to this.
     constexpr std::uint8_t objects = 5;  // of the identity [CiA 301, object 1018h]
     mark_number_ = static_cast<std::uint8_t>((mark_number_ + 1) % objects);
-    place_mark({0x1018, mark_number_});
+    place_mark({0x1018, mark_number_}, syncs);
     return canopen::Sdo{canopen::SdoKind::upload, mark_, 0, 0};
   }
 
   /// Any access to an object is a mark: it is requested now. Real-time: yes.
-  void place_mark(const canopen::ObjectAddress& object) noexcept {
+  void place_mark(const canopen::ObjectAddress& object, const SyncHistory& syncs) noexcept {
     mark_ = object;
-    since_mark_ = 0;
+    mark_cycle_ = syncs.cycle();
     awaits_mark_ = true;
+  }
+  /// The bus did not take the last frames. Real-time: yes.
+  void withdraw() noexcept { awaits_mark_ = false; }
+
+  /// The answer to an access has come.
+  /// @param object   that it was of
+  /// @param streams  as next_mark
+  /// @param syncs    likewise
+  /// Real-time: yes.
+  void take_answer(const canopen::ObjectAddress& object, std::size_t streams,
+                   const SyncHistory& syncs) noexcept {
+    if (!awaits_mark_ || object != mark_) return;
+    awaits_mark_ = false;
+    for (std::uint64_t& next : next_) next = std::max(next, mark_cycle_ + 1);
+    known_lag_ = lag(streams, syncs);
   }
 
   /// Takes in a statusword that was read by access to the object. Real-time: yes.
@@ -127,53 +122,69 @@ class Cia402Feedback {
   /// Whether the drive may exert effort: it has not said that it does not. Real-time: yes.
   [[nodiscard]] bool powered() const noexcept { return powered_; }
 
-  /// The answer to an access has come. Real-time: yes.
-  void take_answer(const canopen::ObjectAddress& object) noexcept {
-    if (!awaits_mark_ || object != mark_) return;
-    awaits_mark_ = false;
-    for (Stream& stream : streams()) stream.unanswered = std::min(stream.unanswered, since_mark_);
-    known_lag_ = lag();
-  }
-
  private:
-  /// One process data object.
-  struct Stream {
-    std::uint32_t unanswered = 0;            ///< SYNCs that it has not answered
-    std::uint32_t age = DriveReport::never;  ///< of its last frame [cycles]
-  };
+  using Cycles = std::array<std::uint64_t, cia402::ProcessData::most>;
 
-  [[nodiscard]] std::span<Stream> streams() noexcept {
-    return std::span(streams_).first(stream_count_);
+  /// The lowest of the first few.
+  [[nodiscard]] static std::uint64_t least(const Cycles& cycles, std::size_t streams) noexcept {
+    std::uint64_t lowest = cycles[0];
+    for (std::size_t i = 1; i < streams; ++i) lowest = std::min(lowest, cycles[i]);
+    return lowest;
   }
-  [[nodiscard]] std::uint32_t lag() const noexcept {
-    std::uint32_t most = streams_[0].unanswered;
-    for (std::size_t i = 1; i < stream_count_; ++i) most = std::max(most, streams_[i].unanswered);
-    return most;
-  }
-  [[nodiscard]] std::uint32_t age() const noexcept {
-    std::uint32_t oldest = streams_[0].age;
-    for (std::size_t i = 1; i < stream_count_; ++i) oldest = std::max(oldest, streams_[i].age);
-    return oldest;
+  /// SYNCs without an answer.
+  [[nodiscard]] std::uint32_t lag(std::size_t streams, const SyncHistory& syncs) const noexcept {
+    return syncs.count_from(least(next_, streams));
   }
 
-  /// Inlined, so that the usual layout costs no more than constants.
-  [[nodiscard, gnu::always_inline]] inline CanDecoding take(const cia402::TransmitLayout& layout,
-                                                            const CanFrame& frame,
-                                                            const cia402::ProcessData& data,
-                                                            const Cia402Drive& drive,
-                                                            DriveReport& report) noexcept {
+  /// A frame that answers the SYNC of this cycle has come, and none was missing.
+  void answer_in_time(std::size_t stream, std::size_t streams, SyncHistory& syncs,
+                      DriveReport& report) noexcept {
+    const std::uint64_t cycle = syncs.cycle();
+    born_[stream] = cycle;
+    next_[stream] = cycle + 1;
+    const std::uint64_t least_next = least(next_, streams);
+    if (least_next > cycle) {
+      report.age = 0;
+    } else if (least_next < cycle) {
+      syncs.note_missing();
+    }
+  }
+  /// Any frame has come.
+  /// @return false if there was no SYNC that it could answer
+  [[nodiscard]] bool answer(std::size_t stream, std::size_t streams, SyncHistory& syncs,
+                            DriveReport& report) noexcept {
+    if (!syncs.has_begun()) return false;
+    born_[stream] = syncs.first_from(next_[stream]);
+    next_[stream] = std::max(next_[stream], born_[stream] + 1);
+    if (lag(streams, syncs) > 0) syncs.note_missing();
+    const std::uint64_t oldest = least(born_, streams);
+    if (oldest > 0) report.age = static_cast<std::uint32_t>(syncs.cycle() - oldest);
+    return true;
+  }
+
+  /// @tparam InTime  the frame answers the SYNC of this cycle and has the usual layout
+  template <bool InTime>
+  [[nodiscard, gnu::always_inline]] inline CanDecoding take(
+      const cia402::TransmitLayout& layout, std::size_t streams, const CanFrame& frame,
+      const cia402::ProcessData& data, const Cia402Drive& drive, SyncHistory& syncs,
+      DriveReport& report) noexcept {
     constexpr std::uint8_t absent = cia402::TransmitLayout::absent;
     if (layout.length == 0) return CanDecoding::foreign;
     if (frame.length != layout.length) return CanDecoding::malformed;
+    bool follows = false;
+    std::optional<cia402::State> state;
     if (layout.statusword != absent) {
       const auto bits = load_little_endian<std::uint16_t>(frame.data, layout.statusword);
-      const auto state = cia402::state_of(bits);
+      state = cia402::state_of(bits);
       if (!state) return CanDecoding::malformed;
-      if (!has_begun_) return CanDecoding::outdated;
-      take_state(*state, (bits & cia402::follows_target) != 0, report);
+      follows = (bits & cia402::follows_target) != 0;
     }
-    if (!has_begun_) return CanDecoding::outdated;
-    answer(streams_[layout.stream], report);
+    if constexpr (InTime) {
+      answer_in_time(layout.stream, streams, syncs, report);
+    } else if (!answer(layout.stream, streams, syncs, report)) {
+      return CanDecoding::outdated;
+    }
+    if (layout.statusword != absent) take_state(*state, follows, report);
     if (layout.torque != absent) {
       const auto per_mille = load_little_endian<std::int16_t>(frame.data, layout.torque);
       report.effort = per_mille * drive.rated_effort / 1e3;
@@ -186,8 +197,8 @@ class Cia402Feedback {
       const auto units = load_little_endian<std::int32_t>(frame.data, layout.position);
       const double position =
           (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
-      if (!data.has_velocity) {
-        take_difference(position, cycle_ - streams_[layout.stream].age, data, report);
+      if (!InTime && !data.has_velocity) {
+        take_difference(position, born_[layout.stream], data, report);
       }
       report.position = position;
     }
@@ -196,6 +207,14 @@ class Cia402Feedback {
       if (report.fault != 0 && code != 0) report.fault = code;
     }
     return CanDecoding::accepted;
+  }
+
+  [[nodiscard, gnu::noinline]] CanDecoding take_any(const cia402::TransmitLayout& layout,
+                                                    std::size_t streams, const CanFrame& frame,
+                                                    const cia402::ProcessData& data,
+                                                    const Cia402Drive& drive, SyncHistory& syncs,
+                                                    DriveReport& report) noexcept {
+    return take<false>(layout, streams, frame, data, drive, syncs, report);
   }
 
   void take_state(cia402::State state, bool follows, DriveReport& report) noexcept {
@@ -213,47 +232,30 @@ class Cia402Feedback {
   }
 
   /// The velocity between two positions, for a drive that does not say it. Real-time: yes.
-  void take_difference(double position, std::uint32_t cycle, const cia402::ProcessData& data,
+  void take_difference(double position, std::uint64_t cycle, const cia402::ProcessData& data,
                        DriveReport& report) noexcept {
-    const auto cycles = static_cast<std::int32_t>(cycle - position_cycle_);
-    if (has_position_ && cycles <= 0) return;
-    if (has_position_) report.velocity = (position - report.position) / (cycles * data.sync_period);
-    has_position_ = true;
+    if (cycle <= position_cycle_) return;
+    if (position_cycle_ > 0) {
+      const auto cycles = static_cast<double>(cycle - position_cycle_);
+      report.velocity = (position - report.position) / (cycles * data.sync_period);
+    }
     position_cycle_ = cycle;
-  }
-
-  void answer(Stream& stream, DriveReport& report) noexcept {
-    if (stream.unanswered > 0) --stream.unanswered;
-    stream.age = cycles_since(stream.unanswered);
-    report.age = age();
-  }
-  /// Cycles since the last SYNC but n.
-  [[nodiscard]] std::uint32_t cycles_since(std::uint32_t n) const noexcept {
-    constexpr std::uint32_t most = 64;
-    std::uint64_t syncs = n < most ? syncs_ : 0;
-    for (; n > 0 && syncs != 0; --n) syncs &= syncs - 1;  // leaves out the last one
-    return static_cast<std::uint32_t>(std::countr_zero(syncs));
   }
 
   static constexpr std::uint16_t generic_error =
       0x1000;  ///< of CiA 301, for a fault without a name
-  static constexpr std::uint32_t long_ago = 1000;
 
-  std::array<Stream, cia402::ProcessData::most> streams_{};
-  std::size_t stream_count_ = 2;
+  Cycles next_{};  ///< each object answers the SYNC of this cycle next, or that of the first later
+                   ///< one that has any
+  Cycles born_{};  ///< the cycle of its last frame; 0: there was none
   bool has_followed_ = false;
-  bool has_position_ = false;         ///< for differences
-  std::uint32_t position_cycle_ = 0;  ///< that the last position belongs to
-  std::uint32_t cycle_ = 0;           ///< cycles since the beginning, modulo 2^32
   bool powered_ = true;
-  bool has_begun_ = false;   ///< a SYNC has been since the beginning
-  std::uint64_t syncs_ = 0;  ///< a bit for each of the last cycles: it had SYNC; bit 0 is
-                             ///< the last one
   bool awaits_mark_ = false;
-  canopen::ObjectAddress mark_{};
   std::uint8_t mark_number_ = 0;
-  std::uint32_t since_mark_ = long_ago;  ///< SYNCs since the mark was placed
-  std::uint32_t known_lag_ = 0;          ///< SYNCs without an answer when the last mark's came
+  canopen::ObjectAddress mark_{};
+  std::uint64_t mark_cycle_ = 0;      ///< in which the mark was placed
+  std::uint32_t known_lag_ = 0;       ///< SYNCs without an answer when the last mark's came
+  std::uint64_t position_cycle_ = 0;  ///< that the last position belongs to; for differences
   std::uint16_t emergency_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "articula/hardware/can_batch.hpp"
 #include "articula/hardware/cia402.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 
@@ -13,28 +14,32 @@ namespace articula {
 /// Takes the power from one drive by access to its objects. A drive obeys process data in the
 /// operational state alone, and after SYNC; its objects can be accessed in the pre-operational
 /// state, too. In turn: controlword 0 is written, then the statusword is read. Where no answer
-/// comes, the node is made pre-operational, in case it is in the stopped state, and all begins
-/// anew.
+/// comes in time, all begins anew, and the node is made pre-operational, in case it is in the
+/// stopped state.
 class Cia402Stop {
  public:
   /// Begins anew. Real-time: yes.
   void restart() noexcept { *this = {}; }
 
-  /// One cycle in which the drive may still exert effort: appends the next frame, if one is due.
+  static constexpr std::uint64_t patience = 10;  ///< for an answer [cycles]
+
+  /// The drive may still exert effort: appends the next frame, if one is due.
   /// @param node   the drive's
+  /// @param cycle  number of this cycle, for the time to wait for an answer
   /// @param batch  receives the frame
-  /// @return       true if there was one
+  /// @return       how many frames there were
   /// Real-time: yes.
-  bool advance(std::uint8_t node, CanBatch& batch) noexcept {
-    constexpr std::uint32_t patience = 10;  // cycles
+  std::size_t advance(std::uint8_t node, std::uint64_t cycle, CanBatch& batch) noexcept {
+    const std::size_t before = batch.size();
     if (waits_) {
-      if (++waited_ < patience) return false;
-      waits_ = reading_ = false;
-      return batch.push_back(canopen::encode(canopen::NmtCommand::enter_pre_operational, node));
+      if (cycle - asked_ < patience) return 0;
+      reading_ = false;
+      batch.push_back(canopen::encode(canopen::NmtCommand::enter_pre_operational, node));
     }
     waits_ = true;
-    waited_ = 0;
-    return batch.push_back(canopen::encode_request(request(), node));
+    asked_ = cycle;
+    batch.push_back(canopen::encode_request(request(), node));
+    return batch.size() - before;
   }
 
   /// The bus did not take the last frame. Real-time: yes.
@@ -59,7 +64,7 @@ class Cia402Stop {
 
   bool reading_ = false;  ///< it is the statusword's turn
   bool waits_ = false;    ///< for an answer
-  std::uint32_t waited_ = 0;
+  std::uint64_t asked_ = 0;
 };
 
 }  // namespace articula
