@@ -37,8 +37,10 @@ namespace articula {
 ///
 /// Who sends SYNC is an option of the type. With SyncProducer::another_node the codec sends none:
 /// one that is received begins the cycle and puts into force what was written before. It comes from
-/// another device, one of the drives or a master (objects 1005h, 1006h), at the loop's period. The
-/// drives are stopped by access to their objects as well then, since without SYNC no RPDO counts.
+/// another device, one of the drives or a master (objects 1005h, 1006h), at the loop's period.
+///
+/// The drives are stopped by access to their objects as well as by RPDO, since no RPDO counts
+/// without SYNC or out of the operational state.
 ///
 /// Drives without torque, velocity or error code do without them: effort is 0 then, velocity the
 /// difference of two positions. Mappings that a drive does not let change are used as they are, see

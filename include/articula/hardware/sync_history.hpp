@@ -30,7 +30,9 @@ class SyncHistory {
   [[nodiscard]] constexpr bool has_begun() const noexcept { return from(0) != 0; }
   /// How many cycles from one on began with SYNC. Real-time: yes.
   [[nodiscard]] constexpr std::uint32_t count_from(std::uint64_t first) const noexcept {
-    return static_cast<std::uint32_t>(std::popcount(from(first)));
+    std::uint32_t count = 0;  // std::popcount may be a call
+    for (std::uint64_t syncs = from(first); syncs != 0; syncs &= syncs - 1) ++count;
+    return count;
   }
   /// The first cycle from one on that began with SYNC; where there is none, the last that did.
   /// has_begun() has to be true. Real-time: yes.
