@@ -6,7 +6,7 @@
 #include "articula/hardware/simulated_cia402_drives.hpp"
 #include "articula/hardware/simulated_quanser_drives.hpp"
 #include "articula/robots/q2d.hpp"
-#include "articula/robots/q2d_can.hpp"
+#include "articula/robots/q2d_modules.hpp"
 
 #include <cstdint>
 #include <numbers>

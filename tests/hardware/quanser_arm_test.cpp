@@ -4,6 +4,8 @@
 #include <articula/hardware/can_hardware.hpp>
 #include <articula/hardware/quanser_codec.hpp>
 #include <articula/hardware/simulated_quanser_drives.hpp>
+#include <articula/loop/run.hpp>
+#include <articula/loop/simulated_clock.hpp>
 #include <articula/loop/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -323,6 +325,69 @@ TEST_CASE("a fault of a drive stops all of them until activation") {
   CHECK(bench.arm.fault().cause == CanCause::none);
 }
 
+TEST_CASE("a motor encoder that contradicts the load's is a fault where a tolerance is given") {
+  const double tolerance = 0.1, difference = GENERATE(0.09, 0.11, -0.5, 0.5);
+  const int joint = GENERATE(0, 1);
+  CAPTURE(difference, joint);
+  const auto index = static_cast<std::size_t>(joint);
+  QuanserModules<2> checked = modules;
+  checked[index].encoder_tolerance = tolerance;
+  const auto bus = make_bus();
+  const auto slip = [&](CanFrame& frame) {
+    auto position = quanser::decode_position(frame);
+    if (position && is_feedback_of(frame, modules[index].node)) {
+      position->motor_counts +=
+          static_cast<std::int32_t>(std::lround(difference * modules[index].motor_scale()));
+      frame = quanser::encode(*position, modules[index].node);
+    }
+    return true;
+  };
+  Arm arm(QuanserCodec<Q2d>{checked}, support::FakeCanTransport<Drives>(bus));
+  JointState<2> state;
+
+  SECTION("while the arm moves") {
+    REQUIRE(arm.activate() == Status::ok);
+    for (int k = 0; k < 10; ++k) {
+      CHECK(arm.read(state) == Status::ok);
+      CHECK(arm.write({{1, -1}}) == Status::ok);
+    }
+    bus->on_feedback = slip;
+    CHECK(arm.read(state) == Status::ok);
+    CHECK(arm.write({{1, -1}}) == Status::ok);
+    if (std::abs(difference) < tolerance) {
+      CHECK(arm.read(state) == Status::ok);
+      return;
+    }
+    CHECK(arm.read(state) == Status::hardware_fault);  // by the first frame that shows it
+    CHECK(arm.fault().cause == CanCause::encoder_mismatch);
+    CHECK(arm.fault().joint == joint);
+    CHECK(arm.write({{1, -1}}) == Status::hardware_fault);
+    CHECK(bus->drives.effort() == JointVector<2>(0, 0));
+    CHECK_FALSE(bus->drives.enabled(0));
+    CHECK_FALSE(bus->drives.enabled(1));
+    bus->on_feedback = [](CanFrame&) { return true; };
+    CHECK(arm.activate() == Status::ok);
+    CHECK(arm.read(state) == Status::ok);
+  }
+  SECTION("at activation, which enables no module then") {
+    bus->on_feedback = slip;
+    const bool plausible = std::abs(difference) < tolerance;
+    CHECK((arm.activate() == Status::ok) == plausible);
+    if (plausible) return;
+    CHECK(arm.fault().cause == CanCause::encoder_mismatch);
+    CHECK(arm.fault().joint == joint);
+    for (const CanFrame& frame : bus->to_drives) {
+      CHECK(quanser::decode_control(frame) != quanser::Control::enable);
+    }
+  }
+  SECTION("without a tolerance it is not looked for") {
+    bus->on_feedback = slip;
+    Arm unchecked = make_arm(bus);
+    CHECK(unchecked.activate() == Status::ok);
+    CHECK(unchecked.read(state) == Status::ok);
+  }
+}
+
 TEST_CASE("a drive that restarts does not move until activation") {
   Bench bench;
   bench.cycles(10);
@@ -358,6 +423,96 @@ TEST_CASE("a bus that takes no frames: the drives drop to zero, then it is a fau
     CHECK_FALSE(quanser::decode_effort(bench.bus->to_drives[i]));  // nothing old, nothing new
   }
   CHECK(bench.arm.activate() == Status::ok);
+}
+
+TEST_CASE("a fault that writing finds has its cause in that cycle") {
+  Bench bench;
+  bench.cycles(3);
+  SECTION("of the link") {
+    bench.bus->sending = CanSending::failed;
+    const auto [link, cause] = GENERATE(table<CanLink, CanCause>({
+        {CanLink::down, CanCause::link_down},
+        {CanLink::gone, CanCause::link_gone},
+        {CanLink::bus_off, CanCause::bus_off},
+    }));
+    REQUIRE(bench.arm.read(bench.state) == Status::ok);
+    bench.bus->link = link;
+    CHECK(bench.arm.write({{1, 1}}) == Status::hardware_fault);
+    CHECK(bench.arm.fault().cause == cause);
+    bench.bus->link = CanLink::up;  // latched
+    bench.bus->sending = CanSending::sent;
+    bench.cycle();
+    CHECK(bench.reading == Status::hardware_fault);
+    CHECK(bench.arm.fault().cause == cause);
+  }
+  SECTION("of a bus that is busy, as long as it is") {
+    bench.bus->sending = GENERATE(CanSending::congested, CanSending::backlog, CanSending::failed);
+    while (bench.writing == Status::ok) {
+      CHECK(bench.arm.fault().cause == CanCause::none);
+      bench.cycle();
+    }
+    CHECK(bench.writing == Status::hardware_fault);
+    CHECK(bench.arm.fault().cause == CanCause::not_sent);
+    bench.bus->sending = CanSending::sent;
+    bench.cycle();
+    CHECK(bench.writing == Status::ok);
+    CHECK(bench.arm.fault().cause == CanCause::none);
+  }
+}
+
+TEST_CASE("a command is sent if the one before has been on the bus, seen or not") {
+  Bench bench;
+  bench.cycles(3);
+  bench.bus->sending_time = std::chrono::nanoseconds(0);
+  CHECK(bench.arm.write({{2, 2}}) == Status::ok);
+  CHECK(bench.arm.write({{3, 3}}) == Status::ok);  // no reading in between
+  CHECK(bench.bus->drives.effort() == JointVector<2>(3, 3));
+  CHECK(bench.arm.statistics().not_sent == 0);
+}
+
+TEST_CASE("deactivation lets go as soon as the last command has been on the bus") {
+  Bench bench;
+  bench.cycles(3);
+  const auto sending_time = std::chrono::microseconds(250);
+  bench.bus->sending_time = sending_time;
+  CHECK(bench.arm.write({{2, 2}}) == Status::ok);
+  const auto written = bench.bus->time;
+  CHECK(bench.arm.write({{0, 0}}) == Status::ok);  // dropped: the bus is not free
+  CHECK(bench.bus->drives.effort() == JointVector<2>(2, 2));
+  std::chrono::nanoseconds let_go{};
+  bench.bus->on_command = [&](CanFrame& frame) {
+    if (quanser::decode_control(frame) && let_go.count() == 0) let_go = bench.bus->time;
+    return true;
+  };
+  CHECK(bench.arm.deactivate() == Status::ok);
+  CHECK(let_go - written == sending_time);
+}
+
+TEST_CASE("a run ends with a safe command and the stop, in consecutive cycles on the wire") {
+  const auto bus = make_bus();
+  Loop<Arm, PidPlusGravity> loop(make_arm(bus));
+  loop.reference().position = {-0.5, 0.5};
+  bus->sending_time = std::chrono::nanoseconds(0);
+  SimulatedClock clock;
+  const RunReport report = run(loop, clock, {.cycles = 20});
+  CHECK(report.status == Status::ok);
+  // From the last frame back: SYNC and the stop of each module, SYNC and the safe efforts.
+  const auto& wire = bus->to_drives;
+  const auto stop = std::ranges::find_if(wire, [](const CanFrame& frame) {
+    return quanser::decode_control(frame).has_value() &&
+           quanser::decode_control(frame) == quanser::Control::disable;
+  });
+  REQUIRE(stop - wire.begin() >= 6);
+  const auto before = stop - 6;  // two cycles of two efforts and SYNC
+  REQUIRE(quanser::decode_effort(before[0]));
+  CHECK(quanser::decode_effort(before[0])->millinewton_metres != 0);
+  for (int j = 0; j < 2; ++j) {
+    REQUIRE(quanser::decode_effort(before[3 + j]));
+    CHECK(quanser::decode_effort(before[3 + j])->millinewton_metres == 0);
+    CHECK(quanser::decode_control(stop[j]) == quanser::Control::disable);
+  }
+  CHECK(*quanser::decode_sync(before[5]) == *quanser::decode_sync(before[2]) + 1);
+  CHECK(*quanser::decode_sync(stop[2]) == *quanser::decode_sync(before[5]) + 1);
 }
 
 TEST_CASE("a link that fails is a fault at once") {
@@ -504,6 +659,9 @@ TEST_CASE("set-up refuses what makes no sense, by name") {
   refuses([](QuanserModule& m) { m.load_counts_per_turn = support::not_a_number; }, "load_counts");
   refuses([](QuanserModule& m) { m.position_at_zero = support::not_a_number; }, "position_at_zero");
   refuses([](QuanserModule& m) { m.gear_ratio = 1e6; }, "counts");
+  refuses([](QuanserModule& m) { m.encoder_tolerance = 1e-5; }, "encoder_tolerance");
+  refuses([](QuanserModule& m) { m.encoder_tolerance = support::not_a_number; },
+          "encoder_tolerance");
   const auto bus = make_bus();
   CHECK_THROWS_WITH(make_arm(bus, {.stale_after = 0}), Contains("stale_after 0"));
   CHECK_THROWS_WITH(make_arm(bus, {.silent_after = 1}), Contains("silent_after 1"));

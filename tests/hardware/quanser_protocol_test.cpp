@@ -95,6 +95,8 @@ TEST_CASE("what makes no sense is no frame of the protocol") {
   CHECK_FALSE(decode_position(frame(0x181, {0, 0, 0, 0, 0, 0, 0, 0x08})));  // reserved bit
   CHECK_FALSE(decode_position(frame(0x181, {0, 0, 0, 0, 0, 0, 0, 0x03})));  // enabled and faulty
   CHECK_FALSE(decode_position(frame(0x181, {0, 0, 0, 0, 0, 0, 0})));
+  CHECK_FALSE(decode_position(frame(0x181, {0, 0, 0x80, 0, 0, 0, 0, 0})));  // no value, either
+  CHECK_FALSE(decode_position(frame(0x181, {0, 0, 0, 0, 0, 0x80, 0, 0})));
   CHECK_FALSE(decode_motion(frame(0x201, {0x00, 0x80, 0, 0, 0, 0})));
   CHECK_FALSE(decode_motion(frame(0x201, {0, 0, 0x00, 0x80, 0, 0})));
   CHECK_FALSE(decode_motion(frame(0x201, {0, 0, 0, 0, 0, 0x80})));

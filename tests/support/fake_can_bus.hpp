@@ -10,6 +10,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,7 +34,11 @@ struct FakeCanBus {
   std::chrono::nanoseconds next_sync{};       ///< when that one is due
   articula::CanFrame sync{};                  ///< what it sends
   std::chrono::nanoseconds feedback_delay{};  ///< after which feedback arrives
-  std::chrono::nanoseconds command_delay{};   ///< after which the host's frames reach the drives
+  /// How long a cycle's output takes to get onto the bus, if it is tracked as SocketCan does.
+  std::optional<std::chrono::nanoseconds> sending_time{};
+  bool awaiting = false;                 ///< the sign that it has got there was not received yet
+  std::chrono::nanoseconds confirmed{};  ///< when it is there
+  std::chrono::nanoseconds command_delay{};  ///< after which the host's frames reach the drives
   /// What is done to each frame of the drives: false keeps it from arriving.
   std::function<bool(articula::CanFrame&)> on_feedback = [](articula::CanFrame&) { return true; };
   /// What is done to each frame of the host.
@@ -138,6 +143,7 @@ class FakeCanTransport {
     return bus_->can_open ? articula::Status::ok : articula::Status::hardware_fault;
   }
   [[nodiscard]] std::size_t receive(std::span<articula::ReceivedCanFrame> frames) noexcept {
+    if (bus_->time >= bus_->confirmed) bus_->awaiting = false;
     std::size_t count = 0;
     while (count < frames.size() && !bus_->to_host.empty()) {
       frames[count++] = {bus_->to_host.front(), bus_->time};
@@ -149,6 +155,11 @@ class FakeCanTransport {
     const bool taken = bus_->sending == articula::CanSending::sent ||
                        bus_->sending == articula::CanSending::unconfirmed;
     if (!taken) return bus_->sending;
+    if (bus_->awaiting) return articula::CanSending::backlog;
+    if (bus_->sending_time) {
+      bus_->awaiting = true;
+      bus_->confirmed = bus_->time + *bus_->sending_time;
+    }
     for (const articula::CanFrame& frame : batch) bus_->accept(frame);
     return bus_->sending;
   }
@@ -156,6 +167,10 @@ class FakeCanTransport {
     if (!bus_->to_host.empty()) return;
     if (bus_->sync_period.count() > 0 || bus_->delays()) {
       return bus_->pass(bus_->next_event(bus_->time + time) - bus_->time);
+    }
+    if (bus_->awaiting && bus_->confirmed - bus_->time < time) {  // the sign comes first
+      bus_->time = std::max(bus_->time, bus_->confirmed);
+      return;
     }
     bus_->time += time;
     bus_->silent_period();

@@ -137,6 +137,42 @@ TEST_CASE("candump sees the documented frames") {
   CHECK(found >= (has_heartbeat ? 5 : 7));
 }
 
+TEST_CASE("a run ends with a safe command and the stop, in consecutive cycles on the wire") {
+  const Interface interface;
+  const DrivesProcess drives;
+  CanLoop loop(Q2dCan("vcan0"));
+  loop.reference().position = {-0.5, 0.5};
+  const RawPeer peer;
+  MonotonicClock clock;
+  constexpr std::uint64_t cycles = 20;
+  // Nothing is fetched between the last update and the end.
+  const RunReport report =
+      run(loop, clock, {.cycles = cycles}, [](auto& running, const RunReport& now) {
+        return now.cycles == cycles || running.hardware().wait_for_feedback(2s) == Status::ok;
+      });
+  CHECK(report.status == Status::ok);
+
+  std::vector<can_frame> host;
+  for (const can_frame& frame : peer.receive_all()) {
+    if (frame.can_id <= quanser::sync_identifier) host.push_back(frame);
+  }
+  // Two efforts and SYNC, or two stops and SYNC.
+  const auto stop = std::ranges::find(host, quanser::control_base + 1, &can_frame::can_id);
+  REQUIRE(stop - host.begin() == 3 * (cycles + 1));
+  REQUIRE(host.end() - stop >= 3);
+  const auto effort = [&](int frames_before) {
+    const can_frame& frame = stop[-frames_before];
+    return static_cast<std::int16_t>(frame.data[0] | frame.data[1] << 8);
+  };
+  CHECK(effort(6) != 0);
+  CHECK(effort(3) == 0);
+  CHECK(effort(2) == 0);
+  for (int k : {0, 1}) {  // SYNC follows SYNC by one
+    const auto sync = stop + 3 * k - 1;
+    CHECK(sync->data[0] == static_cast<std::uint8_t>(sync[-3].data[0] + 1));
+  }
+}
+
 TEST_CASE("garbage of cansend is counted and does nothing else") {
   const Interface interface;
   const DrivesProcess drives;
@@ -191,6 +227,12 @@ TEST_CASE("faults on the bus: found as documented, and gone after activation") {
   }
   SECTION("bus-off") {
     REQUIRE(peer.send(CAN_ERR_FLAG | CAN_ERR_BUSOFF, std::vector<std::uint8_t>(8)));
+    CHECK(fails_within(loop, 1));
+    expected = CanCause::bus_off;
+  }
+  SECTION("bus-off, and back before anybody looks") {
+    REQUIRE(peer.send(CAN_ERR_FLAG | CAN_ERR_BUSOFF, std::vector<std::uint8_t>(8)));
+    REQUIRE(peer.send(CAN_ERR_FLAG | CAN_ERR_RESTARTED, std::vector<std::uint8_t>(8)));
     CHECK(fails_within(loop, 1));
     expected = CanCause::bus_off;
   }

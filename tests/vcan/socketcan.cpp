@@ -195,7 +195,7 @@ TEST_CASE("opening while the interface is down works, sending when it is up") {
   CHECK(bench.transport.send(cycle(2)) == CanSending::sent);
 }
 
-TEST_CASE("the controller's reports are counted, and bus-off shows until it is over") {
+TEST_CASE("the controller's reports are counted, and bus-off shows until the socket is opened") {
   Bench bench;
   const RawPeer peer;
   CHECK(peer.send(CAN_ERR_FLAG | 0x004, {0, 0x20, 0, 0, 0, 0, 0, 0}));
@@ -208,13 +208,16 @@ TEST_CASE("the controller's reports are counted, and bus-off shows until it is o
   CHECK(bench.transport.link() == CanLink::bus_off);
   CHECK(peer.send(CAN_ERR_FLAG | 0x100, {0, 0, 0, 0, 0, 0, 0, 0}));
   CHECK(bench.receive() == 0);
-  CHECK(bench.transport.link() == CanLink::up);
+  CHECK(bench.transport.link() == CanLink::bus_off);
   const SocketCanStatistics& statistics = bench.transport.statistics();
   CHECK(statistics.error_frames == 5);
+  CHECK(statistics.restarts == 1);
   CHECK(statistics.error_passives == 1);
   CHECK(statistics.overflows == 1);
   CHECK(statistics.no_answers == 1);
   CHECK(statistics.bus_offs == 1);
+  CHECK(bench.transport.open(subscription) == Status::ok);
+  CHECK(bench.transport.link() == CanLink::up);
 }
 
 TEST_CASE("frames for which there was no room are counted") {

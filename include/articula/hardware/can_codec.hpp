@@ -27,12 +27,13 @@ struct CanSubscription {
 struct DriveReport {
   static constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 
-  double position = 0;        ///< q [rad or m]
-  double velocity = 0;        ///< v [rad/s or m/s]
-  double effort = 0;          ///< measured effort [N m or N]
-  std::uint32_t age = never;  ///< cycles begun since the one that the figures above belong to
-  bool enabled = false;       ///< follows commands
-  std::uint16_t fault = 0;    ///< the protocol's own fault code, 0 if there is none
+  double position = 0;            ///< q [rad or m]
+  double velocity = 0;            ///< v [rad/s or m/s]
+  double effort = 0;              ///< measured effort [N m or N]
+  std::uint32_t age = never;      ///< cycles begun since the one that the figures above belong to
+  bool enabled = false;           ///< follows commands
+  std::uint16_t fault = 0;        ///< the protocol's own fault code, 0 if there is none
+  bool encoder_mismatch = false;  ///< two encoders of the joint differ by more than is allowed
 };
 
 /// Who sends the frame that begins a cycle of the drives.

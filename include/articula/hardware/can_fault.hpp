@@ -13,17 +13,18 @@ namespace articula {
 
 /// Why the drives were told to let go.
 enum class CanCause : unsigned char {
-  none,           ///< All is well.
-  no_activation,  ///< The drives could not be enabled in time, or one has refused.
-  no_watchdog,    ///< A drive has no watchdog as its description asks for.
-  link_down,      ///< The interface is switched off.
-  link_gone,      ///< The interface does not exist any more.
-  bus_off,        ///< The controller has left the bus after too many errors.
-  not_sent,       ///< The bus has not taken our frames for too many cycles.
-  no_sync,        ///< The node that begins the bus's cycles is silent.
-  drive_silent,   ///< A drive's feedback is missing, or late, for too many cycles.
-  drive_fault,    ///< A drive reports a fault.
-  drive_let_go,   ///< A drive reports that it does not follow commands, without a fault.
+  none,              ///< All is well.
+  no_activation,     ///< The drives could not be enabled in time, or one has refused.
+  no_watchdog,       ///< A drive has no watchdog as its description asks for.
+  link_down,         ///< The interface is switched off.
+  link_gone,         ///< The interface does not exist any more.
+  bus_off,           ///< The controller has left the bus after too many errors.
+  not_sent,          ///< The bus has not taken our frames for too many cycles.
+  no_sync,           ///< The node that begins the bus's cycles is silent.
+  drive_silent,      ///< A drive's feedback is missing, or late, for too many cycles.
+  drive_fault,       ///< A drive reports a fault.
+  drive_let_go,      ///< A drive reports that it does not follow commands, without a fault.
+  encoder_mismatch,  ///< Two encoders of a joint contradict each other.
 };
 
 /// What went wrong first, and where.
@@ -62,6 +63,8 @@ struct CanFault {
       return "a drive reports a fault";
     case CanCause::drive_let_go:
       return "a drive has let go";
+    case CanCause::encoder_mismatch:
+      return "two encoders of a joint contradict each other";
   }
   return "unknown fault";
 }

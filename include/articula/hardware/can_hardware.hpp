@@ -8,6 +8,7 @@
 #include "articula/hardware/can_fault.hpp"
 #include "articula/hardware/can_hardware_options.hpp"
 #include "articula/hardware/can_transport.hpp"
+#include "articula/hardware/find_drive_fault.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
@@ -58,21 +59,7 @@ class CanHardware {
       : CanHardware(R(), std::move(codec), std::move(transport), options) {}
 
   /// The one that is moved from has no drives any more.
-  CanHardware(CanHardware&& other) noexcept
-      : robot_(other.robot_),
-        codec_(std::move(other.codec_)),
-        transport_(std::move(other.transport_)),
-        options_(other.options_),
-        mode_(std::exchange(other.mode_, Mode::inactive)),
-        fault_(other.fault_),
-        dropped_(other.dropped_),
-        not_sent_(other.not_sent_),
-        stale_(other.stale_),
-        unpaced_(other.unpaced_),
-        read_cycle_(other.read_cycle_),
-        awaited_cycle_(other.awaited_cycle_),
-        feedback_time_(other.feedback_time_),
-        statistics_(other.statistics_) {}
+  CanHardware(CanHardware&&) noexcept = default;
   CanHardware& operator=(CanHardware&&) = delete;
 
   /// Drives that are active are told to let go.
@@ -98,13 +85,15 @@ class CanHardware {
     const std::uint64_t heard_before = heard_cycles();
     const auto begin = transport_.now();
     bool is_ready = false;
-    for (auto tick = begin; !is_ready; tick += options_.set_up_period) {
-      if (tick - begin > options_.set_up_time) break;
+    while (!is_ready) {
+      const auto elapsed = transport_.now() - begin;
+      if (elapsed > options_.set_up_time) break;
       CanBatch batch;
-      const CanSetUp progress = codec_.set_up(tick - begin, batch);
-      if (!batch.empty()) static_cast<void>(hand_over(batch));
+      const CanSetUp progress = codec_.set_up(elapsed, batch);
+      if (!batch.empty()) static_cast<void>(offer_patiently(batch));
       if (progress == CanSetUp::failed) break;
-      listen_until(tick + options_.set_up_period);
+      // A whole period from here on, however late it is: the drives are to answer before the next.
+      listen_until(transport_.now() + options_.set_up_period);
       is_ready = progress == CanSetUp::done && all_young();
     }
     if (is_ready) {
@@ -113,9 +102,7 @@ class CanHardware {
       mode_ = Mode::active;
       return Status::ok;
     }
-    fault_ = {CanCause::no_activation};
-    blame([&](const DriveReport& r) { return r.fault != 0 || r.age >= options_.stale_after; });
-    if (fault_.joint < 0) blame([](const DriveReport& r) { return !r.enabled; });
+    fault_ = find_activation_fault(reports(), options_.stale_after);
     if constexpr (ExplainingCanCodec<Codec>) fault_ = codec_.set_up_fault();
     const bool refused = fault_.abort_code != 0;
     if (is_paced && !refused && heard_cycles() == heard_before) fault_ = {CanCause::no_sync};
@@ -176,10 +163,11 @@ class CanHardware {
     } else {
       codec_.encode_stop(batch);
     }
-    const CanSending sending = send(batch);
-    if (mode_ == Mode::active && not_sent_ >= options_.not_sent_after) fail({CanCause::not_sent});
-    if (mode_ == Mode::faulted || sending == CanSending::failed) return Status::hardware_fault;
-    if (dropped_ >= options_.stale_after) return Status::hardware_fault;
+    const CanSending sending = offer(batch);
+    count(sending);
+    const bool bad = sending == CanSending::failed || dropped_ >= options_.stale_after;
+    if (mode_ == Mode::active) judge(sending, bad);
+    if (mode_ == Mode::faulted || bad) return Status::hardware_fault;
     return finite ? Status::ok : Status::non_finite_command;
   }
 
@@ -224,8 +212,8 @@ class CanHardware {
     }
   }
 
-  /// Why the drives were told to let go, or why activate failed; CanCause::none if all is well.
-  /// Real-time: yes.
+  /// Why `read`, `write` or `activate` answered Status::hardware_fault; CanCause::none if all is
+  /// well. Real-time: yes.
   [[nodiscard]] const CanFault& fault() const noexcept { return fault_; }
   /// When the newest frame that was taken in arrived, by the transport's time stamps. Real-time:
   /// yes.
@@ -239,6 +227,14 @@ class CanHardware {
 
  private:
   enum class Mode : unsigned char { inactive, active, faulted };
+  /// A mode that goes along when the hardware is moved, and leaves an inactive one behind.
+  struct OwnMode {
+    OwnMode() = default;
+    OwnMode(OwnMode&& other) noexcept : mode(std::exchange(other.mode, Mode::inactive)) {}
+    OwnMode& operator=(Mode other) noexcept { return mode = other, *this; }
+    operator Mode() const noexcept { return mode; }
+    Mode mode = Mode::inactive;
+  };
   static constexpr bool is_paced = PacedCanCodec<Codec>;
 
   /// How many cycles another node has begun.
@@ -268,61 +264,27 @@ class CanHardware {
   }
 
   void take(const ReceivedCanFrame& received) noexcept {
-    switch (codec_.decode(received.frame)) {
-      case CanDecoding::accepted:
-        ++statistics_.accepted;
-        feedback_time_ = received.time;
-        return;
-      case CanDecoding::outdated:
-        ++statistics_.outdated;
-        return;
-      case CanDecoding::foreign:
-        ++statistics_.foreign;
-        return;
-      case CanDecoding::malformed:
-        ++statistics_.malformed;
-        return;
-    }
+    const CanDecoding decoding = codec_.decode(received.frame);
+    statistics_.count(decoding);
+    if (decoding == CanDecoding::accepted) feedback_time_ = received.time;
   }
 
   void look_for_faults() noexcept {
-    switch (transport_.link()) {
-      case CanLink::up:
-        break;
-      case CanLink::down:
-        return fail({CanCause::link_down});
-      case CanLink::bus_off:
-        return fail({CanCause::bus_off});
-      case CanLink::gone:
-        return fail({CanCause::link_gone});
-    }
+    const CanCause link = cause_of(transport_.link());
+    if (link != CanCause::none) return fail({link});
     if (unpaced_ >= options_.silent_after) return fail({CanCause::no_sync});
-    int oldest = 0;
-    for (int j = 0; j < joint_count; ++j) {
-      const DriveReport& report = reports()[static_cast<std::size_t>(j)];
-      if (report.age > reports()[static_cast<std::size_t>(oldest)].age) oldest = j;
-      if (report.fault != 0) return fail({CanCause::drive_fault, j, report.fault});
-      if (!report.enabled) return fail({CanCause::drive_let_go, j});
-      if (report.age >= options_.silent_after) return fail({CanCause::drive_silent, j});
-    }
+    const CanFault drive = find_drive_fault(reports(), options_.silent_after);
+    if (drive.cause != CanCause::none) return fail(drive);
     // Feedback that comes in every cycle, but late.
-    const bool late = reports()[static_cast<std::size_t>(oldest)].age >= options_.stale_after;
-    stale_ = late ? stale_ + 1 : 0;
-    if (stale_ >= options_.silent_after) fail({CanCause::drive_silent, oldest});
+    const auto oldest = std::ranges::max_element(reports(), {}, &DriveReport::age);
+    stale_ = oldest->age >= options_.stale_after ? stale_ + 1 : 0;
+    if (stale_ < options_.silent_after) return;
+    fail({CanCause::drive_silent, static_cast<int>(oldest - reports().begin())});
   }
 
   void fail(const CanFault& fault) noexcept {
     fault_ = fault;
     mode_ = Mode::faulted;
-  }
-
-  /// Names the first drive to which a condition applies as the one at fault.
-  template <class Condition>
-  void blame(Condition condition) noexcept {
-    const auto drive = std::ranges::find_if(reports(), condition);
-    if (drive == reports().end()) return;
-    fault_.joint = static_cast<int>(drive - reports().begin());
-    fault_.code = drive->fault;
   }
 
   /// What stands in for a command with a NaN or infinity.
@@ -336,24 +298,49 @@ class CanHardware {
     return command;
   }
 
+  /// Judges what became of a cycle's frames. Of an output that is bad for now, and not for good,
+  /// the cause is there until the bus takes frames again.
+  void judge(CanSending sending, bool bad) noexcept {
+    const CanCause link = cause_of(transport_.link());
+    if (sending == CanSending::failed && link != CanCause::none) return fail({link});
+    if (not_sent_ >= options_.not_sent_after) return fail({CanCause::not_sent});
+    fault_ = {bad ? CanCause::not_sent : CanCause::none};
+  }
+
   [[nodiscard]] static bool is_taken(CanSending sending) noexcept {
     return sending == CanSending::sent || sending == CanSending::unconfirmed;
   }
-  CanSending hand_over(const CanBatch& batch) noexcept {
-    const CanSending sending = transport_.send(batch);
+  /// Offers a cycle's frames to the bus, and waits for a time at most until those before have been
+  /// on it. The sign that they have may be there without being fetched yet.
+  CanSending offer(const CanBatch& batch, std::chrono::nanoseconds patience = {}) noexcept {
+    const auto begin = transport_.now();
+    CanSending sending = transport_.send(batch);
+    while (sending == CanSending::backlog) {
+      drain();
+      if (transport_.link() != CanLink::up) {
+        sending = CanSending::failed;
+        break;
+      }
+      sending = transport_.send(batch);
+      const auto rest = begin + patience - transport_.now();
+      if (sending != CanSending::backlog || rest.count() <= 0) break;
+      transport_.wait(rest);
+    }
     if constexpr (requires { codec_.withdraw(); }) {
       if (!is_taken(sending)) codec_.withdraw();
     }
     return sending;
   }
-  CanSending send(const CanBatch& batch) noexcept {
-    const CanSending sending = hand_over(batch);
+  CanSending offer_patiently(const CanBatch& batch) noexcept {
+    return offer(batch, options_.set_up_period);
+  }
+
+  void count(CanSending sending) noexcept {
     if (sending == CanSending::unconfirmed) ++statistics_.unconfirmed;
     const bool taken = is_taken(sending);
     if (!taken) ++statistics_.not_sent;
     dropped_ = taken ? 0 : dropped_ + 1;
     not_sent_ = sending == CanSending::sent ? 0 : not_sent_ + 1;
-    return sending;
   }
 
   /// What the drives have said is young enough to begin with.
@@ -385,7 +372,7 @@ class CanHardware {
     for (int k = 0; k < patience; ++k) {
       CanBatch batch;
       codec_.encode_stop(batch);
-      static_cast<void>(send(batch));
+      count(offer_patiently(batch));
       listen_until(transport_.now() + options_.set_up_period);
       if (all_let_go()) return Status::ok;
     }
@@ -401,7 +388,7 @@ class CanHardware {
         CanBatch batch;
         if (codec_.release(tick - begin, batch) == CanSetUp::done) return;
         if (batch.empty()) codec_.encode_stop(batch);  // until then the watchdogs want commands
-        static_cast<void>(send(batch));
+        count(offer_patiently(batch));
         listen_until(tick + options_.set_up_period);
       }
     }
@@ -418,7 +405,7 @@ class CanHardware {
   Codec codec_;
   Transport transport_;
   CanHardwareOptions options_;
-  Mode mode_ = Mode::inactive;
+  OwnMode mode_{};
   CanFault fault_{};
   std::uint32_t dropped_ = 0;     ///< cycles in a row that the bus did not take
   std::uint32_t not_sent_ = 0;    ///< cycles in a row that did not, or not surely, get onto it

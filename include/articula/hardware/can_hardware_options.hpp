@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
+#include "articula/hardware/can_codec.hpp"
 
 #include <chrono>
 #include <cstdint>
@@ -71,6 +72,24 @@ struct CanStatistics {
   std::uint64_t outdated = 0;     ///< frames of the drives that were too old
   std::uint64_t foreign = 0;      ///< frames of nobody we know
   std::uint64_t malformed = 0;    ///< frames with a drive's identifier that make no sense
+
+  /// Counts a frame by what the codec made of it. Real-time: yes.
+  constexpr void count(CanDecoding decoding) noexcept {
+    switch (decoding) {
+      case CanDecoding::accepted:
+        ++accepted;
+        return;
+      case CanDecoding::outdated:
+        ++outdated;
+        return;
+      case CanDecoding::foreign:
+        ++foreign;
+        return;
+      case CanDecoding::malformed:
+        ++malformed;
+        return;
+    }
+  }
 };
 
 }  // namespace articula

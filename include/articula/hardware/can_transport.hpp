@@ -5,6 +5,7 @@
 #include "articula/core/status.hpp"
 #include "articula/hardware/can_batch.hpp"
 #include "articula/hardware/can_codec.hpp"
+#include "articula/hardware/can_fault.hpp"
 
 #include <chrono>
 #include <concepts>
@@ -19,7 +20,8 @@ struct ReceivedCanFrame {
   std::chrono::nanoseconds time{};  ///< when it arrived, by the transport's time stamps
 };
 
-/// How the way to the bus is, as far as was seen at the last access.
+/// How the way to the bus is, as far as was seen at the last access. `bus_off` and `gone` last until
+/// `open`, so that a controller that comes back at once does not hide that it was away.
 enum class CanLink : unsigned char {
   up,       ///< Frames can pass.
   down,     ///< The interface is switched off.
@@ -27,11 +29,27 @@ enum class CanLink : unsigned char {
   gone,     ///< The interface does not exist any more; only `open` may bring it back.
 };
 
+/// Why nothing passes over a link; CanCause::none if something can. Real-time: yes.
+[[nodiscard]] constexpr CanCause cause_of(CanLink link) noexcept {
+  switch (link) {
+    case CanLink::up:
+      return CanCause::none;
+    case CanLink::down:
+      return CanCause::link_down;
+    case CanLink::bus_off:
+      return CanCause::bus_off;
+    case CanLink::gone:
+      return CanCause::link_gone;
+  }
+  return CanCause::link_gone;
+}
+
 /// What became of a cycle's frames. What was not taken is dropped, never sent later.
 enum class [[nodiscard]] CanSending : unsigned char{
     sent,         ///< All taken, and those of the cycle before have been on the bus.
     unconfirmed,  ///< All taken, but there is no sign that those before ever got onto the bus.
-    backlog,      ///< None taken: those of an earlier cycle still wait for the bus.
+    backlog,      ///< None taken: there is no sign yet that those of an earlier cycle have been on
+                  ///< the bus. `receive` takes that sign in.
     congested,    ///< Not all taken: the queue is full.
     failed,       ///< Not all taken: the link is not up.
 };

@@ -18,8 +18,9 @@
 namespace articula {
 
 /// Codec of the Quanser arm's joint modules, docs/quanser_protocol.md. The position is that of the
-/// motor's encoder; `load_position` has the other one. A joint's figures are taken over only when
-/// both of its frames for a cycle are there, so they belong together.
+/// motor's encoder; `load_position` has the other one. If they differ by more than the module's
+/// `encoder_tolerance`, the report has `encoder_mismatch`, and set-up fails. A joint's figures are
+/// taken over only when both of its frames for a cycle are there, so they belong together.
 /// @tparam R  the robot
 template <Robot R>
 class QuanserCodec {
@@ -33,6 +34,9 @@ class QuanserCodec {
   /// @throws std::invalid_argument as validate says
   QuanserCodec(const R& robot, const QuanserModules<joint_count>& modules) : modules_(modules) {
     validate(robot, modules);
+    for (std::size_t j = 0; j < modules.size(); ++j) {
+      scales_[j] = {modules[j].motor_scale(), modules[j].load_scale()};
+    }
   }
   /// For a robot known at compile time.
   explicit QuanserCodec(const QuanserModules<joint_count>& modules) requires DescribedRobot<R>
@@ -66,6 +70,7 @@ class QuanserCodec {
   /// Real-time: yes.
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
     const auto all = [&](auto condition) { return std::ranges::all_of(reports_, condition); };
+    if (!all([](const DriveReport& r) { return !r.encoder_mismatch; })) return CanSetUp::failed;
     const bool done = enabling_ && all([](const DriveReport& r) {
                         return r.age != DriveReport::never && r.enabled && r.fault == 0;
                       });
@@ -192,9 +197,11 @@ class QuanserCodec {
     half.taken_cycle = half.position_cycle;
     const QuanserModule& module = modules_[j];
     DriveReport& report = reports_[j];
-    report.position = half.position.motor_counts / module.motor_scale() + module.position_at_zero;
+    report.position = half.position.motor_counts / scales_[j].motor + module.position_at_zero;
     load_position_[static_cast<int>(j)] =
-        half.position.load_counts / module.load_scale() + module.position_at_zero;
+        half.position.load_counts / scales_[j].load + module.position_at_zero;
+    const double difference = report.position - load_position_[static_cast<int>(j)];
+    report.encoder_mismatch = std::abs(difference) > module.encoder_tolerance;
     report.velocity = half.motion.milliradians_per_second / 1e3;
     report.effort = half.motion.millinewton_metres / 1e3;
     report.age = static_cast<std::uint32_t>(cycle_ - half.taken_cycle);
@@ -208,7 +215,12 @@ class QuanserCodec {
     reports_[j].fault = nameless ? std::uint8_t{quanser::internal} : faults;
   }
 
+  struct Scales {
+    double motor = 1, load = 1;  ///< counts per radian of the joint [1/rad]
+  };
+
   QuanserModules<joint_count> modules_;
+  std::array<Scales, static_cast<std::size_t>(joint_count)> scales_{};
   std::array<DriveReport, static_cast<std::size_t>(joint_count)> reports_{};
   std::array<Halves, static_cast<std::size_t>(joint_count)> halves_{};
   JointVector<joint_count> load_position_ = JointVector<joint_count>::Zero();

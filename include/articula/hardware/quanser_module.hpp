@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -25,6 +26,11 @@ struct QuanserModule {
   double gear_ratio = 1;               ///< turns of the motor per turn of the joint
   double load_counts_per_turn = 4096;  ///< of the load's encoder, per turn of the joint
   double position_at_zero = 0;         ///< q where both encoders count 0 [rad]
+  /// Largest difference of both encoders that is plausible, at the joint [rad]: the greatest
+  /// deflection of what lies between them, and the error of adjustment. A spring of stiffness K
+  /// between motor and load bends by tau/K, and up to twice as far after a step of tau. Infinity:
+  /// nothing is compared.
+  double encoder_tolerance = std::numeric_limits<double>::infinity();
 
   /// Counts of the motor's encoder per radian of the joint [1/rad]. Real-time: yes.
   [[nodiscard]] constexpr double motor_scale() const noexcept {
@@ -41,7 +47,7 @@ template <int N>
 using QuanserModules = std::array<QuanserModule, static_cast<std::size_t>(N)>;
 
 /// Refuses modules that cannot drive a robot: nodes out of range or used twice, scales that are not
-/// finite or 0, positions and efforts that do not fit into the frames.
+/// finite or 0, a tolerance below a count, positions and efforts that do not fit into the frames.
 /// @throws std::invalid_argument naming the joint, the value and the limit
 /// Real-time: no (throws).
 template <Robot R>
@@ -71,6 +77,11 @@ void validate(const R& robot, const QuanserModules<joint_count<R>>& modules) {
     if (!is_finite(module.position_at_zero)) {
       refuse({"position_at_zero ", module.position_at_zero, " is not finite"});
     }
+    const double counts = 1 / std::abs(module.motor_scale()) + 1 / std::abs(module.load_scale());
+    if (!(module.encoder_tolerance > counts)) {
+      refuse({"encoder_tolerance ", module.encoder_tolerance, " rad is not above ", counts,
+              " rad, one count of each encoder"});
+    }
     const double highest_effort = 32.767;  // N m, see Effort
     if (!(joint.limits.effort <= highest_effort)) {
       refuse({"the joint's effort limit ", joint.limits.effort, " N m is above the ",
@@ -79,9 +90,9 @@ void validate(const R& robot, const QuanserModules<joint_count<R>>& modules) {
     for (const double limit : {joint.limits.lower, joint.limits.upper}) {
       if (!is_finite(limit)) continue;
       for (const double per_radian : {module.motor_scale(), module.load_scale()}) {
-        const double counts = std::abs((limit - module.position_at_zero) * per_radian);
-        if (counts <= quanser::detail::largest_count) continue;
-        refuse({"the joint's limit ", limit, " rad is ", counts, " counts, above the ",
+        const double highest = std::abs((limit - module.position_at_zero) * per_radian);
+        if (highest <= quanser::detail::largest_count) continue;
+        refuse({"the joint's limit ", limit, " rad is ", highest, " counts, above the ",
                 quanser::detail::largest_count, " that a frame can carry"});
       }
     }

@@ -4,6 +4,7 @@
 
 #include "articula/hardware/can_frame.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -34,7 +35,7 @@ enum FaultBit : std::uint8_t {
   command_timeout = 1 << 0,   ///< efforts stopped coming
   over_current = 1 << 1,      ///< motor current too high
   over_temperature = 1 << 2,  ///< module too hot
-  encoder = 1 << 3,           ///< an encoder signal is missing
+  encoder = 1 << 3,           ///< an encoder signal is missing, or a count is out of range
   supply = 1 << 4,            ///< supply voltage out of range
   over_speed = 1 << 5,        ///< motor too fast
   internal = 1 << 6,          ///< anything else
@@ -58,7 +59,7 @@ struct Position {
   std::int32_t motor_counts = 0;  ///< motor encoder, 24 bits
   std::int32_t load_counts = 0;   ///< load encoder, 24 bits
   std::uint8_t counter = 0;       ///< of the SYNC that is answered
-  std::uint8_t status = 0;        ///< StatusBit
+  std::uint8_t status = 0;        ///< StatusBit, at the time of sending
 };
 
 /// Module to host, answering SYNC: how the joint moves.
@@ -66,7 +67,7 @@ struct Motion {
   std::int16_t milliradians_per_second = 0;  ///< [1e-3 rad/s]
   std::int16_t millinewton_metres = 0;       ///< measured effort [1e-3 N m]
   std::uint8_t counter = 0;                  ///< of the SYNC that is answered
-  std::uint8_t faults = 0;                   ///< FaultBit
+  std::uint8_t faults = 0;                   ///< FaultBit, at the time of sending
 };
 
 /// Module to host, every 100 ms and at once after a reset.
@@ -81,6 +82,8 @@ namespace detail {
 /// -32768 is not a value: it stands for a figure that a module does not have.
 inline constexpr std::int16_t no_value = -32768;
 inline constexpr std::int32_t largest_count = 0x7fffff;
+/// Likewise for counts.
+inline constexpr std::int32_t no_count = -largest_count - 1;
 
 [[nodiscard]] constexpr bool is(const CanFrame& frame, std::uint32_t base,
                                 std::uint8_t length) noexcept {
@@ -157,8 +160,12 @@ inline constexpr std::int32_t largest_count = 0x7fffff;
 }
 [[nodiscard]] constexpr std::optional<Position> decode_position(const CanFrame& frame) noexcept {
   if (!detail::is(frame, position_base, 8) || !detail::is_status(frame.data[7])) return {};
-  return Position{load_little_endian<std::int32_t, 0, 3>(frame.data),
-                  load_little_endian<std::int32_t, 3, 3>(frame.data), frame.data[6], frame.data[7]};
+  const Position position{load_little_endian<std::int32_t, 0, 3>(frame.data),
+                          load_little_endian<std::int32_t, 3, 3>(frame.data), frame.data[6],
+                          frame.data[7]};
+  const std::int32_t lowest = std::min(position.motor_counts, position.load_counts);
+  if (lowest == detail::no_count) return {};
+  return position;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Motion& motion, std::uint8_t node) noexcept {

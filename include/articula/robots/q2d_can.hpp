@@ -6,18 +6,11 @@
 #include "articula/hardware/quanser_codec.hpp"
 #include "articula/hardware/socketcan.hpp"
 #include "articula/robots/q2d.hpp"
+#include "articula/robots/q2d_modules.hpp"
 
 #include <string>
 
 namespace articula {
-
-/// The joint modules of the Quanser arm, shoulder then elbow: docs/quanser_protocol.md. Encoders
-/// with 4096 counts per turn behind gears of 100 and 80; the load's encoders have 65536 counts per
-/// turn. These figures are ours: check them on the arm at hand, see docs/hardware.md.
-inline constexpr QuanserModules<2> q2d_modules{{
-    {.node = 1, .motor_counts_per_turn = 4096, .gear_ratio = 100, .load_counts_per_turn = 65536},
-    {.node = 2, .motor_counts_per_turn = 4096, .gear_ratio = 80, .load_counts_per_turn = 65536},
-}};
 
 /// The Quanser arm on a CAN bus: what was tuned on Q2dSim runs here.
 ///
