@@ -133,8 +133,11 @@ TEST_CASE("activation clears old faults and enables at zero effort") {
     CHECK(arm.deactivate() == Status::ok);
     CHECK_FALSE(bus->drives.enabled(0));
     CHECK_FALSE(bus->drives.enabled(1));
-    CHECK(arm.write({{1, 1}}) == Status::ok);
-    CHECK(arm.read(state) == Status::ok);  // goes on reporting
+    state = {};
+    CHECK(arm.write({{1, 1}}) == Status::inactive);
+    CHECK(arm.read(state) == Status::inactive);
+    CHECK(std::abs(arm.codec().load_position()[1] - state.position[1]) <
+          1e-4);  // goes on reporting
     CHECK(bus->drives.effort() == JointVector<2>(0, 0));
   }
 }

@@ -20,6 +20,9 @@ namespace articula {
 ///   are older than the hardware allows, Status::hardware_fault if there are none to rely on. On
 ///   anything but Status::ok no controller sees the state.
 /// - `write(command)` hands over the command for the coming period; it is held until the next one.
+/// - Before `activate()` has succeeded, and after `deactivate()`, both answer Status::inactive, or
+///   Status::hardware_fault. `read` may fill in measurements even then; no drive follows a command.
+///   Hardware that needs no activation, as a simulator, is active until `deactivate()`.
 ///
 /// `read` and `write` are noexcept and do nothing that could delay the loop but their own input and
 /// output.

@@ -18,7 +18,7 @@ enum class [[nodiscard]] Status : unsigned char{
     stale_reference,       ///< No new reference came within the lifetime of the last one.
     limit_exceeded,        ///< A joint is measured beyond its position or velocity limit.
     overrun,               ///< Too many cycles ended after the next one was due.
-    inactive,              ///< The loop is not active: it watches, and does not control.
+    inactive,  ///< The loop or its hardware is not active: it watches, and does not control.
 };
 
 /// The status in words, for messages and logs.

@@ -126,7 +126,8 @@ class CanHardware {
   /// Takes in what the drives have said and judges it.
   /// @param state  receives the last figures of each joint
   /// @return       Status::ok; Status::stale_state if a joint's figures are too old;
-  ///               Status::hardware_fault if the link or a drive has failed, and fault() tells why
+  ///               Status::hardware_fault if the link or a drive has failed, and fault() tells why;
+  ///               Status::inactive while the drives are not active
   /// Real-time: yes, but for the bus.
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     drain();
@@ -143,6 +144,7 @@ class CanHardware {
     }
     if (partial) ++statistics_.partial;
     if (mode_ == Mode::faulted || transport_.link() != CanLink::up) return Status::hardware_fault;
+    if (mode_ == Mode::inactive) return Status::inactive;
     return stale ? Status::stale_state : Status::ok;
   }
 
@@ -152,7 +154,8 @@ class CanHardware {
   ///                 the measured position instead
   /// @return         Status::ok, also while the bus is too busy for a cycle or two, whose commands
   ///                 are dropped; Status::non_finite_command; Status::hardware_fault if the bus
-  ///                 takes nothing for as long as feedback may be missing, or after a fault
+  ///                 takes nothing for as long as feedback may be missing, or after a fault;
+  ///                 Status::inactive while the drives are not active
   /// Real-time: yes, but for the bus.
   [[nodiscard]] Status write(const Command& command) noexcept {
     ++statistics_.cycles;
@@ -168,6 +171,7 @@ class CanHardware {
     const bool bad = sending == CanSending::failed || dropped_ >= options_.stale_after;
     if (mode_ == Mode::active) judge(sending, bad);
     if (mode_ == Mode::faulted || bad) return Status::hardware_fault;
+    if (mode_ == Mode::inactive) return Status::inactive;
     return finite ? Status::ok : Status::non_finite_command;
   }
 

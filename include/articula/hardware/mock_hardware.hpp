@@ -58,7 +58,8 @@ class MockHardware {
     return Status::ok;
   }
 
-  /// Measures, as far as the script allows. One more reading of the script's count.
+  /// Measures, as far as the script allows. One more reading of the script's count. Figures of
+  /// hardware that is not active come with Status::inactive.
   /// Real-time: yes. O(N + length of the script).
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     const std::uint64_t reading = readings_++;
@@ -95,16 +96,17 @@ class MockHardware {
     }
     measured_ = fresh;
     state = fresh;
-    return status;
+    return status == Status::ok && !active_ ? Status::inactive : status;
   }
 
   /// Does at once what it is told.
-  /// @return Status::hardware_fault if inactive or the script says so, Status::non_finite_command
-  ///         if the command is refused
+  /// @return Status::hardware_fault if the script says so, Status::inactive if the hardware is not
+  ///         active, Status::non_finite_command if the command is refused
   /// Real-time: yes. O(N + length of the script).
   [[nodiscard]] Status write(const Command& command) noexcept {
     ++writes_;
-    if (!active_ || now(MockFaultKind::fails_to_write)) return Status::hardware_fault;
+    if (now(MockFaultKind::fails_to_write)) return Status::hardware_fault;
+    if (!active_) return Status::inactive;
     if (!is_finite(command)) return Status::non_finite_command;
     written_ = command;
     if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {

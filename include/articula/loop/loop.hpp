@@ -37,9 +37,10 @@ namespace articula {
 /// After up to `borne_cycles` bad cycles in a row the controller goes on as if nothing had been: a
 /// lost frame costs no integral. After more, or after one in which the hardware could not be read
 /// or written, it starts anew with the first good one, since what it remembers is of a motion that
-/// is over. Where reference or command were to blame and the joints were held meanwhile, it begins
-/// with the command that held them, if it can (see Primable). In any case it hears what was given
-/// last, if it wants to know (TakesGiven).
+/// is over. So it does after cycles in which the hardware was not active (Status::inactive):
+/// nothing winds up while no drive follows. Where reference or command were to blame and the joints
+/// were held meanwhile, it begins with the command that held them, if it can (see Primable). Where
+/// something was given, the controller receives what was given last, if it takes that (TakesGiven).
 /// @tparam HardwareType        satisfies Hardware
 /// @tparam ControllerTemplate  makes a Controller of the hardware's robot
 template <class HardwareType, template <class> class ControllerTemplate>
@@ -187,19 +188,21 @@ class Loop {
   void note(Status status, Status read, Status write) noexcept {
     if (status == Status::ok) {
       bad_cycles_ = 0;
-      joints_lost_ = false;
+      joints_lost_ = nothing_given_ = false;
       return;
     }
     if (bad_cycles_ <= borne_cycles) ++bad_cycles_;
-    if (read == Status::hardware_fault || write != Status::ok) bad_cycles_ = borne_cycles + 1;
+    const bool uncontrolled = read == Status::hardware_fault || read == Status::inactive;
+    if (uncontrolled || write != Status::ok) bad_cycles_ = borne_cycles + 1;
     joints_lost_ = joints_lost_ || read != Status::ok || write != Status::ok ||
                    status == Status::non_finite_state;
+    nothing_given_ = write == Status::inactive;
   }
 
   void restart() noexcept {
     controller_.start(state_);
     if constexpr (TakesGiven<ControllerType, joint_count>) {
-      controller_.given(numbers_of(command_, state_));
+      if (!nothing_given_) controller_.given(numbers_of(command_, state_));
     }
     if constexpr (Primable<ControllerType, joint_count>) {
       if (joints_lost_) return;
@@ -222,8 +225,9 @@ class Loop {
   double time_ = 0;
   std::uint64_t cycles_ = 0;
   bool started_ = false;
-  int bad_cycles_ = 0;        ///< in a row, counted to one more than are borne with
-  bool joints_lost_ = false;  ///< in one of them the joints were not known or not held
+  int bad_cycles_ = 0;          ///< in a row, counted to one more than are borne with
+  bool joints_lost_ = false;    ///< in one of them the joints were not known or not held
+  bool nothing_given_ = false;  ///< in the last of them no drive was active
   State state_{};
   Reference reference_{};
   Command command_{};

@@ -22,7 +22,8 @@ namespace articula {
 /// of command in every period. They give at most the joints' effort limits; the measured effort is
 /// what they give at that moment, so limited and without friction. Joints have their damping, dry
 /// friction and stops (see JointDynamics). Velocity limits are kept under position and velocity
-/// commands; under the others they are the controller's to keep. The same options and commands give
+/// commands; under the others they are the controller's to keep. Drives are active until
+/// `deactivate`; drives that are not give no effort, and the robot falls. The same options and commands give
 /// the same motion to the last bit. docs/simulator.md has it all.
 /// @tparam R  the robot
 template <Robot R>
@@ -55,31 +56,42 @@ class Simulator {
     measured_ = sensors_.measure(truth_);
   }
 
-  [[nodiscard]] Status activate() noexcept { return Status::ok; }
-  [[nodiscard]] Status deactivate() noexcept { return Status::ok; }
+  /// Real-time: yes.
+  [[nodiscard]] Status activate() noexcept {
+    active_ = true;
+    return Status::ok;
+  }
+  /// Real-time: yes.
+  [[nodiscard]] Status deactivate() noexcept {
+    active_ = false;
+    return Status::ok;
+  }
 
   /// The measurement at this moment. Reading twice gives the same.
   /// @param state  receives it
-  /// @return       Status::ok, or Status::non_finite_state if the motion has overflowed
+  /// @return       Status::ok, Status::non_finite_state if the motion has overflowed, or
+  ///               Status::inactive after `deactivate`
   /// Real-time: yes.
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     state = measured_;
-    return is_finite(measured_) ? Status::ok : Status::non_finite_state;
+    if (!is_finite(measured_)) return Status::non_finite_state;
+    return active_ ? Status::ok : Status::inactive;
   }
 
   /// Holds efforts for one period.
   /// @param command  efforts [N m or N], cut off at the drives' limits
   /// @return         Status::ok, or Status::non_finite_command if a NaN or infinity was refused and
-  ///                 the drives gave no effort instead
+  ///                 the drives gave no effort instead; Status::inactive after `deactivate`,
+  ///                 when they give none either
   /// Real-time: yes. Costs `substeps` Runge-Kutta steps, and more where a joint reaches a stop or
   /// comes to rest against dry friction.
   [[nodiscard]] Status write(const EffortCommand<joint_count>& command) noexcept {
-    const bool accepted = is_finite(command);
+    const bool finite = is_finite(command), accepted = finite && active_;
     truth_.effort = for_each_joint<joint_count>([&](int j) noexcept {
       return accepted ? std::clamp(command.effort[j], -limits_[j], limits_[j]) : 0.0;
     });
     advance(options_.substeps, [this](const auto&, const auto&) noexcept { return truth_.effort; });
-    return accepted ? Status::ok : Status::non_finite_command;
+    return accepted ? Status::ok : finite ? Status::inactive : Status::non_finite_command;
   }
 
   /// Holds another command for one period: positions or velocities for drives that are servos or
@@ -91,9 +103,10 @@ class Simulator {
   /// dynamics as well.
   template <JointCommand<joint_count> Command>
   [[nodiscard]] Status write(const Command& command) noexcept {
-    if (!is_finite(command)) {
-      static_cast<void>(write(EffortCommand<joint_count>{}));
-      return Status::non_finite_command;
+    const bool finite = is_finite(command);
+    if (!finite || !active_) {
+      const Status without_effort = write(EffortCommand<joint_count>{});
+      return finite ? without_effort : Status::non_finite_command;
     }
     follow(command);
     return Status::ok;
@@ -189,6 +202,7 @@ class Simulator {
   JointState<joint_count> truth_{};
   JointState<joint_count> measured_{};
   std::uint64_t periods_ = 0;
+  bool active_ = true;
 };
 
 }  // namespace articula
