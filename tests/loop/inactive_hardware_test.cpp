@@ -126,7 +126,8 @@ TEST_CASE("limits of effort rates begin at the measured effort, not at one that 
   limits.acceleration.setConstant(1000);
   limits.effort_rate.setConstant(1000);  // 1 N m in a cycle
   Loop<Simulator<TiltedQ2d>, Careful> loop{
-      Simulator<TiltedQ2d>({.initial_position = Vector(1, 0.5)}), Careful<TiltedQ2d>(limits)};
+      Simulator<TiltedQ2d>(SimulatorOptions<2>{.initial_position = Vector(1, 0.5)}),
+      Careful<TiltedQ2d>(limits)};
   REQUIRE(gravity(TiltedQ2d(), loop.state().position).cwiseAbs().maxCoeff() > 2);
   REQUIRE(loop.update() == Status::ok);
   REQUIRE(loop.hardware().deactivate() == Status::ok);

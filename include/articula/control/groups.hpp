@@ -6,6 +6,7 @@
 #include "articula/control/damping_effort.hpp"
 #include "articula/control/effort_law.hpp"
 #include "articula/control/joint_group.hpp"
+#include "articula/control/resume.hpp"
 #include "articula/control/safe_command.hpp"
 #include "articula/control/switch_board.hpp"
 #include "articula/control/tells_failure.hpp"
@@ -54,6 +55,9 @@ class Groups {
  public:
   /// The command counts even where `failed` tells: a group's failure is no other's.
   static constexpr bool safe_in_failure = true;
+  /// Where a group's controller brakes without a reference, it does. Then a group whose controller
+  /// does not gets its safe command where its own reference is not finite.
+  static constexpr bool brakes_without_reference = (BrakesWithoutReference<Controllers> || ...);
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr std::size_t group_count = sizeof...(Controllers);
   /// How many controllers can be switched.
@@ -108,6 +112,7 @@ class Groups {
     for (Part& part : parts_) {
       part.wait = 0;
       part.since = part.divisor;
+      part.unasked = 0;
       part.status = ControllerStatus::active;
     }
     for_each([&](auto& controller, std::size_t) noexcept { controller.start(state); });
@@ -118,24 +123,24 @@ class Groups {
   [[nodiscard]] Command update(const State& state, const Reference& reference,
                                double period) noexcept {
     const bool usable = is_finite(state) && is_finite(reference);
+    const bool has_safe = usable || (brakes_without_reference && is_finite(state));
     bool complete = true;
     for_each([&](auto& controller, std::size_t g) noexcept {
       Part& part = parts_[g];
       part.updated = part.wait == 0;
       if (part.updated) {
-        const Command own = controller.update(state, of_group(part, state, reference),
-                                              static_cast<double>(part.since) * period);
+        const Command own = ask(controller, part, state, of_group(part, state, reference), period);
         part.since = 0;
         Command next = merged(own, part);
         const bool counts = is_finite(next) && command_counts(controller);
         const bool well = counts && !has_failed(controller);
         if (usable) part.status = well ? ControllerStatus::active : ControllerStatus::failed;
         if (!counts) next = merged(safe(part, state, period), part);
-        if (counts || usable) command_ = next;
+        if (counts || has_safe) command_ = next;
         if constexpr (TakesGiven<decltype(controller), joint_count>) {
-          if (!counts && usable) controller.given(numbers_of(command_, state));
+          if (!counts && has_safe) controller.given(numbers_of(command_, state));
         }
-        complete = complete && (counts || usable);
+        complete = complete && (counts || has_safe);
         if (well) part.wait = part.divisor;
       }
       ++part.since;
@@ -247,6 +252,7 @@ class Groups {
     int divisor = 1;
     int wait = 0;          ///< cycles until it is asked again
     int since = 1;         ///< cycles since it was asked
+    int unasked = 0;       ///< times in a row that there was no reference to ask it about
     bool updated = false;  ///< it was asked in the last cycle
     ControllerStatus status = ControllerStatus::active;
   };
@@ -261,6 +267,22 @@ class Groups {
     return {chosen(part, reference.position, state.position),
             chosen(part, reference.velocity, state.velocity), chosen(part, reference.acceleration),
             chosen(part, reference.effort)};
+  }
+
+  /// A group's own command. Without a reference a controller that cannot brake is not asked.
+  template <class C>
+  [[nodiscard]] Command ask(C& controller, Part& part, const State& state,
+                            const Reference& reference, double period) noexcept {
+    const double since = static_cast<double>(part.since) * period;
+    if (!BrakesWithoutReference<C> && !is_finite(reference)) {
+      if (part.unasked <= detail::borne_cycles) ++part.unasked;
+      return no_command<Command>();
+    }
+    if (part.unasked > detail::borne_cycles && is_finite(state)) {
+      detail::resume(controller, state, reference, since, numbers_of(command_, state));
+    }
+    part.unasked = 0;
+    return controller.update(state, reference, since);
   }
 
   /// What is given, which is finite, with a group's own part in it.

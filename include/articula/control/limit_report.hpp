@@ -20,7 +20,7 @@ struct JointLimitReport {
   bool effort_rate = false;
   bool stiffness = false;   ///< of a MultiModeCommand: it was negative
   bool damping = false;     ///< likewise
-  bool non_finite = false;  ///< command or state had a NaN or infinity: the joint was braked
+  bool non_finite = false;  ///< command, reference or state had a NaN or infinity: it was braked
   double asked = 0;         ///< [rad, m; rad/s, m/s; N m, N]; may be NaN or infinite
   double given = 0;         ///< likewise, finite
 

@@ -8,6 +8,7 @@
 #include "articula/control/effort_limiter.hpp"
 #include "articula/control/joint_limiter.hpp"
 #include "articula/control/position_limiter.hpp"
+#include "articula/control/resume.hpp"
 #include "articula/control/tells_failure.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_reference.hpp"
@@ -37,8 +38,10 @@ namespace articula {
 ///
 /// What is within the limits passes unchanged. A command that is not finite, or does not count
 /// because the controller says that it has failed (TellsFailure), brakes all joints, and `failed`
-/// tells. (Groups brake the joints of a failed group themselves.) The controller is told what was
-/// cut off, and what was given, if it wants to know (LimitAware, TakesGiven).
+/// tells. (Groups brake the joints of a failed group themselves.) A reference that is not finite
+/// brakes all joints, too: the controller is not asked in that cycle. After more than three such
+/// cycles in a row it is started anew, and goes on from what was given. The controller is told what
+/// was cut off, and what was given, if it wants to know (LimitAware, TakesGiven).
 /// @tparam R                   the robot
 /// @tparam ControllerTemplate  makes the controller of a robot
 template <Robot R, template <class> class ControllerTemplate>
@@ -46,6 +49,8 @@ class Limited {
  public:
   /// The command counts even where `failed` tells: the joints brake.
   static constexpr bool safe_in_failure = true;
+  /// A reference that is not finite brakes the joints, too.
+  static constexpr bool brakes_without_reference = true;
   static constexpr int joint_count = articula::joint_count<R>;
   using ControllerType = ControllerTemplate<R>;
   using State = JointState<joint_count>;
@@ -79,6 +84,7 @@ class Limited {
   void start(const State& state) noexcept {
     controller_.start(state);
     started_ = failed_ = goes_on_ = false;
+    unasked_cycles_ = 0;
   }
 
   /// The controller's command, limited. Before any position is known a position command is NaN,
@@ -86,10 +92,7 @@ class Limited {
   /// Real-time: yes, if the controller's is.
   [[nodiscard]] Command update(const State& state, const Reference& reference,
                                double period) noexcept {
-    Command asked = controller_.update(state, reference, period);
-    const bool none = !is_finite(asked) || !is_finite(numbers_of(asked, state));
-    failed_ = (none || has_failed(controller_)) && is_finite(state) && is_finite(reference);
-    if (!command_counts(controller_)) asked = no_command<Command>();
+    const Command asked = ask(state, reference, period);
     report_ = {};
     begin_cycle(state, period);
     if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {
@@ -142,11 +145,11 @@ class Limited {
 
  private:
   using Vector = JointVector<joint_count>;
+  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   static constexpr bool by_position = std::same_as<Command, PositionCommand<joint_count>>;
   using OfJoint = std::conditional_t<by_position, PositionLimiter, JointLimiter>;
   using OfJoints = std::array<OfJoint, static_cast<std::size_t>(joint_count)>;
   using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, OfJoints>;
-  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
   [[nodiscard]] static constexpr std::size_t index(int j) noexcept {
     return static_cast<std::size_t>(j);
@@ -162,6 +165,26 @@ class Limited {
       for (int j = 0; j < joint_count; ++j) limiters[index(j)] = OfJoint(limits, j);
       return limiters;
     }
+  }
+
+  /// The controller's command; one that is not finite where none counts.
+  [[nodiscard]] Command ask(const State& state, const Reference& reference,
+                            double period) noexcept {
+    if (!is_finite(reference)) {
+      if (unasked_cycles_ <= detail::borne_cycles) ++unasked_cycles_;
+      failed_ = false;
+      return no_command<Command>();
+    }
+    if (unasked_cycles_ > detail::borne_cycles && is_finite(state)) {
+      Vector last;
+      for (int j = 0; j < joint_count; ++j) last[j] = report_[index(j)].given;
+      detail::resume(controller_, state, reference, period, last);
+    }
+    unasked_cycles_ = 0;
+    const Command asked = controller_.update(state, reference, period);
+    const bool none = !is_finite(asked) || !is_finite(numbers_of(asked, state));
+    failed_ = (none || has_failed(controller_)) && is_finite(state);
+    return command_counts(controller_) ? asked : no_command<Command>();
   }
 
   /// Before the first cycle the joints' motion is what is measured; with another period they go on.
@@ -206,7 +229,9 @@ class Limited {
       report.asked = asked[j];
       report.given = given[j];
     }
-    if constexpr (LimitAware<ControllerType, joint_count>) controller_.limited(asked - given);
+    if constexpr (LimitAware<ControllerType, joint_count>) {
+      if (unasked_cycles_ == 0) controller_.limited(asked - given);
+    }
     if constexpr (TakesGiven<ControllerType, joint_count>) controller_.given(given);
     return given;
   }
@@ -275,6 +300,7 @@ class Limited {
   LimitReport<joint_count> report_{};
   double period_ = 1e-3;
   Vector last_given_ = Vector::Zero();  ///< before the first update, if it goes on from there
+  int unasked_cycles_ = 0;              ///< in a row, counted to one more than are borne with
   bool goes_on_ = false;
   bool started_ = false;
   bool failed_ = false;

@@ -30,6 +30,8 @@ template <Robot R, JointCommand<joint_count<R>> C = EffortCommand<joint_count<R>
 class Standby {
  public:
   static constexpr std::string_view name = "standby";
+  /// It uses no reference.
+  static constexpr bool brakes_without_reference = true;
   static constexpr int joint_count = articula::joint_count<R>;
 
   Standby() requires DescribedRobot<R> : Standby(0.1) {}

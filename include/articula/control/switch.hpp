@@ -54,6 +54,8 @@ class Switch {
  public:
   /// A finite command counts even where `failed` tells: it is a safe one.
   static constexpr bool safe_in_failure = true;
+  /// Where the active controller brakes without a reference, it does; any other is not asked then.
+  static constexpr bool brakes_without_reference = (BrakesWithoutReference<Controllers> || ...);
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr std::size_t controller_count = sizeof...(Controllers);
   using State = JointState<joint_count>;
@@ -132,7 +134,8 @@ class Switch {
                                double period) noexcept {
     const std::size_t planned = board_.active_at(0);
     const bool switches = planned != active_ || (planned != none && board_.entries[planned].anew);
-    if (switches && is_finite(state)) {  // nothing can start from a state that is none
+    const bool has_reference = is_finite(reference);
+    if (switches && is_finite(state) && has_reference) {  // nothing can start from what is none
       set_active(planned);
       start_controller(planned, state);
       if (begun_) {
@@ -141,7 +144,7 @@ class Switch {
       }
     }
     Answer answer = ask(active_, state, reference, period);
-    if (answer.failed && is_finite(state) && is_finite(reference)) {
+    if (answer.failed && is_finite(state) && has_reference) {
       fall_back(answer, state, reference, period);
     }
     begun_ = true;
@@ -289,6 +292,10 @@ class Switch {
                            double period) noexcept {
     Answer answer;
     visit(index, [&](auto& controller) noexcept {
+      if (!BrakesWithoutReference<std::remove_cvref_t<decltype(controller)>> &&
+          !is_finite(reference)) {
+        return;
+      }
       answer.command = controller.update(state, reference, period);
       const bool passable = Transfer::passable(answer.command, state);
       answer.failed = !passable || has_failed(controller);

@@ -23,6 +23,12 @@ concept TellsFailure = requires(const C& controller) {
 template <class C>
 concept SafeInFailure = TellsFailure<C> && C::safe_in_failure;
 
+/// One that is asked even where the reference is not finite, because it brakes the joints within
+/// limits then: a member `brakes_without_reference` says so. Such are Limited, and a Switch or
+/// Groups that contain such. All others may count on a finite reference.
+template <class C>
+concept BrakesWithoutReference = C::brakes_without_reference;
+
 /// Whether a controller says that it has failed. Real-time: yes.
 template <class C>
 [[nodiscard]] bool has_failed(const C& controller) noexcept {

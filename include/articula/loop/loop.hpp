@@ -4,6 +4,7 @@
 
 #include "articula/control/command_numbers.hpp"
 #include "articula/control/effort_law.hpp"
+#include "articula/control/resume.hpp"
 #include "articula/control/safe_command.hpp"
 #include "articula/control/tells_failure.hpp"
 #include "articula/core/controller.hpp"
@@ -32,7 +33,8 @@ namespace articula {
 /// effort limits and writes it. NaN and infinity never reach the hardware: whatever goes wrong, the
 /// command that is written is a safe one (see safe_command) and the Status tells. A controller that
 /// says it has failed (TellsFailure) is treated as one whose command is not finite; what Limited or
-/// Groups make of a failure is written (SafeInFailure), and only the Status tells.
+/// Groups make of a failure is written (SafeInFailure), and only the Status tells. So is what they
+/// make of a reference that is not finite (BrakesWithoutReference): they brake within their limits.
 ///
 /// After up to `borne_cycles` bad cycles in a row the controller goes on as if nothing had been: a
 /// lost frame costs no integral. After more, or after one in which the hardware could not be read
@@ -50,7 +52,7 @@ class Loop {
   using ControllerType = ControllerTemplate<RobotType>;
   static constexpr int joint_count = articula::joint_count<RobotType>;
   /// Bad cycles in a row over which the controller's memory is kept.
-  static constexpr int borne_cycles = 3;
+  static constexpr int borne_cycles = detail::borne_cycles;
   using State = JointState<joint_count>;
   using Reference = JointReference<joint_count>;
   using Command = typename detail::CheckedController<ControllerType, joint_count>::Command;
@@ -104,21 +106,23 @@ class Loop {
     if (status == Status::ok && !started_) start();
     if (status == Status::ok && !is_finite(reference_)) status = Status::non_finite_reference;
     Command command;
+    bool controls = status == Status::ok || (status == Status::non_finite_reference &&
+                                             BrakesWithoutReference<ControllerType>);
     bool fails = false;
-    if (status == Status::ok) {
+    if (controls) {
       if (bad_cycles_ > borne_cycles) restart();
       command = controller_.update(state_, reference_, period_);
       fails = has_failed(controller_);
-      if (!is_finite(command) || !command_counts(controller_)) status = Status::non_finite_command;
+      controls = is_finite(command) && command_counts(controller_);
+      if (!controls && status == Status::ok) status = Status::non_finite_command;
     }
-    command_ = status == Status::ok
-                   ? limited(hardware_.robot(), command)
-                   : safe_command(hardware_.robot(), trusted_position(read), command_);
+    command_ = controls ? limited(hardware_.robot(), command)
+                        : safe_command(hardware_.robot(), trusted_position(read), command_);
 
     // A position command before any position is known is not finite.
     const Status write = is_finite(command_) ? hardware_.write(command_) : Status::ok;
     if (status == Status::ok) status = write;
-    note(status, read, write);
+    note(status, controls, read, write);
     return status == Status::ok && fails ? Status::non_finite_command : status;
   }
 
@@ -184,9 +188,10 @@ class Loop {
     bad_cycles_ = 0;
   }
 
-  /// What is remembered of the bad cycles before a good one.
-  void note(Status status, Status read, Status write) noexcept {
-    if (status == Status::ok) {
+  /// What is remembered of the bad cycles before a good one. One in which the controller's own
+  /// command was written is good.
+  void note(Status status, bool controls, Status read, Status write) noexcept {
+    if (controls && write == Status::ok) {
       bad_cycles_ = 0;
       joints_lost_ = nothing_given_ = false;
       return;
@@ -205,7 +210,7 @@ class Loop {
       if (!nothing_given_) controller_.given(numbers_of(command_, state_));
     }
     if constexpr (Primable<ControllerType, joint_count>) {
-      if (joints_lost_) return;
+      if (joints_lost_ || !is_finite(reference_)) return;
       static_cast<void>(detail::prime(controller_, state_, reference_, period_,
                                       numbers_of(command_, state_), LastCommand::load));
     }
