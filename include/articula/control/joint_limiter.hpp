@@ -50,11 +50,25 @@ class JointLimiter {
     stop_ = stop_from(motion);
   }
 
-  /// Goes on with cycles of another length [s]. What differences make of the change itself, and of
-  /// a jerk that is large for the new length, may pass the limits of acceleration and jerk for some
-  /// cycles.
-  /// Real-time: yes.
-  void set_period(double period) noexcept { start(motion(), period); }
+  /// Goes on with cycles of another length [s]. The velocity stays, and the acceleration is cut to
+  /// what can fade, in steps of the new length, before the velocity limit. So limits of position
+  /// and velocity hold for any sequence of periods. What differences make of the change itself may
+  /// pass the limits of acceleration and jerk for some cycles.
+  /// Real-time: yes. At most 21 stops are computed.
+  void set_period(double period) noexcept {
+    CommandMotion now = motion();
+    start(now, period);
+    const double most = std::max(velocity_, std::abs(now.velocity)) * (1 + 1e-12);  // rounding
+    const ValueRange speeds{-most, most};
+    if (within(stop_.velocities(), speeds)) return;
+    double safe = 0, unsafe = now.acceleration;
+    for (int k = 0; k < 20; ++k) {
+      now.acceleration = safe + (unsafe - safe) / 2;
+      (within(stop_from(now).velocities(), speeds) ? safe : unsafe) = now.acceleration;
+    }
+    now.acceleration = safe;
+    stop_ = stop_from(now);
+  }
 
   /// Where the joint is now. Real-time: yes.
   [[nodiscard]] const CommandMotion& motion() const noexcept { return stop_.motion(); }
