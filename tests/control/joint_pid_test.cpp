@@ -380,3 +380,76 @@ TEST_CASE("an integral whose gain becomes 0 stays as a constant until the start"
   law.start({});
   CHECK(law.effort({}, reference, 0.5)[0] == 0);
 }
+
+TEST_CASE("a first measurement that is no number is not where the joint was at the start") {
+  const PidGains gains[] = {
+      {.proportional = 5, .position_weight = 0.3},
+      {.proportional = 5, .derivative = 2, .derivative_of = DerivativeOf::error},
+      {.proportional = 5,
+       .derivative = 2,
+       .derivative_of = DerivativeOf::error,
+       .derivative_filter_time = 0.01,
+       .position_weight = 0,
+       .velocity_weight = 0.5}};
+  for (const PidGains& g : gains) {
+    for (const double wrong : {not_a_number, infinity, -infinity}) {
+      JointPid pid, undisturbed;
+      static_cast<void>(pid.update(g, error_of(wrong), 1e-3));
+      for (const double error : {0.2, 0.3, 0.25}) {
+        CHECK(pid.update(g, error_of(error), 1e-3) == undisturbed.update(g, error_of(error), 1e-3));
+      }
+    }
+  }
+}
+
+TEST_CASE("after a measurement that is no number a derivative by differences is not wrong") {
+  const PidGains g{.derivative = 1, .derivative_of = DerivativeOf::error};
+  JointPid pid;
+  for (int k = 0; k < 10; ++k) {  // a ramp of 1
+    const double output = pid.update(g, error_of(k == 5 ? not_a_number : 1e-3 * k), 1e-3);
+    if (k == 5) CHECK(std::isnan(output));
+    if (k > 0 && k != 5) CHECK(output == Approx(1));  // not 2, though two cycles have passed
+  }
+}
+
+TEST_CASE("the largest finite inputs give finite outputs that push the right way") {
+  const double big = 1e308;
+  const Model<1> robot = support::slider();  // without limits
+  for (const double weight : {1.0, 0.5, 0.0}) {
+    for (const auto of : {DerivativeOf::measured_velocity, DerivativeOf::error}) {
+      const PidGains g{.proportional = 2000,
+                       .integral = 500,
+                       .derivative = 60,
+                       .derivative_of = of,
+                       .position_weight = weight,
+                       .velocity_weight = weight,
+                       .velocity_feedforward = 10,
+                       .acceleration_feedforward = 10};
+      Pid<Model<1>> pid({g}, robot);
+      support::Random random(3);
+      JointState<1> state;
+      JointReference<1> reference;
+      pid.start(state);
+      for (int k = 0; k < 1000; ++k) {
+        for (auto* number : {&state.position, &state.velocity, &reference.position,
+                             &reference.velocity, &reference.acceleration, &reference.effort}) {
+          (*number)[0] = big * random.integer(-1, 1);
+        }
+        REQUIRE(is_finite(pid.update(state, reference, 1e-3)));
+      }
+    }
+  }
+  Pid<Model<1>> pid({{{.proportional = 2000, .derivative = 60}}}, robot);
+  JointState<1> state;
+  JointReference<1> reference;
+  reference.position[0] = reference.velocity[0] = big;
+  state.position[0] = state.velocity[0] = -big;
+  CHECK(pid.update(state, reference, 1e-3).effort[0] > 1e299);
+  CHECK(pid.update({}, {}, 1e-3).effort[0] == 0);
+}
+
+TEST_CASE("a joint that turns for ever takes its way from angles that overflow, too") {
+  const double turn = 2 * std::numbers::pi;
+  CHECK(std::abs(JointPid::short_way(infinity, turn)) <= std::numbers::pi);
+  CHECK(std::isnan(JointPid::short_way(not_a_number, turn)));
+}

@@ -136,7 +136,7 @@ TEST_CASE("a period of zero leaves the integral alone") {
 TEST_CASE("denormal errors and the largest numbers are no trouble") {
   auto law = law_with(gains);
   CHECK(output(law, smallest, 0, 1e-3) == 2 * smallest);
-  CHECK(output(law, largest, 0, 1e-3) == infinity);  // cut off by whoever limits the total
+  CHECK(output(law, largest, 0, 1e-3) == 1e300);  // cut off by whoever limits the total
   CHECK(law.integral()[0] == 0.7);
   CHECK(output(law, 0, 0, 1e-3) == 0.7);
 }

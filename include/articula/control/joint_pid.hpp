@@ -38,6 +38,9 @@ struct PidInput {
 /// take force with the next cycle; if i becomes 0, I stays as it is and is left as a constant until
 /// the next start.
 ///
+/// Nothing is remembered of an input that is not finite. Where terms of finite inputs overflow, the
+/// output is a finite number of 1e300 or so.
+///
 /// By what the output is cut off, u - u', and what the caller cuts off later, the integral is kept
 /// from winding up in one of three ways (AntiWindup): none; back-calculation,
 ///
@@ -51,6 +54,7 @@ class JointPid {
   void start() noexcept {
     integral_ = previous_integral_ = rate_ = 0;
     fresh_ = true;
+    gap_ = false;
   }
 
   /// The slowest integral that begins with what may have been a push, see `prime` [s].
@@ -77,16 +81,19 @@ class JointPid {
   /// Real-time: yes.
   [[nodiscard]] double update(const PidGains& g, const PidInput& in, double period,
                               double turn = 0) noexcept {
-    if (fresh_) {
+    const bool usable = is_finite(in.error) && is_finite(in.measured);
+    if (fresh_ && usable) {
       origin_ = last_measured_ = in.measured;
       last_error_ = in.error;
     }
+    gap_ = gap_ || !usable;
     const double rate = filtered(g, rate_of(g, in, period, turn), period);
-    if (period > 0) {
+    if (period > 0 && usable) {
       last_error_ = in.error;
       last_measured_ = in.measured;
     }
-    fresh_ = false;
+    gap_ = !usable;
+    fresh_ = fresh_ && !usable;
 
     period_ = period;
     set_integral(g, integral_);  // the clamps may be new
@@ -95,9 +102,15 @@ class JointPid {
       set_integral(g, integral_ + g.integral * in.error * period);
     }
     const double proportional = weighted(g.position_weight, in.error, in.measured - origin_);
-    const double output = g.proportional * proportional + integral_ + g.derivative * rate +
-                          g.velocity_feedforward * in.velocity_reference +
-                          g.acceleration_feedforward * in.acceleration_reference;
+    double output = g.proportional * proportional + integral_ + g.derivative * rate +
+                    g.velocity_feedforward * in.velocity_reference +
+                    g.acceleration_feedforward * in.acceleration_reference;
+    if (!is_finite(output)) [[unlikely]] {
+      output = bounded(g.proportional, proportional) + bounded(1, integral_) +
+               bounded(g.derivative, rate) +
+               bounded(g.velocity_feedforward, in.velocity_reference) +
+               bounded(g.acceleration_feedforward, in.acceleration_reference);
+    }
     const double clamped = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
     if (clamped != output) limited(g, output - clamped);
     return clamped;
@@ -132,13 +145,20 @@ class JointPid {
   /// The difference of two angles, the short way round. Real-time: yes.
   /// @param turn  a full turn; 0: the difference as it is
   [[nodiscard]] static double short_way(double difference, double turn) noexcept {
-    return turn > 0 ? std::remainder(difference, turn) : difference;
+    return turn > 0 ? std::remainder(bounded(1, difference), turn) : difference;
   }
 
  private:
+  /// A product that has overflowed, or one of its factors, as a number that leaves room for sums. A
+  /// NaN stays one.
+  [[nodiscard]] static double bounded(double factor, double value) noexcept {
+    constexpr double huge = 1e300;
+    return std::clamp(factor * std::clamp(value, -huge, huge), -huge, huge);
+  }
+
   /// weight r - y = weight e - (1 - weight) y.
   [[nodiscard]] static double weighted(double weight, double error, double measured) noexcept {
-    return weight == 1 ? error : weight * error - (1 - weight) * measured;
+    return weight == 1 ? error : bounded(weight, error) - bounded(1 - weight, measured);
   }
 
   [[nodiscard]] double rate_of(const PidGains& g, const PidInput& in, double period,
@@ -146,7 +166,7 @@ class JointPid {
     if (in.rate_is_measured && g.derivative_of == DerivativeOf::measured_velocity) {
       return in.rate_error;
     }
-    if (!(period > 0)) return rate_;
+    if (!(period > 0) || gap_) return rate_;
     const double weight = g.derivative_of == DerivativeOf::error ? g.velocity_weight : 0;
     return weighted(weight, short_way(in.error - last_error_, turn), in.measured - last_measured_) /
            period;
@@ -173,7 +193,8 @@ class JointPid {
   double last_measured_ = 0;
   double origin_ = 0;  ///< y at the start
   double period_ = 0;  ///< dt of the last update [s]
-  bool fresh_ = true;  ///< there was no update since the start
+  bool fresh_ = true;  ///< there was no update with a good input since the start
+  bool gap_ = false;   ///< this input or the last was none: their difference tells nothing
 };
 
 }  // namespace articula

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -56,7 +57,12 @@ class SumController {
   /// @param robot  whose limits hold
   /// @param laws   the parts, ready for use
   explicit SumController(const R& robot, Laws... laws)
-      : range_(detail::command_range<C>(robot)), laws_(std::move(laws)...) {}
+      : range_(detail::command_range<C>(robot)), laws_(std::move(laws)...) {
+    // A sum that overflows is limited to the largest number where the joint has no limit.
+    constexpr double largest = std::numeric_limits<double>::max();
+    range_.lowest = range_.lowest.cwiseMax(-largest);
+    range_.highest = range_.highest.cwiseMin(largest);
+  }
 
   /// Starts all parts anew. Real-time: yes.
   void start(const JointState<joint_count>& state) noexcept {
