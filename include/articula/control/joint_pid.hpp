@@ -53,8 +53,7 @@ class JointPid {
   /// Forgets the past: the integral is 0. Real-time: yes.
   void start() noexcept {
     integral_ = previous_integral_ = rate_ = 0;
-    fresh_ = true;
-    gap_ = false;
+    past_ = Past::none;
   }
 
   /// The slowest integral that begins with what may have been a push, see `prime` [s].
@@ -81,39 +80,29 @@ class JointPid {
   /// Real-time: yes.
   [[nodiscard]] double update(const PidGains& g, const PidInput& in, double period,
                               double turn = 0) noexcept {
-    const bool usable = is_finite(in.error) && is_finite(in.measured);
-    if (fresh_ && usable) {
+    if (past_ == Past::none) {
       origin_ = last_measured_ = in.measured;
       last_error_ = in.error;
     }
-    gap_ = gap_ || !usable;
     const double rate = filtered(g, rate_of(g, in, period, turn), period);
-    if (period > 0 && usable) {
-      last_error_ = in.error;
-      last_measured_ = in.measured;
-    }
-    gap_ = !usable;
-    fresh_ = fresh_ && !usable;
-
     period_ = period;
-    set_integral(g, integral_);  // the clamps may be new
+    // The clamps may be new.
+    integral_ = std::clamp(integral_, g.integral_clamp_min, g.integral_clamp_max);
     previous_integral_ = integral_;
     if (!(std::abs(in.error) <= g.error_deadband)) {
       set_integral(g, integral_ + g.integral * in.error * period);
     }
     const double proportional = weighted(g.position_weight, in.error, in.measured - origin_);
-    double output = g.proportional * proportional + integral_ + g.derivative * rate +
-                    g.velocity_feedforward * in.velocity_reference +
-                    g.acceleration_feedforward * in.acceleration_reference;
-    if (!is_finite(output)) [[unlikely]] {
-      output = bounded(g.proportional, proportional) + bounded(1, integral_) +
-               bounded(g.derivative, rate) +
-               bounded(g.velocity_feedforward, in.velocity_reference) +
-               bounded(g.acceleration_feedforward, in.acceleration_reference);
-    }
-    const double clamped = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
-    if (clamped != output) limited(g, output - clamped);
-    return clamped;
+    const double output = g.proportional * proportional + integral_ + g.derivative * rate +
+                          g.velocity_feedforward * in.velocity_reference +
+                          g.acceleration_feedforward * in.acceleration_reference;
+    const double within = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
+    const double excess = output - within;
+    const bool unusual = excess != 0;  // also where it is NaN
+    if (unusual && !is_finite(output)) return overflown(g, in, rate, period);
+    remember(in, period);
+    if (unusual) limited(g, excess);
+    return within;
   }
 
   /// Keeps the integral from winding up when an output was cut off.
@@ -149,6 +138,13 @@ class JointPid {
   }
 
  private:
+  /// What is known of the cycle before.
+  enum class Past : unsigned char {
+    none,   ///< there was no good input since the start
+    gap,    ///< its input was no number: a difference from before tells nothing
+    known,  ///< its error and its measured value
+  };
+
   /// A product that has overflowed, or one of its factors, as a number that leaves room for sums. A
   /// NaN stays one.
   [[nodiscard]] static double bounded(double factor, double value) noexcept {
@@ -158,7 +154,38 @@ class JointPid {
 
   /// weight r - y = weight e - (1 - weight) y.
   [[nodiscard]] static double weighted(double weight, double error, double measured) noexcept {
-    return weight == 1 ? error : bounded(weight, error) - bounded(1 - weight, measured);
+    return weight == 1 ? error : weight * error - (1 - weight) * measured;
+  }
+
+  void remember(const PidInput& in, double period) noexcept {
+    if (period > 0) {
+      last_error_ = in.error;
+      last_measured_ = in.measured;
+    }
+    past_ = Past::known;
+  }
+
+  /// The output where the sum of terms is no number: of inputs that are none, or of an overflow.
+  [[nodiscard, gnu::cold]] double overflown(const PidGains& g, const PidInput& in, double rate,
+                                            double period) noexcept {
+    const bool is_difference =
+        !in.rate_is_measured || g.derivative_of != DerivativeOf::measured_velocity;
+    if (is_difference && !is_finite(rate)) rate = rate_;
+    const double b = g.position_weight;
+    const double proportional =
+        bounded(b, in.error) - (b == 1 ? 0 : bounded(1 - b, in.measured - origin_));
+    if (is_finite(in.error) && is_finite(in.measured)) {
+      remember(in, period);
+    } else if (past_ == Past::known) {
+      past_ = Past::gap;
+    }
+    const double output = bounded(g.proportional, proportional) + bounded(1, integral_) +
+                          bounded(g.derivative, rate) +
+                          bounded(g.velocity_feedforward, in.velocity_reference) +
+                          bounded(g.acceleration_feedforward, in.acceleration_reference);
+    const double within = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
+    if (within != output) limited(g, output - within);
+    return within;
   }
 
   [[nodiscard]] double rate_of(const PidGains& g, const PidInput& in, double period,
@@ -166,7 +193,7 @@ class JointPid {
     if (in.rate_is_measured && g.derivative_of == DerivativeOf::measured_velocity) {
       return in.rate_error;
     }
-    if (!(period > 0) || gap_) return rate_;
+    if (!(period > 0) || past_ == Past::gap) return rate_;
     const double weight = g.derivative_of == DerivativeOf::error ? g.velocity_weight : 0;
     return weighted(weight, short_way(in.error - last_error_, turn), in.measured - last_measured_) /
            period;
@@ -174,7 +201,7 @@ class JointPid {
 
   [[nodiscard]] double filtered(const PidGains& g, double rate, double period) noexcept {
     const double time = g.derivative_filter_time;
-    const bool unfiltered = fresh_ || !(time > 0) || !is_finite(rate);
+    const bool unfiltered = past_ == Past::none || !(time > 0) || !is_finite(rate);
     const double next = unfiltered ? rate : rate_ + period / (time + period) * (rate - rate_);
     if (is_finite(next)) rate_ = next;  // an overflow is not to be remembered
     return next;
@@ -193,8 +220,7 @@ class JointPid {
   double last_measured_ = 0;
   double origin_ = 0;  ///< y at the start
   double period_ = 0;  ///< dt of the last update [s]
-  bool fresh_ = true;  ///< there was no update with a good input since the start
-  bool gap_ = false;   ///< this input or the last was none: their difference tells nothing
+  Past past_ = Past::none;
 };
 
 }  // namespace articula
