@@ -21,11 +21,8 @@ int main(int argc, char** argv) try {
   const StopOnSignal stop_on_signal(stop);
   const RunOptions options{.cycles = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 2000,
                            .stop = &stop};
-  const ThreadOptions thread{.priority = 80, .warn = [](std::string_view refused) {
-                               std::fprintf(stderr, "%.*s\n", static_cast<int>(refused.size()),
-                                            refused.data());
-                             }};
-  const RunReport report = run(loop, {.thread = thread, .run = options});  // and disables them
+  const RunReport report =
+      run(loop, {.thread = {.priority = 80}, .run = options});  // and disables them
 
   const std::string_view status = to_string(report.status);
   const std::string_view cause = to_string(loop.hardware().fault().cause);

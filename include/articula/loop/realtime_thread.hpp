@@ -11,6 +11,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdio>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -26,9 +27,13 @@ struct ThreadOptions {
   bool lock_memory = true;  ///< keeps all memory of the program, now and later, from being paged
   std::size_t stack_size = 256 * 1024;  ///< how much of the stack is touched in advance [bytes]
 
-  /// Receives what the system refuses, and the thread goes on without it. Where there is none, a
-  /// refusal is an error.
-  std::function<void(const std::string&)> warn{};
+  bool strict = false;  ///< a refusal of the system is an error, not a warning
+
+  /// Receives what the system refuses, and the thread goes on without it. The default writes a line
+  /// to standard error.
+  std::function<void(const std::string&)> warn = [](const std::string& refusal) {
+    static_cast<void>(std::fprintf(stderr, "warning: %s\n", refusal.c_str()));
+  };
 };
 
 namespace detail {
@@ -49,7 +54,7 @@ namespace detail {
 /// It stays so after the run.
 /// @throws std::invalid_argument if an option makes no sense; the message names it, its value and
 ///         limit
-/// @throws std::system_error if the system refuses, unless `warn` takes the refusal
+/// @throws std::system_error if the system refuses and the options are strict
 /// Real-time: no (set-up).
 inline void make_realtime(const ThreadOptions& options) {
   if (options.priority < 0 || options.priority > 99) {
@@ -69,12 +74,12 @@ inline void make_realtime(const ThreadOptions& options) {
 
   const auto refused = [&](int error, std::string_view what, std::string_view remedy) {
     const std::string message = detail::message_of({"real-time thread: ", what});
-    if (!options.warn) {
+    if (options.strict) {
       const std::string text = detail::message_of({message, remedy});
       throw std::system_error(error, std::generic_category(), text);
     }
     const std::string reason = std::generic_category().message(error);
-    options.warn(detail::message_of({message, ": ", reason, remedy}));
+    if (options.warn) options.warn(detail::message_of({message, ": ", reason, remedy}));
   };
   if (options.lock_memory && mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
     refused(errno, "memory cannot be locked", " (needs CAP_IPC_LOCK or a higher ulimit -l)");

@@ -31,7 +31,8 @@ concept PacedLoop = requires(L loop) {
 /// other `run`. The pace is that of the loop's hardware where it can give one (see HardwareClock),
 /// else CLOCK_MONOTONIC.
 /// @throws std::invalid_argument if an option or the loop's period makes no sense
-/// @throws std::system_error if the system refuses, unless options.thread.warn takes the refusal
+/// @throws std::system_error if the system refuses and options.thread is strict; else it is a
+///         warning, see ThreadOptions
 /// Real-time: all cycles, if update and each are.
 template <RunnableLoop LoopType, class Each = WhileOk>
 RunReport run(LoopType& loop, const RealtimeOptions& options, Each each = {}) {
