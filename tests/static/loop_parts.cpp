@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a loop is made of has to fit.
+#include <articula/control/pid.hpp>
 #include <articula/control/pid_plus_gravity.hpp>
+#include <articula/control/switch.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
+
+#include <concepts>
 
 using namespace articula;
 
@@ -75,7 +79,27 @@ struct BareDrives : Drives {
   Bare bare_;
 };
 
+/// No template: for this arm alone.
+struct LimpArm : Limp<Q2d> {};
+
+template <class R>
+using TwoPids = Switch<R, Pid<R>, PidPlusGravity<R>>;
+
 int main() {
+  Loop of_one_robot{Drives(), LimpArm()};
+  Loop of_any_robot{Drives(), Limp<Q2d>(), 2e-3};
+  static_assert(std::same_as<decltype(of_one_robot)::ControllerType, LimpArm>);
+  static_assert(std::same_as<decltype(of_any_robot)::ControllerType, Limp<Q2d>>);
+#ifdef ROBOT_AS_HARDWARE
+  Loop<Q2d, PidPlusGravity> mistake;
+#endif
+#ifdef HARDWARE_WITHOUT_ROBOT
+  Loop<int, PidPlusGravity> mistake;
+#endif
+#ifdef GAINS_OF_NOBODY
+  TwoPids<Q2d>().set_gains(ValidPidGains<2>());
+#endif
+  TwoPids<Q2d>().member<Pid<Q2d>>().set_gains(ValidPidGains<2>());
 #ifdef WITHOUT_GAINS
   Loop<BareDrives, PidPlusGravity> mistake;
 #endif

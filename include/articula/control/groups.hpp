@@ -196,6 +196,16 @@ class Groups {
     });
   }
 
+  /// Says at compile time that several controllers take such gains. (As it may throw, it is not
+  /// what TakesGains asks for.)
+  template <class Gains>
+  requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) > 1) void set_gains(const Gains&) {
+    static_assert(
+        sizeof(Gains) == 0,
+        "several controllers take such gains: write member<I>().set_gains(gains) for the one "
+        "that is meant");
+  }
+
   /// Goes on with other gains of the one group that takes them. Where several do, whose gains they
   /// are must be said: `member<I>().set_gains(gains)`. Real-time: yes.
   template <class Gains>

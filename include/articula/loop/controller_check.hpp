@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/controller.hpp"
+#include "articula/model/robot.hpp"
 
 #include <concepts>
 #include <exception>
@@ -55,6 +56,25 @@ struct CheckedController<C, N, false> : CheckedUpdate<C, N> {
   static_assert(Startable<C, N>,
                 "the controller has no start(JointState<N>) for the N joints of this robot, see "
                 "core/controller.hpp");
+};
+
+/// The robot of a hardware.
+template <class H, bool = requires { typename H::RobotType; }
+> struct RobotOf { using Type = typename H::RobotType; };
+template <class H>
+struct RobotOf<H, false> {
+  using Type = H;  // so that the messages below are the first
+  static_assert(!Robot<H>,
+                "this is a robot, not its hardware: write Loop<Simulator<R>, ...> for a "
+                "simulated one, such as Q2dSim for Q2d");
+  static_assert(Robot<H>, "the hardware has no RobotType, see core/hardware.hpp");
+};
+
+/// The same controller for every robot: for a controller that is no template.
+template <class C>
+struct OfAnyRobot {
+  template <class>
+  using Controller = C;
 };
 
 /// A controller with the robot's own gains.

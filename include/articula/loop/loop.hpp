@@ -43,12 +43,14 @@ namespace articula {
 /// nothing winds up while no drive follows. Where reference or command were to blame and the joints
 /// were held meanwhile, it begins with the command that held them, if it can (see Primable). Where
 /// something was given, the controller receives what was given last, if it takes that (TakesGiven).
+///
+/// A controller that is no template goes in by `Loop loop{hardware, Mine{}}`.
 /// @tparam HardwareType        satisfies Hardware
 /// @tparam ControllerTemplate  makes a Controller of the hardware's robot
 template <class HardwareType, template <class> class ControllerTemplate>
 class Loop {
  public:
-  using RobotType = typename HardwareType::RobotType;
+  using RobotType = typename detail::RobotOf<HardwareType>::Type;
   using ControllerType = ControllerTemplate<RobotType>;
   static constexpr int joint_count = articula::joint_count<RobotType>;
   /// Bad cycles in a row over which the controller's memory is kept.
@@ -238,5 +240,12 @@ class Loop {
   Command command_{};
   JointVector<joint_count> initial_position_;
 };
+
+/// A loop of a controller that is no template.
+template <class HardwareType, class C>
+Loop(HardwareType, C) -> Loop<HardwareType, detail::OfAnyRobot<C>::template Controller>;
+/// @copydoc Loop(HardwareType, C)
+template <class HardwareType, class C>
+Loop(HardwareType, C, double) -> Loop<HardwareType, detail::OfAnyRobot<C>::template Controller>;
 
 }  // namespace articula
