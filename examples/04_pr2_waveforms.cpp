@@ -6,6 +6,7 @@
 
 #include <cstdio>
 
+#include "beside.hpp"
 #include "plot.hpp"
 
 using namespace articula;
@@ -17,7 +18,7 @@ using Counterbalanced =
 
 int main() {
   const Pr2 pr2;
-  const JointSignals<Pr2> waves(load_signals(pr2, "pr2_waveforms.yaml").signals);
+  const JointSignals<Pr2> waves(load_signals(pr2, beside("pr2_waveforms.yaml")).signals);
 
   const JointVector<20> middle = joint_values(pr2, [](const JointProperties& joint) {
     const bool bounded = joint.type != JointType::continuous;

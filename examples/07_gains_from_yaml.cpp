@@ -7,11 +7,13 @@
 
 #include <cstdio>
 
+#include "beside.hpp"
+
 using namespace articula;
 
 int main() try {
-  const ControllerManagerConfig manager = load_controller_manager("q2d_controllers.yaml");
-  const PidConfig<2> config = load_pid_gains(Q2d(), "pid_plus_gravity.yaml");
+  const ControllerManagerConfig manager = load_controller_manager(beside("q2d_controllers.yaml"));
+  const PidConfig<2> config = load_pid_gains(Q2d(), beside("pid_plus_gravity.yaml"));
   for (const std::string& note : config.notes) std::printf("%s\n", note.c_str());
 
   Loop<Q2dSim, PidPlusGravity> loop(Q2dSim({.period = manager.period()}),
