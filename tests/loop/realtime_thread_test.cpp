@@ -4,6 +4,7 @@
 #include <articula/articula.hpp>
 #include <articula/loop/run_realtime.hpp>
 #include <articula/loop/stop_on_signal.hpp>
+#include <articula/loop/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <csignal>
@@ -66,6 +67,24 @@ TEST_CASE("a refusal is a warning, or an error for those who ask") {
   on_thread([&] { make_realtime(options); });
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].find("processors") != std::string::npos);
+}
+
+TEST_CASE("what a loop has to say before it runs is a warning") {
+  JointPidGains<2> gains = Q2d::pid_gains;
+  gains[1].derivative = 1e5;
+  Loop<Q2dSim, Pid> loop{Pid<Q2d>(gains)};
+  SupervisedLoop<Q2dSim, Pid> supervised(Q2dSim(), Pid<Q2d>(gains));
+  std::vector<std::string> warnings;
+  const RealtimeOptions options{
+      .thread = {.priority = 0,
+                 .lock_memory = false,
+                 .warn = [&](const std::string& line) { warnings.push_back(line); }},
+      .run = {.cycles = 1}};
+  on_thread([&] { CHECK(run(loop, options).cycles == 1); });
+  on_thread([&] { CHECK(run(supervised, options).cycles == 1); });
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings[0].find("'elbow_active_joint' will chatter") != std::string::npos);
+  CHECK(warnings[1] == warnings[0]);
 }
 
 TEST_CASE("options that make no sense are refused by name") {

@@ -138,6 +138,9 @@ class Limited {
   [[nodiscard]] ControllerType& controller() noexcept { return controller_; }
   [[nodiscard]] const ControllerType& controller() const noexcept { return controller_; }
 
+  /// Calls function(controller).
+  void for_each_part(auto&& function) const { function(controller_); }
+
   /// Goes on with other gains of the controller. Real-time: yes.
   template <class Gains>
   requires TakesGains<ControllerType, Gains>

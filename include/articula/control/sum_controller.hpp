@@ -135,6 +135,11 @@ class SumController {
     });
   }
 
+  /// Calls function(part) for each of the parts.
+  void for_each_part(auto&& function) const {
+    std::apply([&](const auto&... law) { (function(law), ...); }, laws_);
+  }
+
   /// One of the parts, by its type.
   template <class Law>
   [[nodiscard]] const Law& part() const noexcept {

@@ -187,6 +187,11 @@ class Switch {
   /// The difference that is still carried over, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& carried() const noexcept { return transfer_.carried(); }
 
+  /// Calls function(controller) for each of the controllers.
+  void for_each_part(auto&& function) const {
+    std::apply([&](const auto&... controller) { (function(controller), ...); }, controllers_);
+  }
+
   /// One of the controllers, by its place in the list or its type.
   template <std::size_t I>
   [[nodiscard]] auto& member() noexcept {

@@ -4,6 +4,7 @@
 
 #include "articula/control/command_numbers.hpp"
 #include "articula/control/effort_law.hpp"
+#include "articula/control/gain_notices.hpp"
 #include "articula/control/resume.hpp"
 #include "articula/control/safe_command.hpp"
 #include "articula/control/tells_failure.hpp"
@@ -19,7 +20,9 @@
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace articula {
 
@@ -143,6 +146,14 @@ class Loop {
   [[nodiscard]] double next_time() const noexcept { return static_cast<double>(cycles_) * period_; }
   /// Time between two updates [s].
   [[nodiscard]] double period() const noexcept { return period_; }
+  /// What the user should know before the robot moves, a line each: see gain_notices, for the
+  /// position measured last. `run` with RealtimeOptions passes it to their `warn`.
+  /// Real-time: no (allocates).
+  [[nodiscard]] std::vector<std::string> notices() const {
+    const JointVector<joint_count> nowhere = JointVector<joint_count>::Zero();
+    const bool known = is_finite(state_.position);
+    return gain_notices(hardware_.robot(), controller_, known ? state_.position : nowhere, period_);
+  }
   [[nodiscard]] ControllerType& controller() noexcept { return controller_; }
   [[nodiscard]] const ControllerType& controller() const noexcept { return controller_; }
   [[nodiscard]] HardwareType& hardware() noexcept { return hardware_; }

@@ -8,6 +8,7 @@
 #include "articula/loop/realtime_thread.hpp"
 #include "articula/loop/run.hpp"
 
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -28,7 +29,7 @@ concept PacedLoop = requires(L loop) {
 };
 
 /// Makes the calling thread fit for real time and runs the loop on it; see make_realtime and the
-/// other `run`. The pace is that of the loop's hardware where it can give one (see HardwareClock),
+/// other `run`. What the loop has to say before (its notices) goes to options.thread.warn. The pace is that of the loop's hardware where it can give one (see HardwareClock),
 /// else CLOCK_MONOTONIC.
 /// @throws std::invalid_argument if an option or the loop's period makes no sense
 /// @throws std::system_error if the system refuses and options.thread is strict; else it is a
@@ -37,6 +38,11 @@ concept PacedLoop = requires(L loop) {
 template <RunnableLoop LoopType, class Each = WhileOk>
 RunReport run(LoopType& loop, const RealtimeOptions& options, Each each = {}) {
   make_realtime(options.thread);
+  if constexpr (requires { loop.notices(); }) {
+    for (const std::string& notice : loop.notices()) {
+      if (options.thread.warn) options.thread.warn(notice);
+    }
+  }
   MonotonicClock clock;
   if constexpr (PacedLoop<LoopType>) {
     HardwareClock pace(loop.hardware(), clock, loop.period());

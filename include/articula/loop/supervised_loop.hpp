@@ -11,7 +11,9 @@
 #include <atomic>
 #include <concepts>
 #include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace articula {
 
@@ -144,6 +146,8 @@ class SupervisedLoop {
   /// As Loop's. Real-time: yes.
   [[nodiscard]] double time() const noexcept { return loop_.time(); }
   [[nodiscard]] double period() const noexcept { return loop_.period(); }
+  /// As Loop's. Real-time: no (allocates).
+  [[nodiscard]] std::vector<std::string> notices() const { return loop_.notices(); }
   [[nodiscard]] ControllerType& controller() noexcept { return loop_.controller(); }
   [[nodiscard]] const ControllerType& controller() const noexcept { return loop_.controller(); }
   [[nodiscard]] HardwareType& hardware() noexcept { return gate().hardware(); }
