@@ -425,7 +425,7 @@ TEST_CASE("the largest finite inputs give finite outputs that push the right way
                        .velocity_weight = weight,
                        .velocity_feedforward = 10,
                        .acceleration_feedforward = 10};
-      Pid<Model<1>> pid({g}, robot);
+      Pid<Model<1>> pid(robot, {g});
       support::Random random(3);
       JointState<1> state;
       JointReference<1> reference;
@@ -439,7 +439,7 @@ TEST_CASE("the largest finite inputs give finite outputs that push the right way
       }
     }
   }
-  Pid<Model<1>> pid({{{.proportional = 2000, .derivative = 60}}}, robot);
+  Pid<Model<1>> pid(robot, {{{.proportional = 2000, .derivative = 60}}});
   JointState<1> state;
   JointReference<1> reference;
   reference.position[0] = reference.velocity[0] = big;

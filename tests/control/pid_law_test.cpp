@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <articula/control/pid.hpp>
 #include <articula/control/pid_law.hpp>
+#include <articula/control/pid_plus_gravity.hpp>
 
 #include "catch.hpp"
 #include "numbers.hpp"
+#include "test_robots.hpp"
 
 using namespace articula;
 using support::infinity;
@@ -163,4 +166,20 @@ TEST_CASE("an overflow does not poison the integral") {
       }
     }
   }
+}
+
+TEST_CASE("gains may be a list in place, with the braces of an array or without") {
+  using support::TiltedQ2d;
+  const JointPidGains<2> gains{{{.proportional = 5}, {.proportional = 6, .derivative = 1}}};
+  const Pid<TiltedQ2d> named(gains);
+  const Pid<TiltedQ2d> listed({{.proportional = 5}, {.proportional = 6, .derivative = 1}});
+  const Pid<TiltedQ2d> braced({{{.proportional = 5}, {.proportional = 6, .derivative = 1}}});
+  const PidPlusGravity<TiltedQ2d> other({{.proportional = 5}, {.proportional = 6}});
+  for (const auto& pid : {named, listed, braced}) {
+    CHECK(pid.part<PidLaw<2>>().gains()[0].proportional == 5);
+    CHECK(pid.part<PidLaw<2>>().gains()[1].derivative == 1);
+  }
+  CHECK(other.part<PidLaw<2>>().gains()[1].proportional == 6);
+  CHECK_THROWS_WITH(Pid<TiltedQ2d>({{.proportional = 5}}),
+                    Catch::Matchers::Contains("the list has 1, but there are 2 joints"));
 }

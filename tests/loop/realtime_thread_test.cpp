@@ -73,7 +73,7 @@ TEST_CASE("what a loop has to say before it runs is a warning") {
   JointPidGains<2> gains = Q2d::pid_gains;
   gains[1].derivative = 1e5;
   Loop<Q2dSim, Pid> loop{Pid<Q2d>(gains)};
-  SupervisedLoop<Q2dSim, Pid> supervised(Q2dSim(), Pid<Q2d>(gains));
+  SupervisedLoop<Q2dSim, Pid> supervised{Q2dSim(), Pid<Q2d>(gains)};
   std::vector<std::string> warnings;
   const RealtimeOptions options{
       .thread = {.priority = 0,

@@ -6,6 +6,8 @@
 #include "articula/control/pid_law.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <concepts>
+#include <initializer_list>
 #include <string_view>
 
 namespace articula {
@@ -27,8 +29,12 @@ class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward
       : EffortController<R, PidLaw<joint_count>, EffortFeedforward<joint_count>>(
             robot, PidLaw<joint_count>(robot, gains), {}) {}
   /// For a robot known at compile time.
-  explicit Pid(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
-      : Pid(R(), gains) {}
+  template <std::same_as<JointPidGains<joint_count>> Gains>
+  explicit Pid(const Gains& gains) requires DescribedRobot<R> : Pid(R(), gains) {}
+  /// With a list in place: `Pid<Q2d>({{.proportional = 5}, {.proportional = 6}})`.
+  /// @throws std::invalid_argument as above, and if the list is not as long as there are joints
+  Pid(std::initializer_list<PidGains> gains)  // NOLINT: a list is the gains
+      requires DescribedRobot<R> : Pid(R(), pid_gains_of<joint_count>(gains)) {}
 };
 
 }  // namespace articula

@@ -6,8 +6,10 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <string_view>
 
@@ -126,6 +128,19 @@ void validate(const std::array<PidGains, N>& gains, const std::array<std::string
     check_finite("velocity_feedforward", g.velocity_feedforward);
     check_finite("acceleration_feedforward", g.acceleration_feedforward);
   }
+}
+
+/// The gains of N joints from a list in place.
+/// @throws std::invalid_argument if it is not as long as there are joints
+/// Real-time: no (throws).
+template <int N>
+[[nodiscard]] JointPidGains<N> pid_gains_of(std::initializer_list<PidGains> list) {
+  if (list.size() != static_cast<std::size_t>(N)) {
+    detail::refuse({"PID gains: the list has ", list.size(), ", but there are ", N, " joints"});
+  }
+  JointPidGains<N> gains;
+  std::copy(list.begin(), list.end(), gains.begin());
+  return gains;
 }
 
 /// A robot that brings gains for its PID controllers along.

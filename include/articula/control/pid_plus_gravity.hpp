@@ -7,6 +7,8 @@
 #include "articula/control/pid_law.hpp"
 #include "articula/control/sum_controller.hpp"
 
+#include <concepts>
+#include <initializer_list>
 #include <string_view>
 
 namespace articula {
@@ -30,8 +32,13 @@ class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, Gravit
                          EffortFeedforward<joint_count>>(robot, PidLaw<joint_count>(robot, gains),
                                                          GravityCompensation<R>(robot), {}) {}
   /// For a robot known at compile time.
-  explicit PidPlusGravity(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+  template <std::same_as<JointPidGains<joint_count>> Gains>
+  explicit PidPlusGravity(const Gains& gains) requires DescribedRobot<R>
       : PidPlusGravity(R(), gains) {}
+  /// With a list in place: `PidPlusGravity<Q2d>({{.proportional = 5}, {.proportional = 6}})`.
+  /// @throws std::invalid_argument as above, and if the list is not as long as there are joints
+  PidPlusGravity(std::initializer_list<PidGains> gains)  // NOLINT: a list is the gains
+      requires DescribedRobot<R> : PidPlusGravity(R(), pid_gains_of<joint_count>(gains)) {}
 };
 
 }  // namespace articula
