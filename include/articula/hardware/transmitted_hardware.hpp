@@ -206,7 +206,9 @@ class TransmittedHardware {
       part.joints[k] = index_of(robot, gearing.joints[k], "a joint of the transmission");
       part.actuators[k] = index_of(actuators, gearing.actuators[k],
                                    "an actuator, which is a joint of the hardware below");
-      const auto& [lower, upper, velocity, effort] = gearing.limits[k];
+      const JointLimits& limits = gearing.limits[k];
+      const double lower = limits.lower, upper = limits.upper;
+      const double velocity = limits.velocity, effort = limits.effort;
       constexpr double infinity = std::numeric_limits<double>::infinity();
       if (lower <= upper && lower < infinity && upper > -infinity && velocity >= 0 && effort >= 0) {
         continue;
