@@ -314,29 +314,35 @@ class CanHardware {
   [[nodiscard]] static bool is_taken(CanSending sending) noexcept {
     return sending == CanSending::sent || sending == CanSending::unconfirmed;
   }
-  /// Offers a cycle's frames to the bus, and waits for a time at most until those before have been
-  /// on it. The sign that they have may be there without being fetched yet.
-  CanSending offer(const CanBatch& batch, std::chrono::nanoseconds patience = {}) noexcept {
-    const auto begin = transport_.now();
-    CanSending sending = transport_.send(batch);
-    while (sending == CanSending::backlog) {
-      drain();
-      if (transport_.link() != CanLink::up) {
-        sending = CanSending::failed;
-        break;
-      }
-      sending = transport_.send(batch);
-      const auto rest = begin + patience - transport_.now();
-      if (sending != CanSending::backlog || rest.count() <= 0) break;
+  /// Offers a cycle's frames to the bus. Those before may have been on it without a sign of it
+  /// having been fetched: then it is fetched, and they are offered again.
+  [[nodiscard]] CanSending attempt(const CanBatch& batch) noexcept {
+    const CanSending sending = transport_.send(batch);
+    if (sending != CanSending::backlog) return sending;
+    drain();
+    return transport_.link() == CanLink::up ? transport_.send(batch) : CanSending::failed;
+  }
+
+  CanSending offer(const CanBatch& batch) noexcept { return settled(attempt(batch)); }
+
+  /// Likewise, but waits one set-up period at most until those before have been on the bus.
+  CanSending offer_patiently(const CanBatch& batch) noexcept {
+    const auto end = transport_.now() + options_.set_up_period;
+    CanSending sending = attempt(batch);
+    for (auto rest = end - transport_.now(); sending == CanSending::backlog && rest.count() > 0;
+         rest = end - transport_.now()) {
       transport_.wait(rest);
+      sending = attempt(batch);
     }
+    return settled(sending);
+  }
+
+  /// Takes back what the codec has noted of frames that the bus did not take.
+  CanSending settled(CanSending sending) noexcept {
     if constexpr (requires { codec_.withdraw(); }) {
       if (!is_taken(sending)) codec_.withdraw();
     }
     return sending;
-  }
-  CanSending offer_patiently(const CanBatch& batch) noexcept {
-    return offer(batch, options_.set_up_period);
   }
 
   void count(CanSending sending) noexcept {
