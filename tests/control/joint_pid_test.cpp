@@ -412,6 +412,14 @@ TEST_CASE("after a measurement that is no number a derivative by differences is 
   }
 }
 
+TEST_CASE("a period of zero leaves a filtered derivative as it is, however large the rates are") {
+  JointPid pid;
+  const PidGains g{.derivative = 1, .derivative_filter_time = 0.1};
+  const double before = pid.update(g, {.rate_error = -1e308}, 1e-3);
+  CHECK(is_finite(before));
+  CHECK(pid.update(g, {.rate_error = 1e308}, 0) == before);
+}
+
 TEST_CASE("the largest finite inputs give finite outputs that push the right way") {
   const double big = 1e308;
   const Model<1> robot = support::slider();  // without limits

@@ -18,6 +18,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 using namespace articula;
 
@@ -135,4 +136,56 @@ TEST_CASE("limits of effort rates begin at the measured effort, not at one that 
   REQUIRE(loop.hardware().activate() == Status::ok);
   REQUIRE(loop.update() == Status::ok);
   CHECK(loop.command().effort.cwiseAbs().maxCoeff() <= 1);
+}
+
+namespace {
+
+/// Position drives that tell nothing while they are not active, and nothing new at first.
+struct SilentDrives {
+  using RobotType = Q2d;
+  static constexpr int joint_count = 2;
+  Vector position = Vector::Zero();
+  bool active = false;
+  int stale_cycles = 0;
+  std::vector<Vector> written{};
+
+  [[nodiscard]] Q2d robot() const noexcept { return {}; }
+  [[nodiscard]] Status activate() noexcept {
+    active = true;
+    return Status::ok;
+  }
+  [[nodiscard]] Status deactivate() noexcept {
+    active = false;
+    return Status::ok;
+  }
+  [[nodiscard]] Status read(JointState<2>& state) noexcept {
+    if (!active) return Status::inactive;
+    if (stale_cycles-- > 0) return Status::stale_state;
+    state = {.position = position};
+    return Status::ok;
+  }
+  [[nodiscard]] Status write(const PositionCommand<2>& command) noexcept {
+    if (!active) return Status::inactive;
+    written.push_back(command.position);
+    position = command.position;
+    return Status::ok;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a position from before drives were inactive is not commanded afterwards") {
+  Loop<SilentDrives, ForwardPosition> loop;
+  loop.reference().position = {0.1, 0.1};
+  for (int k = 0; k < 10; ++k) REQUIRE(loop.update() == Status::ok);
+  REQUIRE(loop.hardware().deactivate() == Status::ok);
+  for (int k = 0; k < 10; ++k) REQUIRE(loop.update() == Status::inactive);
+  loop.hardware().position = {-0.5, -0.5};  // pushed
+  loop.hardware().stale_cycles = 2;
+  loop.hardware().written.clear();
+  REQUIRE(loop.hardware().activate() == Status::ok);
+  REQUIRE(loop.update() == Status::stale_state);
+  REQUIRE(loop.update() == Status::stale_state);
+  CHECK(loop.hardware().written.empty());
+  CHECK(loop.hardware().position == Vector(-0.5, -0.5));
 }

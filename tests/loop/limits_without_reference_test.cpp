@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A reference that is not finite brakes through the limits, not around them.
 #include <articula/articula.hpp>
+#include <articula/loop/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
@@ -232,4 +233,31 @@ TEST_CASE("controllers without limits get the safe command, as ever, and are not
   static_assert(!BrakesWithoutReference<PidOrBypass<LightArm>>);
   static_assert(!BrakesWithoutReference<PidPlusGravity<LightArm>>);
   static_assert(BrakesWithoutReference<GroupsOfCareful<LightArm>>);
+}
+
+TEST_CASE("a supervised loop that damps keeps the limits, too, where a reference is not finite") {
+  for (const int bad_cycles : {1, 3, 5, 10}) {
+    for (double at = 0.5; at < 0.99; at += 0.04) {
+      CAPTURE(bad_cycles, at);
+      SupervisedLoop<Simulator<LightArm>, CarefulPid> loop{Simulator<LightArm>(),
+                                                           CarefulPid<LightArm>(limits())};
+      loop.request_activation();
+      for (int k = 0; k < 3; ++k) static_cast<void>(loop.update());
+      JointReference<2> reference;
+      reference.position = {3, 3};
+      double worst = -infinity;
+      const auto go = [&](const JointReference<2>& posted) {
+        loop.post(posted);
+        static_cast<void>(loop.update());
+        worst = std::max(worst, loop.state().position.maxCoeff() - 1);
+      };
+      while (loop.state().position[0] < at) go(reference);
+      JointReference<2> bad = reference;
+      bad.velocity[1] = not_a_number;
+      for (int k = 0; k < bad_cycles; ++k) go(bad);
+      for (int k = 0; k < 1000; ++k) go(reference);
+      CHECK((loop.mode() == LoopMode::fault) == (bad_cycles > 3));
+      CHECK(worst < 1e-5);  // as without supervision: what the foreseen motion leaves out
+    }
+  }
 }

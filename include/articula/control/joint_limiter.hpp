@@ -51,9 +51,9 @@ class JointLimiter {
   }
 
   /// Goes on with cycles of another length [s]. The velocity stays, and the acceleration is cut to
-  /// what can fade, in steps of the new length, before the velocity limit. So limits of position
-  /// and velocity hold for any sequence of periods. What differences make of the change itself may
-  /// pass the limits of acceleration and jerk for some cycles.
+  /// what can fade, in steps of the new length, before the velocity limit. So the motion keeps limits
+  /// of position and velocity for any sequence of periods. Its acceleration and jerk may pass theirs
+  /// for some cycles at the change.
   /// Real-time: yes. At most 21 stops are computed.
   void set_period(double period) noexcept {
     CommandMotion now = motion();

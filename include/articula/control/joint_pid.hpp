@@ -201,6 +201,7 @@ class JointPid {
 
   [[nodiscard]] double filtered(const PidGains& g, double rate, double period) noexcept {
     const double time = g.derivative_filter_time;
+    if (time > 0 && !(period > 0)) return rate_;
     const bool unfiltered = past_ == Past::none || !(time > 0) || !is_finite(rate);
     const double next = unfiltered ? rate : rate_ + period / (time + period) * (rate - rate_);
     if (is_finite(next)) rate_ = next;  // an overflow is not to be remembered

@@ -192,7 +192,7 @@ class Limited {
 
   /// Before the first cycle the joints' motion is what is measured; with another period they go on.
   void begin_cycle(const State& state, double period) noexcept {
-    const bool usable = is_finite(period) && period > 0;
+    const bool usable = period > 0 && period < 1e6;  // s; beyond, motions overflow
     const bool begins = !started_ && is_finite(state);
     const bool changes = started_ && usable && period != period_;
     if (usable) period_ = period;

@@ -105,6 +105,7 @@ class Loop {
     time_ = next_time();
     ++cycles_;
 
+    if (nothing_given_) forget_position();
     const Status read = hardware_.read(state_);
     Status status = read;
     if (status == Status::ok && !is_finite(state_)) status = Status::non_finite_state;
@@ -214,7 +215,16 @@ class Loop {
     if (uncontrolled || write != Status::ok) bad_cycles_ = borne_cycles + 1;
     joints_lost_ = joints_lost_ || read != Status::ok || write != Status::ok ||
                    status == Status::non_finite_state;
-    nothing_given_ = write == Status::inactive;
+    nothing_given_ = read == Status::inactive || write == Status::inactive;
+  }
+
+  /// Hardware that is not active may leave the state alone. A position from before is none to hold.
+  void forget_position() noexcept {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    state_.position.setConstant(unknown);
+    if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
+      command_.position.setConstant(unknown);
+    }
   }
 
   void restart() noexcept {

@@ -213,7 +213,11 @@ class SupervisedLoop {
                                        cause == Status::non_finite_reference ||
                                        cause == Status::overrun;
     hold_here();
-    if (options_.behaviour == SafeBehaviour::hold && controller_is_trusted) {
+    // Damping knows no limits of position. A controller that keeps them brakes as it should.
+    const bool holds =
+        options_.behaviour == SafeBehaviour::hold ||
+        (options_.behaviour == SafeBehaviour::damp && BrakesWithoutReference<ControllerType>);
+    if (holds && controller_is_trusted) {
       enter(LoopMode::fault, Passage::command, Status::ok);
     } else {
       enter(LoopMode::fault, Passage::behaviour, Status::inactive);
