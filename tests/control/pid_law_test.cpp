@@ -170,8 +170,8 @@ TEST_CASE("an overflow does not poison the integral") {
 
 TEST_CASE("gains may be a list in place, with the braces of an array or without") {
   using support::TiltedQ2d;
-  const JointPidGains<2> gains{{{.proportional = 5}, {.proportional = 6, .derivative = 1}}};
-  const Pid<TiltedQ2d> named(gains);
+  const JointPidGains<2> list{{{.proportional = 5}, {.proportional = 6, .derivative = 1}}};
+  const Pid<TiltedQ2d> named(list);
   const Pid<TiltedQ2d> listed({{.proportional = 5}, {.proportional = 6, .derivative = 1}});
   const Pid<TiltedQ2d> braced({{{.proportional = 5}, {.proportional = 6, .derivative = 1}}});
   const PidPlusGravity<TiltedQ2d> other({{.proportional = 5}, {.proportional = 6}});
