@@ -21,6 +21,8 @@ class CanBatch {
     frames_[size_++] = frame;
     return true;
   }
+  /// The last frame, to write into it. empty() has to be false. Real-time: yes.
+  [[nodiscard]] constexpr CanFrame& back() noexcept { return frames_[size_ - 1]; }
   constexpr void clear() noexcept { size_ = 0; }
 
   [[nodiscard]] constexpr bool empty() const noexcept { return size_ == 0; }

@@ -97,6 +97,11 @@ enum class State : std::uint8_t {
   }
 }
 
+/// Whether a statusword tells State::operation_enabled. Real-time: yes.
+[[nodiscard]] constexpr bool in_operation(std::uint16_t bits) noexcept {
+  return (bits & 0x6f) == 0x27;
+}
+
 /// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
 /// Real-time: yes.
 [[nodiscard]] constexpr bool may_exert(State state) noexcept {

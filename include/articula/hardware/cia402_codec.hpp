@@ -83,6 +83,10 @@ class Cia402Codec {
     for (const Cia402Drive& drive : drives) {
       if (drive.watchdog == Cia402Watchdog::heartbeat) host_node_ = drive.host_node;
     }
+    joint_of_node_.fill(joint_count);
+    for (std::size_t j = 0; j < count; ++j) {
+      joint_of_node_[drives[j].node] = static_cast<std::uint8_t>(j);
+    }
     if (period == 0) throw std::invalid_argument("CiA 402: the period is 0 ms");
     if (deadline == 0) throw std::invalid_argument("CiA 402: the deadline is 0 ms");
   }
@@ -217,37 +221,24 @@ class Cia402Codec {
     syncs_.note_missing();
   }
 
-  /// Takes in a drive's frame. Real-time: yes. O(N).
+  /// Takes in a drive's frame. Real-time: yes. O(1).
   [[nodiscard]] CanDecoding decode(const CanFrame& frame) noexcept {
     if (frame.extended) return CanDecoding::foreign;
     if (!sends_sync && frame.identifier == canopen::sync_identifier) return take_sync(frame);
-    for (std::size_t j = 0; j < drives_.size(); ++j) {
-      switch (frame.identifier - drives_[j].node) {
-        case canopen::transmit_pdo_1_base:
-          return take_transmit_pdo<0>(frame, j);
-        case canopen::transmit_pdo_2_base:
-          return take_transmit_pdo<1>(frame, j);
-        case canopen::transmit_pdo_3_base:
-          return take_transmit_pdo<2>(frame, j);
-        case canopen::transmit_pdo_4_base:
-          return take_transmit_pdo<3>(frame, j);
-        case canopen::emergency_base:
-          return feedbacks_[j].take_emergency(frame);
-        case canopen::sdo_answer_base:
-          return take_answer(j, frame);
-        case canopen::heartbeat_base:
-          if (const auto state = canopen::decode_heartbeat(frame)) {
-            // A node that is not operational, such as one that has restarted, obeys no process
-            // data.
-            if (*state != canopen::NmtState::operational) reports_[j].enabled = false;
-            return CanDecoding::accepted;
-          }
-          return CanDecoding::malformed;
-        default:
-          break;
-      }
+    const std::size_t j = joint_of_node_[frame.identifier % nodes];
+    if (j == count) return CanDecoding::foreign;
+    switch (frame.identifier - frame.identifier % nodes) {
+      case canopen::transmit_pdo_1_base:
+        return take_transmit_pdo<0>(frame, j);
+      case canopen::transmit_pdo_2_base:
+        return take_transmit_pdo<1>(frame, j);
+      case canopen::transmit_pdo_3_base:
+        return take_transmit_pdo<2>(frame, j);
+      case canopen::transmit_pdo_4_base:
+        return take_transmit_pdo<3>(frame, j);
+      default:
+        return take_other(frame, j);
     }
-    return CanDecoding::foreign;
   }
 
   /// What the drives have said. Real-time: yes.
@@ -305,10 +296,10 @@ class Cia402Codec {
     using Target =
         std::conditional_t<cia402::target_of(mode).size == 2, std::int16_t, std::int32_t>;
     const cia402::ReceiveLayout& layout = set_ups_[j].process_data().receive;
-    CanFrame frame = layout.frame;
-    store_little_endian(frame.data, layout.controlword, controlword);
-    store_little_endian(frame.data, layout.target, static_cast<Target>(target));
-    batch.push_back(frame);
+    if (!batch.push_back(layout.frame)) return;
+    std::array<std::uint8_t, 8>& data = batch.back().data;
+    store_little_endian(data, layout.controlword, controlword);
+    store_little_endian(data, layout.target, static_cast<Target>(target));
   }
 
   void push_heartbeat(CanBatch& batch) noexcept {
@@ -373,8 +364,38 @@ class Cia402Codec {
 
   template <std::size_t Number>
   [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame, std::size_t j) noexcept {
-    return feedbacks_[j].template take_transmit_pdo<Number>(frame, set_ups_[j].process_data(),
-                                                            drives_[j], syncs_, reports_[j]);
+    if constexpr (Number < cia402::usual_transmit.size()) {
+      const bool taken = feedbacks_[j].template take_usual<Number>(
+          frame, set_ups_[j].process_data(), drives_[j], syncs_, reports_[j]);
+      if (taken) [[likely]]
+        return CanDecoding::accepted;
+    }
+    return take_unusual(frame, j, Number);
+  }
+  // Functions of their own: inlined, they would cost each frame some registers.
+  [[nodiscard, gnu::noinline]] CanDecoding take_unusual(const CanFrame& frame, std::size_t j,
+                                                        std::size_t number) noexcept {
+    const cia402::ProcessData& data = set_ups_[j].process_data();
+    return feedbacks_[j].take_transmit_pdo(data.transmit[number], frame, data, drives_[j], syncs_,
+                                           reports_[j]);
+  }
+  [[nodiscard, gnu::noinline]] CanDecoding take_other(const CanFrame& frame,
+                                                      std::size_t j) noexcept {
+    switch (frame.identifier - drives_[j].node) {
+      case canopen::emergency_base:
+        return feedbacks_[j].take_emergency(frame);
+      case canopen::sdo_answer_base:
+        return take_answer(j, frame);
+      case canopen::heartbeat_base:
+        if (const auto state = canopen::decode_heartbeat(frame)) {
+          // A node that is not operational, such as one that has restarted, obeys no process data.
+          if (*state != canopen::NmtState::operational) reports_[j].enabled = false;
+          return CanDecoding::accepted;
+        }
+        return CanDecoding::malformed;
+      default:
+        return CanDecoding::foreign;
+    }
   }
 
   [[nodiscard]] CanDecoding take_answer(std::size_t j, const CanFrame& frame) noexcept {
@@ -390,6 +411,7 @@ class Cia402Codec {
   }
 
   static constexpr auto count = static_cast<std::size_t>(joint_count);
+  static constexpr std::uint32_t nodes = canopen::last_node + 1;  ///< a power of two: of 7 bits
   /// Frames of access to objects in a cycle, at most: the queue of a CAN interface takes ten frames
   /// by default, and commands and SYNC need room.
   static constexpr std::size_t most_accesses = count < 7 ? 8 - count : 1;
@@ -397,6 +419,7 @@ class Cia402Codec {
   static constexpr std::uint32_t doubtful_age = 20;
 
   Cia402DriveList<joint_count> drives_;
+  std::array<std::uint8_t, nodes> joint_of_node_{};  ///< joint_count for those of nobody
   int cycles_per_beat_;  ///< three heartbeats within the deadline, so that two may be lost
   std::array<Cia402SetUp, count> set_ups_;
   std::array<Cia402Stop, count> stops_{};

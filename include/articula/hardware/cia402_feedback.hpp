@@ -32,8 +32,41 @@ class Cia402Feedback {
   /// Forgets all. Real-time: yes.
   void restart() noexcept { *this = {}; }
 
+  /// Takes in a frame that answers the SYNC of this cycle, with the usual layout, of a drive in
+  /// operation. Nearly all frames are like that, and they cost no more than constants.
+  /// @tparam Number  of the process data object, 0 for TPDO 1
+  /// @param frame   with its identifier
+  /// @param data    the drive's process data
+  /// @param drive   whose it is
+  /// @param syncs   that the drive was to answer; receives the note that an answer is missing
+  /// @param report  of the drive
+  /// @return        false if the frame is another one: nothing has changed, see take_transmit_pdo
+  /// Real-time: yes.
+  template <std::size_t Number>
+  [[nodiscard, gnu::always_inline]] inline bool take_usual(const CanFrame& frame,
+                                                           const cia402::ProcessData& data,
+                                                           const Cia402Drive& drive,
+                                                           SyncHistory& syncs,
+                                                           DriveReport& report) noexcept {
+    constexpr cia402::TransmitLayout layout = cia402::usual_transmit[Number];
+    const bool in_time = next_[layout.stream] == syncs.cycle() && syncs.is_new();
+    if (!data.is_usual || !in_time || frame.length != layout.length) return false;
+    if constexpr (layout.statusword != absent) {
+      const auto bits = load_little_endian<std::uint16_t>(frame.data, layout.statusword);
+      if (!cia402::in_operation(bits)) return false;
+      take_operation((bits & cia402::follows_target) != 0, report);
+      report.fault = 0;
+    }
+    answer_in_time(layout.stream, cia402::usual_transmit.size(), syncs, report);
+    take_figures(layout, frame, drive, report);
+    if constexpr (layout.position != absent) {
+      report.position = position_in(layout, frame, drive);
+    }
+    return true;
+  }
+
   /// Takes in one of the drive's process data objects.
-  /// @tparam Number  of the object, 0 for TPDO 1
+  /// @param layout  of the object
   /// @param frame   with its identifier
   /// @param data    the drive's process data
   /// @param drive   whose it is
@@ -41,21 +74,29 @@ class Cia402Feedback {
   /// @param report  of the drive
   /// @return        CanDecoding::outdated before the first SYNC
   /// Real-time: yes.
-  template <std::size_t Number>
-  [[nodiscard]] CanDecoding take_transmit_pdo(const CanFrame& frame,
+  [[nodiscard]] CanDecoding take_transmit_pdo(const cia402::TransmitLayout& layout,
+                                              const CanFrame& frame,
                                               const cia402::ProcessData& data,
                                               const Cia402Drive& drive, SyncHistory& syncs,
                                               DriveReport& report) noexcept {
-    if constexpr (Number < cia402::usual_transmit.size()) {
-      // A frame in time with the usual layout costs no more than constants.
-      constexpr cia402::TransmitLayout usual = cia402::usual_transmit[Number];
-      constexpr std::size_t streams = cia402::usual_transmit.size();
-      if (data.is_usual && next_[usual.stream] == syncs.cycle() && syncs.is_new()) [[likely]] {
-        return take<true>(usual, streams, frame, data, drive, syncs, report);
-      }
-      if (data.is_usual) return take_any(usual, streams, frame, data, drive, syncs, report);
+    if (layout.length == 0) return CanDecoding::foreign;
+    if (frame.length != layout.length) return CanDecoding::malformed;
+    std::uint16_t bits = 0;
+    std::optional<cia402::State> state;
+    if (layout.statusword != absent) {
+      bits = load_little_endian<std::uint16_t>(frame.data, layout.statusword);
+      state = cia402::state_of(bits);
+      if (!state) return CanDecoding::malformed;
     }
-    return take_any(data.transmit[Number], data.stream_count, frame, data, drive, syncs, report);
+    if (!answer(layout.stream, data.stream_count, syncs, report)) return CanDecoding::outdated;
+    if (state) take_state(*state, (bits & cia402::follows_target) != 0, report);
+    take_figures(layout, frame, drive, report);
+    if (layout.position != absent) {
+      const double position = position_in(layout, frame, drive);
+      if (!data.has_velocity) take_difference(position, born_[layout.stream], data, report);
+      report.position = position;
+    }
+    return CanDecoding::accepted;
   }
 
   /// Takes in an emergency message. It gives a fault its name; whether there is one, the statusword
@@ -123,6 +164,7 @@ class Cia402Feedback {
   [[nodiscard]] bool powered() const noexcept { return powered_; }
 
  private:
+  static constexpr std::uint8_t absent = cia402::TransmitLayout::absent;
   using Cycles = std::array<std::uint64_t, cia402::ProcessData::most>;
 
   /// The lowest of the first few.
@@ -162,29 +204,11 @@ class Cia402Feedback {
     return true;
   }
 
-  /// @tparam InTime  the frame answers the SYNC of this cycle and has the usual layout
-  template <bool InTime>
-  [[nodiscard, gnu::always_inline]] inline CanDecoding take(
-      const cia402::TransmitLayout& layout, std::size_t streams, const CanFrame& frame,
-      const cia402::ProcessData& data, const Cia402Drive& drive, SyncHistory& syncs,
-      DriveReport& report) noexcept {
-    constexpr std::uint8_t absent = cia402::TransmitLayout::absent;
-    if (layout.length == 0) return CanDecoding::foreign;
-    if (frame.length != layout.length) return CanDecoding::malformed;
-    bool follows = false;
-    std::optional<cia402::State> state;
-    if (layout.statusword != absent) {
-      const auto bits = load_little_endian<std::uint16_t>(frame.data, layout.statusword);
-      state = cia402::state_of(bits);
-      if (!state) return CanDecoding::malformed;
-      follows = (bits & cia402::follows_target) != 0;
-    }
-    if constexpr (InTime) {
-      answer_in_time(layout.stream, streams, syncs, report);
-    } else if (!answer(layout.stream, streams, syncs, report)) {
-      return CanDecoding::outdated;
-    }
-    if (layout.statusword != absent) take_state(*state, follows, report);
+  /// All but position and state.
+  [[gnu::always_inline]] static inline void take_figures(const cia402::TransmitLayout& layout,
+                                                         const CanFrame& frame,
+                                                         const Cia402Drive& drive,
+                                                         DriveReport& report) noexcept {
     if (layout.torque != absent) {
       const auto per_mille = load_little_endian<std::int16_t>(frame.data, layout.torque);
       report.effort = per_mille * drive.rated_effort / 1e3;
@@ -193,35 +217,28 @@ class Cia402Feedback {
       const auto units = load_little_endian<std::int32_t>(frame.data, layout.velocity);
       report.velocity = units / drive.velocity_scale;
     }
-    if (layout.position != absent) {
-      const auto units = load_little_endian<std::int32_t>(frame.data, layout.position);
-      const double position =
-          (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
-      if (!InTime && !data.has_velocity) {
-        take_difference(position, born_[layout.stream], data, report);
-      }
-      report.position = position;
-    }
-    if (layout.error_code != absent) {
+    if (layout.error_code != absent && report.fault != 0) {
       const auto code = load_little_endian<std::uint16_t>(frame.data, layout.error_code);
-      if (report.fault != 0 && code != 0) report.fault = code;
+      if (code != 0) report.fault = code;
     }
-    return CanDecoding::accepted;
+  }
+  [[nodiscard]] static double position_in(const cia402::TransmitLayout& layout,
+                                          const CanFrame& frame,
+                                          const Cia402Drive& drive) noexcept {
+    const auto units = load_little_endian<std::int32_t>(frame.data, layout.position);
+    return (static_cast<double>(units) - drive.zero_position) / drive.position_scale;
   }
 
-  [[nodiscard, gnu::noinline]] CanDecoding take_any(const cia402::TransmitLayout& layout,
-                                                    std::size_t streams, const CanFrame& frame,
-                                                    const cia402::ProcessData& data,
-                                                    const Cia402Drive& drive, SyncHistory& syncs,
-                                                    DriveReport& report) noexcept {
-    return take<false>(layout, streams, frame, data, drive, syncs, report);
+  /// The drive is in operation.
+  void take_operation(bool follows, DriveReport& report) noexcept {
+    has_followed_ = has_followed_ || follows;
+    report.enabled = follows || !has_followed_;
+    powered_ = true;
   }
-
   void take_state(cia402::State state, bool follows, DriveReport& report) noexcept {
-    const bool in_operation = state == cia402::State::operation_enabled;
-    has_followed_ = has_followed_ || (in_operation && follows);
-    report.enabled = in_operation && (follows || !has_followed_);
+    report.enabled = false;
     powered_ = cia402::may_exert(state);
+    if (state == cia402::State::operation_enabled) take_operation(follows, report);
     const bool fault =
         state == cia402::State::fault || state == cia402::State::fault_reaction_active;
     if (!fault) {
