@@ -122,6 +122,11 @@ TEST_CASE("statuswords tell the states of the profile") {
   CHECK(cia402::state_of(0x021f) == State::fault_reaction_active);
   CHECK(cia402::state_of(0x0218) == State::fault);
   CHECK_FALSE(cia402::state_of(0x0001));
+  for (unsigned bits = 0; bits <= 0xffff; ++bits) {
+    const auto statusword = static_cast<std::uint16_t>(bits);
+    REQUIRE(cia402::in_operation(statusword) ==
+            (cia402::state_of(statusword) == State::operation_enabled));
+  }
 }
 
 TEST_CASE("each state has its way to operation enabled") {

@@ -32,8 +32,8 @@ struct DriveReport {
   double effort = 0;              ///< measured effort [N m or N]
   std::uint32_t age = never;      ///< cycles begun since the one that the figures above belong to
   bool enabled = false;           ///< follows commands
-  std::uint16_t fault = 0;        ///< the protocol's own fault code, 0 if there is none
   bool encoder_mismatch = false;  ///< two encoders of the joint differ by more than is allowed
+  std::uint16_t fault = 0;        ///< the protocol's own fault code, 0 if there is none
 };
 
 /// Who sends the frame that begins a cycle of the drives.

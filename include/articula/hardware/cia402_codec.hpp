@@ -10,12 +10,12 @@
 #include "articula/hardware/cia402_feedback.hpp"
 #include "articula/hardware/cia402_set_up.hpp"
 #include "articula/hardware/cia402_stop.hpp"
+#include "articula/hardware/nearest_units.hpp"
 #include "articula/hardware/sync_history.hpp"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -268,25 +268,20 @@ class Cia402Codec {
     return {Cia402SetUp(drives[J], mode, period, deadline, Sync)...};
   }
 
-  /// A number in the drive's units, as 16 or 32 bits.
-  [[nodiscard]] static std::int32_t rounded(double value, double most) noexcept {
-    return static_cast<std::int32_t>(std::llround(std::clamp(value, -most, most)));
-  }
-
   [[nodiscard]] std::int32_t target(const Command& command, std::size_t j) const noexcept {
     const Cia402Drive& drive = drives_[j];
     const auto i = static_cast<int>(j);
     constexpr double most = 2147483647;
     if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
       const double q = is_finite(command.position[i]) ? command.position[i] : reports_[j].position;
-      return rounded(q * drive.position_scale + drive.zero_position, most);
+      return nearest_units(q * drive.position_scale + drive.zero_position, most);
     } else if constexpr (std::same_as<Command, VelocityCommand<joint_count>>) {
       return is_finite(command.velocity[i])
-                 ? rounded(command.velocity[i] * drive.velocity_scale, most)
+                 ? nearest_units(command.velocity[i] * drive.velocity_scale, most)
                  : 0;
     } else {
       return is_finite(command.effort[i])
-                 ? rounded(command.effort[i] / drive.rated_effort * 1e3, 32767)
+                 ? nearest_units(command.effort[i] / drive.rated_effort * 1e3, 32767)
                  : 0;
     }
   }

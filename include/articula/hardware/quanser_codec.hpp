@@ -4,6 +4,7 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/hardware/can_codec.hpp"
+#include "articula/hardware/nearest_units.hpp"
 #include "articula/hardware/quanser_module.hpp"
 #include "articula/hardware/quanser_protocol.hpp"
 
@@ -34,7 +35,9 @@ class QuanserCodec {
   /// @throws std::invalid_argument as validate says
   QuanserCodec(const R& robot, const QuanserModules<joint_count>& modules) : modules_(modules) {
     validate(robot, modules);
+    joint_of_node_.fill(joint_count);
     for (std::size_t j = 0; j < modules.size(); ++j) {
+      joint_of_node_[modules[j].node] = static_cast<std::uint8_t>(j);
       scales_[j] = {modules[j].motor_scale(), modules[j].load_scale()};
     }
   }
@@ -111,34 +114,24 @@ class QuanserCodec {
     begin_cycle(batch);
   }
 
-  /// Takes in a module's frame. Real-time: yes. O(N).
+  /// Takes in a module's frame. Real-time: yes. O(1).
   [[nodiscard]] CanDecoding decode(const CanFrame& frame) noexcept {
-    const std::uint8_t node = quanser::node_of(frame);
-    for (std::size_t j = 0; j < modules_.size(); ++j) {
-      if (node == 0 || modules_[j].node != node) continue;
-      if (const auto position = quanser::decode_position(frame)) {
-        const std::uint64_t cycle = cycle_of(position->counter);
-        if (is_outdated(j, cycle, halves_[j].position_cycle)) return CanDecoding::outdated;
-        halves_[j].position = *position;
-        halves_[j].position_cycle = cycle;
-        complete(j);
-        return CanDecoding::accepted;
-      }
-      if (const auto motion = quanser::decode_motion(frame)) {
-        const std::uint64_t cycle = cycle_of(motion->counter);
-        if (is_outdated(j, cycle, halves_[j].motion_cycle)) return CanDecoding::outdated;
-        halves_[j].motion = *motion;
-        halves_[j].motion_cycle = cycle;
-        complete(j);
-        return CanDecoding::accepted;
-      }
-      if (const auto heartbeat = quanser::decode_heartbeat(frame)) {
-        take_condition(j, heartbeat->status, heartbeat->faults);
-        return CanDecoding::accepted;
-      }
-      return CanDecoding::malformed;
+    const std::uint32_t node = frame.identifier % (quanser::last_node + 1);
+    const std::size_t j = joint_of_node_[node];
+    if (frame.extended || j == count) return CanDecoding::foreign;
+    switch (frame.identifier - node) {
+      case quanser::position_base:
+        return take_position(j, frame);
+      case quanser::motion_base:
+        return take_motion(j, frame);
+      case quanser::heartbeat_base:
+        return take_heartbeat(j, frame);
+      case quanser::control_base:
+      case quanser::effort_base:  // another host's
+        return CanDecoding::malformed;
+      default:
+        return CanDecoding::foreign;
     }
-    return CanDecoding::foreign;
   }
 
   /// What the modules have said. Real-time: yes.
@@ -158,8 +151,9 @@ class QuanserCodec {
  private:
   /// The two frames of a module for one cycle; cycle 0 has never been.
   struct Halves {
-    quanser::Position position{};
-    quanser::Motion motion{};
+    std::int32_t motor_counts = 0, load_counts = 0;
+    std::int16_t milliradians_per_second = 0, millinewton_metres = 0;
+    std::uint8_t status = 0, faults = 0;
     std::uint64_t position_cycle = 0;
     std::uint64_t motion_cycle = 0;
     std::uint64_t taken_cycle = 0;
@@ -167,7 +161,7 @@ class QuanserCodec {
 
   [[nodiscard]] static std::int16_t millis(double value) noexcept {
     if (!is_finite(value)) return 0;
-    return static_cast<std::int16_t>(std::lround(std::clamp(value * 1e3, -32767.0, 32767.0)));
+    return static_cast<std::int16_t>(nearest_units(value * 1e3, 32767));
   }
 
   void begin_cycle(CanBatch& batch) noexcept {
@@ -191,21 +185,58 @@ class QuanserCodec {
     return cycle == 0 || cycle <= halves_[j].taken_cycle || cycle < newest;
   }
 
-  void complete(std::size_t j) noexcept {
+  // Functions of their own: together they would cost each frame some registers.
+  [[nodiscard, gnu::noinline]] CanDecoding take_position(std::size_t j,
+                                                         const CanFrame& frame) noexcept {
+    const auto position = quanser::decode_position(frame);
+    if (!position) return CanDecoding::malformed;
+    Halves& half = halves_[j];
+    const std::uint64_t cycle = cycle_of(position->counter);
+    if (is_outdated(j, cycle, half.position_cycle)) return CanDecoding::outdated;
+    half.motor_counts = position->motor_counts;
+    half.load_counts = position->load_counts;
+    half.status = position->status;
+    half.position_cycle = cycle;
+    complete(j);
+    return CanDecoding::accepted;
+  }
+  [[nodiscard, gnu::noinline]] CanDecoding take_motion(std::size_t j,
+                                                       const CanFrame& frame) noexcept {
+    const auto motion = quanser::decode_motion(frame);
+    if (!motion) return CanDecoding::malformed;
+    Halves& half = halves_[j];
+    const std::uint64_t cycle = cycle_of(motion->counter);
+    if (is_outdated(j, cycle, half.motion_cycle)) return CanDecoding::outdated;
+    half.milliradians_per_second = motion->milliradians_per_second;
+    half.millinewton_metres = motion->millinewton_metres;
+    half.faults = motion->faults;
+    half.motion_cycle = cycle;
+    complete(j);
+    return CanDecoding::accepted;
+  }
+  [[nodiscard, gnu::noinline]] CanDecoding take_heartbeat(std::size_t j,
+                                                          const CanFrame& frame) noexcept {
+    const auto heartbeat = quanser::decode_heartbeat(frame);
+    if (!heartbeat) return CanDecoding::malformed;
+    take_condition(j, heartbeat->status, heartbeat->faults);
+    return CanDecoding::accepted;
+  }
+
+  [[gnu::always_inline]] inline void complete(std::size_t j) noexcept {
     Halves& half = halves_[j];
     if (half.position_cycle != half.motion_cycle) return;
     half.taken_cycle = half.position_cycle;
     const QuanserModule& module = modules_[j];
     DriveReport& report = reports_[j];
-    report.position = half.position.motor_counts / scales_[j].motor + module.position_at_zero;
+    report.position = half.motor_counts / scales_[j].motor + module.position_at_zero;
     load_position_[static_cast<int>(j)] =
-        half.position.load_counts / scales_[j].load + module.position_at_zero;
+        half.load_counts / scales_[j].load + module.position_at_zero;
     const double difference = report.position - load_position_[static_cast<int>(j)];
     report.encoder_mismatch = std::abs(difference) > module.encoder_tolerance;
-    report.velocity = half.motion.milliradians_per_second / 1e3;
-    report.effort = half.motion.millinewton_metres / 1e3;
+    report.velocity = half.milliradians_per_second / 1e3;
+    report.effort = half.millinewton_metres / 1e3;
     report.age = static_cast<std::uint32_t>(cycle_ - half.taken_cycle);
-    take_condition(j, half.position.status, half.motion.faults);
+    take_condition(j, half.status, half.faults);
   }
 
   void take_condition(std::size_t j, std::uint8_t status, std::uint8_t faults) noexcept {
@@ -219,7 +250,11 @@ class QuanserCodec {
     double motor = 1, load = 1;  ///< counts per radian of the joint [1/rad]
   };
 
+  static constexpr auto count = static_cast<std::size_t>(joint_count);
+
   QuanserModules<joint_count> modules_;
+  /// joint_count for those of nobody; node 0 is nobody's.
+  std::array<std::uint8_t, quanser::last_node + 1> joint_of_node_{};
   std::array<Scales, static_cast<std::size_t>(joint_count)> scales_{};
   std::array<DriveReport, static_cast<std::size_t>(joint_count)> reports_{};
   std::array<Halves, static_cast<std::size_t>(joint_count)> halves_{};
