@@ -10,7 +10,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace articula {
 
@@ -151,9 +150,8 @@ class Cia402PdoSetUp {
     failed_ = (missing_ & needed) != 0;
     if (failed_) return;
     next_.has_velocity = (missing_ & velocity) == 0;
-    next_.is_usual =
-        next_.stream_count == 2 &&
-        std::ranges::equal(std::span(next_.transmit).first<2>(), cia402::usual_transmit);
+    next_.is_usual = next_.stream_count == 2 && next_.transmit[0] == cia402::usual_transmit[0] &&
+                     next_.transmit[1] == cia402::usual_transmit[1];
     process_data_ = next_;
     done_ = true;
   }
