@@ -107,6 +107,27 @@ TEMPLATE_TEST_CASE("drives that answer late are enabled, driven, stopped and ena
   CHECK_FALSE(bench.bus->drives.enabled(1));
 }
 
+TEST_CASE("a drive that answers an access late is stopped by the first acknowledge") {
+  const int answer_delay = GENERATE(0, 13, 15, 20, 95);  // [ms]
+  CAPTURE(answer_delay);
+  Bench<Cia402> bench(0us);
+  auto& loop = bench.loop;
+  bench.bus->on_feedback = [](CanFrame&) { return true; };
+  bench.bus->answer_delay = std::chrono::milliseconds(answer_delay);
+  loop.request_activation();
+  bench.cycles(10);
+  REQUIRE(loop.mode() == LoopMode::active);
+  bench.bus->accept(canopen::encode(canopen::NmtCommand::enter_pre_operational, 5));
+  bench.cycles(50);
+  REQUIRE(loop.mode() == LoopMode::fault);
+  loop.acknowledge_fault();
+  bench.cycles(1);
+  CHECK(loop.mode() == LoopMode::inactive);
+  CHECK_FALSE(bench.bus->drives.enabled(0));
+  CHECK_FALSE(bench.bus->drives.enabled(1));
+  CHECK(loop.hardware().deactivate() == Status::ok);
+}
+
 TEMPLATE_TEST_CASE("drives that answer too late for reading are not activated", "", Quanser,
                    Cia402) {
   Bench<TestType> bench(1700us);  // the feedback is three cycles old

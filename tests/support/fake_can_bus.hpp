@@ -3,6 +3,7 @@
 #pragma once
 
 #include <articula/hardware/can_transport.hpp>
+#include <articula/hardware/canopen.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -34,6 +35,7 @@ struct FakeCanBus {
   std::chrono::nanoseconds next_sync{};       ///< when that one is due
   articula::CanFrame sync{};                  ///< what it sends
   std::chrono::nanoseconds feedback_delay{};  ///< after which feedback arrives
+  std::chrono::nanoseconds answer_delay{};    ///< after which answers to SDO requests arrive
   /// How long a cycle's output takes to get onto the bus, if it is tracked as SocketCan does.
   std::optional<std::chrono::nanoseconds> sending_time{};
   bool awaiting = false;                 ///< the sign that it has got there was not received yet
@@ -48,7 +50,7 @@ struct FakeCanBus {
   std::function<bool()> on_sync = [] { return true; };
 
   [[nodiscard]] bool delays() const {
-    return feedback_delay.count() > 0 || command_delay.count() > 0;
+    return feedback_delay.count() > 0 || command_delay.count() > 0 || answer_delay.count() > 0;
   }
   /// A frame of the host sets out.
   void accept(articula::CanFrame frame) {
@@ -60,7 +62,9 @@ struct FakeCanBus {
   void deliver(const articula::CanBatch& answers) {
     for (articula::CanFrame frame : answers) {
       if (!on_feedback(frame)) continue;
-      if (feedback_delay.count() == 0) {
+      if (answer_delay.count() > 0 && is_answer(frame)) {
+        answers_on_their_way_.emplace_back(time + answer_delay, frame);
+      } else if (feedback_delay.count() == 0) {
         to_host.push_back(frame);
       } else {
         on_its_way_.emplace_back(time + feedback_delay, frame);
@@ -71,7 +75,7 @@ struct FakeCanBus {
   [[nodiscard]] std::chrono::nanoseconds next_event(std::chrono::nanoseconds end) const {
     if (sync_period.count() > 0) end = std::min(end, next_sync);
     if (sync_period.count() == 0) end = std::min(end, next_period_);
-    for (const auto* way : {&on_its_way_, &to_drives_on_its_way_}) {
+    for (const auto* way : {&on_its_way_, &answers_on_their_way_, &to_drives_on_its_way_}) {
       if (!way->empty()) end = std::min(end, way->front().first);
     }
     return std::max(end, time);
@@ -86,9 +90,11 @@ struct FakeCanBus {
         arrive(to_drives_on_its_way_.front().second);
         to_drives_on_its_way_.pop_front();
       }
-      while (!on_its_way_.empty() && on_its_way_.front().first <= time) {
-        to_host.push_back(on_its_way_.front().second);
-        on_its_way_.pop_front();
+      for (auto* way : {&on_its_way_, &answers_on_their_way_}) {
+        while (!way->empty() && way->front().first <= time) {
+          to_host.push_back(way->front().second);
+          way->pop_front();
+        }
       }
       if (sync_period.count() > 0 && next_sync <= time) {
         next_sync += sync_period;
@@ -123,8 +129,14 @@ struct FakeCanBus {
     deliver(answers);
   }
 
+  /// Of a CANopen node, to an access to an object.
+  [[nodiscard]] static bool is_answer(const articula::CanFrame& frame) {
+    return (frame.identifier & 0x780) == articula::canopen::sdo_answer_base;
+  }
+
   using Way = std::deque<std::pair<std::chrono::nanoseconds, articula::CanFrame>>;
   Way on_its_way_{};
+  Way answers_on_their_way_{};
   Way to_drives_on_its_way_{};
   std::chrono::nanoseconds next_period_{};
   bool reached_ = false;  ///< something has reached the drives in this millisecond

@@ -378,7 +378,8 @@ class CanHardware {
   }
 
   [[nodiscard]] Status let_go() noexcept {
-    constexpr int patience = 100;  // set-up periods; some drives answer an access that late
+    // Set-up periods. Two accesses stop a drive; some answer each after 100 ms, and one may be lost.
+    constexpr int patience = 300;
     for (int k = 0; k < patience; ++k) {
       CanBatch batch;
       codec_.encode_stop(batch);

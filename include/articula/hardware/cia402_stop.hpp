@@ -14,14 +14,15 @@ namespace articula {
 /// Takes the power from one drive by access to its objects. A drive obeys process data in the
 /// operational state alone, and after SYNC; its objects can be accessed in the pre-operational
 /// state, too. In turn: controlword 0 is written, then the statusword is read. Where no answer
-/// comes in time, all begins anew, and the node is made pre-operational, in case it is in the
-/// stopped state.
+/// comes in time, the request is repeated, and the node is made pre-operational, in case it is in
+/// the stopped state. A repeated request takes the late answer to the one before, so a drive whose
+/// answers take longer than `patience` is stopped, too.
 class Cia402Stop {
  public:
   /// Begins anew. Real-time: yes.
   void restart() noexcept { *this = {}; }
 
-  static constexpr std::uint64_t patience = 10;  ///< for an answer [cycles]
+  static constexpr std::uint64_t patience = 10;  ///< until a request is repeated [cycles]
 
   /// The drive may still exert effort: appends the next frame, if one is due.
   /// @param node   the drive's
@@ -33,7 +34,6 @@ class Cia402Stop {
     const std::size_t before = batch.size();
     if (waits_) {
       if (cycle - asked_ < patience) return 0;
-      reading_ = false;
       batch.push_back(canopen::encode(canopen::NmtCommand::enter_pre_operational, node));
     }
     waits_ = true;
