@@ -104,6 +104,51 @@ TEST_CASE("a drive without the host's heartbeat as watchdog is refused, by name"
   CHECK(bench.arm.fault().object == canopen::ObjectAddress{0x1016, 1});
 }
 
+TEST_CASE("a drive that would not stop without the host's heartbeat is refused, by name") {
+  const auto refused = [](const SimulatedCia402Quirks& quirks, std::uint32_t abort_code) {
+    Bench bench(Cia402Watchdog::heartbeat, quirks);
+    CHECK(bench.arm.activate() == Status::hardware_fault);
+    CHECK(bench.arm.fault().cause == CanCause::no_watchdog);
+    CHECK(bench.arm.fault().joint == 1);
+    CHECK(bench.arm.fault().object == cia402::abort_connection);
+    CHECK(bench.arm.fault().abort_code == abort_code);
+    CHECK_FALSE(bench.bus->drives.enabled(0));
+    CHECK_FALSE(bench.bus->drives.enabled(1));
+  };
+  refused({.has_abort_connection = false}, 0x0602'0000);
+  refused({.abort_connection_is_fixed = true, .abort_connection = 0}, 0x0601'0002);
+  refused({.abort_connection_is_fixed = true, .abort_connection = 0xffff}, 0x0601'0002);
+}
+
+TEST_CASE("a drive whose stop without the host's heartbeat is fixed is used") {
+  const auto option = GENERATE(as<std::uint16_t>(), 1, 2, 3);
+  CAPTURE(option);
+  Bench bench(Cia402Watchdog::heartbeat,
+              {.abort_connection_is_fixed = true, .abort_connection = option});
+  REQUIRE(bench.arm.activate() == Status::ok);
+  CHECK(bench.value(0x6007) == option);
+  bench.cycles(20);
+  CHECK(bench.fall_silent() <= 11);
+}
+
+TEST_CASE("other watchdogs need no stop without the host's heartbeat") {
+  const Cia402Watchdog watchdog = GENERATE(Cia402Watchdog::commands, Cia402Watchdog::none);
+  CHECK(Bench(watchdog, {.has_abort_connection = false}).arm.activate() == Status::ok);
+}
+
+TEST_CASE("a drive's own objects choose its stop without the host's heartbeat, but not none") {
+  for (const std::uint16_t option : {std::uint16_t{2}, std::uint16_t{0}}) {
+    auto list = drives_with(Cia402Watchdog::heartbeat);
+    list[1].objects = {{cia402::abort_connection, option, 2}};
+    const auto bus = std::make_shared<Bus>(Drives(list));
+    Arm arm{Cia402Codec<Q2d>(list), support::FakeCanTransport<Drives>(bus)};
+    CAPTURE(option);
+    CHECK(arm.activate() == (option == 2 ? Status::ok : Status::hardware_fault));
+    CHECK(bus->drives.node(1).value(cia402::abort_connection) == option);
+    if (option == 0) CHECK(arm.fault().cause == CanCause::no_watchdog);
+  }
+}
+
 TEST_CASE("a drive without watchdog is used where that is said") {
   Bench bench(Cia402Watchdog::none, {.has_deadline = false, .has_heartbeat_consumer = false});
   REQUIRE(bench.arm.activate() == Status::ok);

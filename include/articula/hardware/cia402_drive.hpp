@@ -19,7 +19,7 @@ namespace articula {
 /// What stops a drive when its host is gone: the program has ended, or the cable is cut.
 enum class Cia402Watchdog : unsigned char {
   commands,   ///< RPDOs that stay away: the deadline of object 1400h,5. Not all drives have it.
-  heartbeat,  ///< The host's heartbeats that stay away: object 1016h. See Cia402Drive::host_node.
+  heartbeat,  ///< The host's heartbeats that stay away: objects 1016h, 6007h. See host_node.
   none,       ///< Nothing: the drive goes on with its last command until its power is taken.
 };
 

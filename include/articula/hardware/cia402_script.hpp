@@ -27,6 +27,7 @@ struct Cia402Step {
     read_state,
     advance_state,
     confirm_mode,
+    expect_stop_option,  ///< that the drive stops when heartbeats stay away
     disarm,  ///< a write; in pre-operational, if the drive does not allow it in operation
   };
   canopen::ObjectAddress address{};
@@ -68,6 +69,8 @@ class Cia402Script {
     add({cia402::controlword, Action::write, cia402::disable_voltage, 2, true, true});
     command_node(canopen::NmtCommand::enter_pre_operational);
     add({{0x1000, 0}, Action::expect_profile_402});
+    // How fast this object is read tells what its later readings prove, see Cia402Feedback.
+    add({{canopen::identity, 0}, Action::remember, 0, 0, true});
     // The host sends no heartbeats during the set-up.
     if (beats) add({heartbeat_consumer, Action::write, 0, 4, true});
     write_if_there({0x1017, 0}, 100, 2);  // its own heartbeat every 100 ms
@@ -76,11 +79,13 @@ class Cia402Script {
     write_if_there(cia402::interpolation_period, period, 1);
     write_if_there(cia402::interpolation_exponent, 0xfd, 1);  // 10^-3 s
     // What the drive does when the host's heartbeat fails: it faults.
+    // A drive that refuses that, or its own objects, may choose another stop.
     if (beats) write_if_there(cia402::abort_connection, 1, 2);
     for (const canopen::ObjectValue& own : drive.objects) {
       add({own.address, Action::write, own.value, own.size});
     }
     if (beats) {
+      add({cia402::abort_connection, Action::expect_stop_option});
       add({heartbeat_consumer, Action::write, std::uint32_t{drive.host_node} << 16 | deadline, 4});
     }
     prepare_ = size_;

@@ -46,7 +46,7 @@ class Cia402SetUp {
   void restart() noexcept {
     begin(script_.set_up());
     pdos_.restart();
-    abort_code_ = 0;
+    abort_code_ = stop_option_refusal_ = 0;
     failed_object_ = {};
     lacks_watchdog_ = retried_ = false;
   }
@@ -117,6 +117,14 @@ class Cia402SetUp {
       case Action::expect_profile_402:
         if ((answer.value & 0xffff) != 402) return fail();
         break;
+      case Action::expect_stop_option: {
+        // 1 is a fault, 2 and 3 are stops; 0 goes on, and other values are the manufacturer's
+        // [CiA 402-2, abort connection option code].
+        const std::uint32_t option = answer.value & 0xffff;
+        if (option >= 1 && option <= 3) break;
+        abort_code_ = stop_option_refusal_;
+        return fail();
+      }
       case Action::skip_if_zero:
         if (answer.value == 0) step_ += step.value;
         break;
@@ -182,7 +190,8 @@ class Cia402SetUp {
       return;
     }
     failed_object_ = client_.request().address;
-    lacks_watchdog_ = failed_object_ == Cia402Script::heartbeat_consumer;
+    lacks_watchdog_ = failed_object_ == Cia402Script::heartbeat_consumer ||
+                      script_[step_].action == Cia402Step::Action::expect_stop_option;
     failed_ = true;
   }
   [[nodiscard]] bool shows_mode(const canopen::Sdo& answer) const noexcept {
@@ -210,7 +219,10 @@ class Cia402SetUp {
       left_operation_ = leave_operation_due_ = true;
       return;  // again, in another state of the node
     }
-    if (step.optional) return advance_step();
+    if (step.optional) {
+      if (step.address == cia402::abort_connection) stop_option_refusal_ = answer.value;
+      return advance_step();
+    }
     abort_code_ = answer.value;
     if (step.action != Action::write) return fail();
     checking_ = true;  // it may be right already
@@ -266,6 +278,7 @@ class Cia402SetUp {
   bool left_operation_ = false;  ///< the watchdog could not be taken off in operation
   bool leave_operation_due_ = false;
   std::uint32_t abort_code_ = 0;
+  std::uint32_t stop_option_refusal_ = 0;  ///< code with which 6007h was refused; 0: it was not
   canopen::ObjectAddress failed_object_{};
   std::uint32_t remembered_ = 0;
   std::optional<cia402::State> state_{};

@@ -25,12 +25,15 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
     quirks_ = quirks;
     clear();
     for (const SimulatedCanopenObject& object : factory_objects) {
-      const bool missing = (object.address == cia402::error_code && !quirks.has_error_code) ||
-                           (object.address == cia402::torque_actual && !quirks.has_torque) ||
-                           (object.address == cia402::velocity_actual && !quirks.has_velocity) ||
-                           (object.address == heartbeat_consumer && !quirks.has_heartbeat_consumer);
+      const bool missing =
+          (object.address == cia402::error_code && !quirks.has_error_code) ||
+          (object.address == cia402::torque_actual && !quirks.has_torque) ||
+          (object.address == cia402::velocity_actual && !quirks.has_velocity) ||
+          (object.address == heartbeat_consumer && !quirks.has_heartbeat_consumer) ||
+          (object.address == cia402::abort_connection && !quirks.has_abort_connection);
       if (!missing) add(object);
     }
+    set(cia402::abort_connection, quirks.abort_connection);
     set(sync_counter, quirks.sync_counter);
     if (quirks.sync_counter != 0) set(sync_period, 1000);
     if (!quirks.has_fixed_mappings()) {
@@ -55,7 +58,9 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
       const std::uint8_t size = quirks_.tells_size ? object->size : std::uint8_t{0};
       return {request.kind, request.address, object->value, size};
     }
-    if (!object->writable) return abort(0x0601'0002);  // read only
+    const bool is_fixed =
+        quirks_.abort_connection_is_fixed && request.address == cia402::abort_connection;
+    if (!object->writable || is_fixed) return abort(0x0601'0002);  // read only
     const bool fits = request.size == object->size || request.size == 0;
     if (!fits) return abort(0x0607'0010);                               // length does not match
     if (is_locked(request, is_operational)) return abort(0x0800'0022);  // present device state

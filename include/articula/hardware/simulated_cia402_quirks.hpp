@@ -17,11 +17,14 @@ struct SimulatedCia402Quirks {
     std::array<std::uint32_t, 8> entries{};
   };
 
-  bool has_error_code = true;          ///< object 603Fh
-  bool has_torque = true;              ///< object 6077h
-  bool has_velocity = true;            ///< object 606Ch
-  bool has_deadline = true;            ///< object 1400h,5
-  bool has_heartbeat_consumer = true;  ///< object 1016h
+  bool has_error_code = true;              ///< object 603Fh
+  bool has_torque = true;                  ///< object 6077h
+  bool has_velocity = true;                ///< object 606Ch
+  bool has_deadline = true;                ///< object 1400h,5
+  bool has_heartbeat_consumer = true;      ///< object 1016h
+  bool has_abort_connection = true;        ///< object 6007h
+  bool abort_connection_is_fixed = false;  ///< It cannot be written.
+  std::uint16_t abort_connection = 0;      ///< object 6007h at first
   bool allows_remote_requests = true;  ///< Else identifiers of TPDOs have bit 30, and must keep it.
   bool tells_size = true;              ///< of what is read (43h .. 4fh, else 42h)
   bool shows_mode_at_once = true;      ///< Else object 6061h follows in operation enabled alone.
