@@ -53,11 +53,16 @@ struct Bench {
   Status reading = Status::ok;
   Status writing = Status::ok;
 
-  Bench() { REQUIRE(arm.activate() == Status::ok); }
+  /// @param answer_delay  of the drives, to SDO requests
+  explicit Bench(std::chrono::nanoseconds answer_delay = {}) {
+    bus->answer_delay = answer_delay;
+    REQUIRE(arm.activate() == Status::ok);
+  }
   void cycles(int count) {
     for (int k = 0; k < count; ++k) {
       reading = arm.read(state);
       writing = arm.write({{3, -3}});
+      if (bus->delays()) bus->pass(std::chrono::milliseconds(1));
     }
   }
 };
@@ -367,6 +372,25 @@ TEST_CASE("a drive that leaves operation while enabled is stopped by access to i
   CHECK(bench.reading == Status::ok);
 }
 
+TEST_CASE("drives without power get no further requests") {
+  Bench bench;
+  bench.cycles(10);
+  CanBatch answers;  // a drive that sends no feedback any more
+  bench.bus->drives.receive(canopen::encode(canopen::NmtCommand::enter_pre_operational, 5),
+                            answers);
+  bench.cycles(100);
+  REQUIRE(bench.reading == Status::hardware_fault);
+  REQUIRE(bench.arm.codec().let_go());
+  bench.bus->to_drives.clear();
+  bench.cycles(1000);
+  for (const CanFrame& frame : bench.bus->to_drives) {
+    const bool stops =
+        frame == canopen::encode_sync() || frame.identifier == 0x205 || frame.identifier == 0x206;
+    REQUIRE(stops);
+  }
+  CHECK(bench.arm.activate() == Status::ok);
+}
+
 TEST_CASE("deactivation takes the power from a drive that has just left operation") {
   Bench bench;
   bench.cycles(10);
@@ -484,9 +508,10 @@ TEST_CASE("feedback whose lag grows is stale, then a fault") {
 
 TEST_CASE("feedback that was lost is not taken for late") {
   const std::uint32_t identifier = GENERATE(0x185U, 0x285U, 0x186U);
-  CAPTURE(identifier);
+  const int answer_delay = GENERATE(0, 5, 10);  // [ms]
+  CAPTURE(identifier, answer_delay);
   int number = 0;
-  Bench bench;
+  Bench bench{std::chrono::milliseconds(answer_delay)};
   bench.cycles(10);
   // One lost frame in 50 cycles, a thousand times.
   bench.bus->on_feedback = [&](CanFrame& frame) {
@@ -497,8 +522,15 @@ TEST_CASE("feedback that was lost is not taken for late") {
     REQUIRE(bench.reading == Status::ok);
   }
   // Each loss takes effect for as long as it takes to tell it from a late frame: the cycle in which
-  // it is missed, the next, with the request, and one more.
-  CHECK(bench.arm.statistics().partial <= 3 * 1000);
+  // it is missed, the next, with the request, and one more. Behind slower answers one cycle of age
+  // remains.
+  if (answer_delay == 0) CHECK(bench.arm.statistics().partial <= 3 * 1000);
+  bench.bus->on_feedback = [](CanFrame&) { return true; };
+  bench.cycles(10 + 2 * answer_delay);
+  CHECK(bench.arm.read(bench.state) == Status::ok);
+  for (const DriveReport& report : bench.arm.reports()) {
+    CHECK(report.age <= (answer_delay == 0 ? 0U : 1U));
+  }
   bench.bus->on_feedback = [](CanFrame&) { return true; };
 }
 
@@ -517,18 +549,22 @@ TEST_CASE("a drive that answers every other SYNC is not late") {
 }
 
 TEST_CASE("feedback that stays away for some cycles is fresh again when it is back") {
-  Bench bench;
+  const int answer_delay = GENERATE(0, 5, 10);  // [ms]
+  CAPTURE(answer_delay);
+  Bench bench{std::chrono::milliseconds(answer_delay)};
   bench.cycles(10);
   for (int k = 0; k < 20; ++k) {
     bench.bus->on_feedback = [](CanFrame& frame) { return frame.identifier != 0x286; };
-    bench.cycles(15);
+    // With the time of an answer, less than what makes the drive silent.
+    bench.cycles(15 - answer_delay);
     CHECK(bench.reading == Status::stale_state);
     bench.bus->on_feedback = [](CanFrame&) { return true; };
-    bench.cycles(3);
+    // A request of before may still have to be answered.
+    bench.cycles(3 + 2 * answer_delay);
     REQUIRE(bench.reading == Status::ok);
-    bench.cycles(10);  // until the next mark
+    bench.cycles(10 + answer_delay);  // until the answer to the next mark
     CHECK(bench.arm.read(bench.state) == Status::ok);
-    CHECK(bench.arm.reports()[1].age == 0);
+    CHECK(bench.arm.reports()[1].age <= (answer_delay == 0 ? 0U : 1U));
   }
 }
 
@@ -578,4 +614,13 @@ TEST_CASE("set-up of drives refuses what makes no sense, by name") {
   refuses([](Cia402Drive& d) { d.velocity_scale = support::not_a_number; }, "velocity_scale");
   CHECK_THROWS_WITH(Cia402Codec<Q2d>(drives, 0), Contains("period"));
   CHECK_THROWS_WITH(Cia402Codec<Q2d>(drives, 1, 0), Contains("deadline"));
+  // A watchdog that fires in every cycle.
+  CHECK_THROWS_WITH(Cia402Codec<Q2d>(drives, 10, 10), Contains("shoulder_active_joint") &&
+                                                          Contains("period of 10 ms") &&
+                                                          Contains("deadline of its watchdog, 10"));
+  CHECK_THROWS_WITH(Cia402Codec<Q2d>(drives, 20), Contains("period of 20 ms"));
+  CHECK_NOTHROW(Cia402Codec<Q2d>(drives, 9, 10));
+  Cia402DriveList<2> unwatched = drives;
+  for (Cia402Drive& drive : unwatched) drive.watchdog = Cia402Watchdog::none;
+  CHECK_NOTHROW(Cia402Codec<Q2d>(unwatched, 20));
 }

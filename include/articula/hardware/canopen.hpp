@@ -26,6 +26,7 @@ inline constexpr std::uint32_t sdo_request_base = 0x600;     ///< host to node
 inline constexpr std::uint32_t heartbeat_base = 0x700;       ///< node to all
 inline constexpr std::uint32_t pdo_spacing = 0x100;          ///< from one PDO's base to the next
 inline constexpr std::uint8_t last_node = 127;
+inline constexpr std::uint16_t identity = 0x1018;  ///< object that every node has
 
 /// A network management command [CiA 301, 7.2.8].
 enum class NmtCommand : std::uint8_t {

@@ -72,7 +72,8 @@ class Cia402Codec {
   /// @param drives    in the order of the joints
   /// @param period    of the loop [ms], 1 .. 255
   /// @param deadline  longest time without commands that the drives are to accept [ms]
-  /// @throws std::invalid_argument as validate says, or if a time is 0
+  /// @throws std::invalid_argument as validate says, if a time is 0, or if the period is not below
+  /// the deadline of a drive's watchdog
   Cia402Codec(const R& robot, const Cia402DriveList<joint_count>& drives, std::uint8_t period = 1,
               std::uint16_t deadline = 10)
       : drives_(drives),
@@ -89,6 +90,13 @@ class Cia402Codec {
     }
     if (period == 0) throw std::invalid_argument("CiA 402: the period is 0 ms");
     if (deadline == 0) throw std::invalid_argument("CiA 402: the deadline is 0 ms");
+    for (std::size_t j = 0; j < count; ++j) {
+      if (drives[j].watchdog == Cia402Watchdog::none || period < deadline) continue;
+      detail::refuse({"CiA 402 drive of '", model_of(robot).joints[j].name.view(),
+                      "': the loop's period of ", int{period},
+                      " ms is not below the deadline of its watchdog, ", int{deadline},
+                      " ms; give the codec a longer deadline, best three periods or more"});
+    }
   }
   /// For a robot known at compile time.
   explicit Cia402Codec(const Cia402DriveList<joint_count>& drives, std::uint8_t period = 1,
@@ -326,8 +334,9 @@ class Cia402Codec {
   [[gnu::noinline]] void push_stops(CanBatch& batch) noexcept {
     next_stop_ = syncs_.cycle() + Cia402Stop::patience;
     access([&](std::size_t j) {
-      return feedbacks_[j].powered() ? stops_[j].advance(drives_[j].node, syncs_.cycle(), batch)
-                                     : push_mark(j, batch);
+      // How old the feedback of a drive without power is does not matter.
+      if (!feedbacks_[j].powered()) return std::size_t{0};
+      return stops_[j].advance(drives_[j].node, syncs_.cycle(), batch);
     });
   }
 
@@ -397,7 +406,8 @@ class Cia402Codec {
     const auto answer = canopen::decode_answer(frame);
     if (!answer) return CanDecoding::malformed;
     set_ups_[j].take(*answer);
-    feedbacks_[j].take_answer(answer->address, set_ups_[j].process_data().stream_count, syncs_);
+    feedbacks_[j].take_answer(answer->address, set_ups_[j].process_data().stream_count, syncs_,
+                              Sync);
     syncs_.note_missing();
     if (const auto statusword = stops_[j].take(*answer)) {
       feedbacks_[j].take_statusword(*statusword);
@@ -415,7 +425,8 @@ class Cia402Codec {
 
   Cia402DriveList<joint_count> drives_;
   std::array<std::uint8_t, nodes> joint_of_node_{};  ///< joint_count for those of nobody
-  int cycles_per_beat_;  ///< three heartbeats within the deadline, so that two may be lost
+  int cycles_per_beat_;  ///< three heartbeats within the deadline, so that two may be lost; one in
+                         ///< each cycle where the period is above a third of the deadline
   std::array<Cia402SetUp, count> set_ups_;
   std::array<Cia402Stop, count> stops_{};
   std::array<Cia402Feedback, count> feedbacks_{};

@@ -25,8 +25,10 @@ namespace articula {
 /// A frame that was lost looks like one that is late. A mark tells them apart. It is a request to
 /// read an object; a drive answers it later than every SYNC before it, and frames do not overtake.
 /// So the feedback that is missing when the answer comes, to a SYNC before the request, is lost.
-/// The count is as good as the answers are fast: a drive that answers a request after n cycles may
-/// seem n - 1 cycles late after as many losses.
+/// A drive takes some cycles to answer. It sends feedback meanwhile, which comes before the answer,
+/// so a mark covers later SYNCs as well, by the time of the fastest answer. One cycle remains
+/// unknown, since that time and the age of feedback are counted in whole cycles. For the time to be
+/// known before feedback begins, the set-up reads object 1018h.
 class Cia402Feedback {
  public:
   /// Forgets all. Real-time: yes.
@@ -115,16 +117,20 @@ class Cia402Feedback {
   /// Real-time: yes.
   [[nodiscard]] std::optional<canopen::Sdo> next_mark(std::size_t streams,
                                                       const SyncHistory& syncs) noexcept {
-    constexpr std::uint64_t interval = 10, patience = 20;  // [cycles]
+    constexpr std::uint64_t interval = 10;  // [cycles]
+    const std::uint64_t patience = std::max(std::uint64_t{20}, fastest_answer_ + 10);
     const std::uint32_t missing = lag(streams, syncs);
-    if (missing == 0) return {};
+    if (missing == 0) {
+      if (least_age_ != unknown_age) least_age_ = 0;
+      return {};
+    }
     const std::uint64_t since = syncs.cycle() - mark_cycle_;
     const bool known = missing <= known_lag_ && since < interval;
     if (awaits_mark_ ? since < patience : known) return {};
     // A late answer to the mark before must not pass for one to this.
-    constexpr std::uint8_t objects = 5;  // of the identity [CiA 301, object 1018h]
+    constexpr std::uint8_t objects = 5;
     mark_number_ = static_cast<std::uint8_t>((mark_number_ + 1) % objects);
-    place_mark({0x1018, mark_number_}, syncs);
+    place_mark({canopen::identity, mark_number_}, syncs);
     return canopen::Sdo{canopen::SdoKind::upload, mark_, 0, 0};
   }
 
@@ -138,15 +144,27 @@ class Cia402Feedback {
   void withdraw() noexcept { awaits_mark_ = false; }
 
   /// The answer to an access has come.
+  ///
+  /// Without a queue an answer to a request just before SYNC takes F - 1 cycles at least, and
+  /// feedback less than a + 1, where F and a are the fewest that were counted. A queue delays both
+  /// alike. So the drive has sent feedback to SYNCs up to F - 1 - (a + 1) cycles after that one
+  /// before the answer. Where another node sends SYNC, the requests are up to one cycle apart in
+  /// their cycles.
   /// @param object   that it was of
   /// @param streams  as next_mark
   /// @param syncs    likewise
+  /// @param sync     who sends SYNC
   /// Real-time: yes.
   void take_answer(const canopen::ObjectAddress& object, std::size_t streams,
-                   const SyncHistory& syncs) noexcept {
+                   const SyncHistory& syncs, SyncProducer sync) noexcept {
     if (!awaits_mark_ || object != mark_) return;
     awaits_mark_ = false;
-    for (std::uint64_t& next : next_) next = std::max(next, mark_cycle_ + 1);
+    const std::uint64_t cycles = syncs.cycle() - mark_cycle_;
+    fastest_answer_ = std::min(fastest_answer_, cycles);
+    const std::uint64_t unsure = least_age_ + 1 + (sync == SyncProducer::host ? 0 : 1);
+    const std::uint64_t covered =
+        mark_cycle_ + (fastest_answer_ > unsure ? fastest_answer_ - unsure : 0);
+    for (std::uint64_t& next : next_) next = std::max(next, covered + 1);
     known_lag_ = lag(streams, syncs);
   }
 
@@ -200,7 +218,10 @@ class Cia402Feedback {
     next_[stream] = std::max(next_[stream], born_[stream] + 1);
     if (lag(streams, syncs) > 0) syncs.note_missing();
     const std::uint64_t oldest = least(born_, streams);
-    if (oldest > 0) report.age = static_cast<std::uint32_t>(syncs.cycle() - oldest);
+    if (oldest > 0) {
+      report.age = static_cast<std::uint32_t>(syncs.cycle() - oldest);
+      least_age_ = std::min(least_age_, std::uint64_t{report.age});
+    }
     return true;
   }
 
@@ -270,7 +291,11 @@ class Cia402Feedback {
   bool awaits_mark_ = false;
   std::uint8_t mark_number_ = 0;
   canopen::ObjectAddress mark_{};
-  std::uint64_t mark_cycle_ = 0;      ///< in which the mark was placed
+  /// Of the answers to requests [cycles]; the slowest that the set-up waits for, until there is one.
+  std::uint64_t fastest_answer_ = 100;
+  static constexpr std::uint64_t unknown_age = 1'000'000;  ///< above the time of any answer
+  std::uint64_t least_age_ = unknown_age;                  ///< that feedback has had [cycles]
+  std::uint64_t mark_cycle_ = 0;                           ///< in which the mark was placed
   std::uint32_t known_lag_ = 0;       ///< SYNCs without an answer when the last mark's came
   std::uint64_t position_cycle_ = 0;  ///< that the last position belongs to; for differences
   std::uint16_t emergency_ = 0;
