@@ -175,27 +175,63 @@ TEST_CASE("a gripper, sections that say nothing, values between them") {
 TEST_CASE("no unrelated section is a reason to refuse a file") {
   for (const std::string other :
        {"joint_state_broadcaster: {ros__parameters: }\n",
-        "joint_state_broadcaster:\n  ros__parameters:\n", "b: {ros__parameters: {}}\n",
-        "b: {ros__parameters: 5}\n", "b: {ros__parameters: [1, 2]}\n",
-        "b: {ros__parameters: some text}\n", "b:\n", "b: ~\n", "b: 5\n", "b: [1, 2]\n", "b: text\n",
-        "b: {}\n", "b:\n  ros__parameters:\n  joints: [x]\n",
+        "joint_state_broadcaster:\n  ros__parameters:\n",
+        "b: {ros__parameters: {}}\n",
+        "b: {ros__parameters: 5}\n",
+        "b: {ros__parameters: [1, 2]}\n",
+        "b: {ros__parameters: some text}\n",
+        "b:\n",
+        "b: ~\n",
+        "b: 5\n",
+        "b: [1, 2]\n",
+        "b: text\n",
+        "b: {}\n",
+        "b:\n  ros__parameters:\n  joints: [x]\n",
         "b: {ros__parameters: {a.c: 1, a: {c: 2}}}\n",
-        "b: {ros__parameters: {joints: 5, gains: 3}}\n", "b: {c: {ros__parameters: }}\n",
-        "/ns/b: {ros__parameters: }\n", "/**/b: {ros__parameters: }\n",
+        "b: {ros__parameters: {joints: 5, gains: 3}}\n",
+        "b: {c: {ros__parameters: }}\n",
+        "b: {ros__parameters: {foo: 5, joints: 7}}\n",
+        "b: {ros__parameters: {joints: [q]}}\n",
+        "b: {ros__parameters: {gains: 5}}\n",
+        "b: {joints: [q], gains: 5}\n",
+        "b: {ros__parameters: {joints: [q], a.c: 1, a: {c: 2}}}\n",
+        "moveit: {arm: {type: FollowJointTrajectory, joints: [q], gains: 5}}\n",
+        "/ns/b: {ros__parameters: }\n",
+        "/**/b: {ros__parameters: }\n",
         "/other/**: {ros__parameters: 5}\n"}) {
     INFO(other);
     for (const std::string& text : {other + manager + arm, manager + arm + other}) {
-      const bool rivals = other.find("gains: 3") != std::string::npos;
-      const std::string name = rivals ? "arm" : "";
-      CHECK(load_controller(yaml(text), "arm").joints.size() == 2);
-      CHECK(load_pid_gains(Q2d(), yaml(text), name).gains[1].proportional == 2);
-      CHECK(load_trajectory_tolerances(Q2d(), yaml(text), name).tolerances.goal_time == 3);
+      CHECK(load_controller(yaml(text)).joints.size() == 2);
+      CHECK(load_pid_gains(Q2d(), yaml(text)).gains[1].proportional == 2);
+      CHECK(load_trajectory_tolerances(Q2d(), yaml(text)).tolerances.goal_time == 3);
       CHECK(load_controller_manager(yaml(text)).update_rate == 250);
       CHECK(load_signals(Q2d(), yaml(text + "w: {ros__parameters: {waveforms: {elbow_active_joint: "
                                             "{amplitude: 1, frequency: 1}}}}\n"))
                 .signals.size() == 1);
     }
   }
+  // Without a controller manager, what looks like a controller's section counts before other maps.
+  const std::string typed =
+      "arm: {type: effort_controllers/JointTrajectoryController, joints: "
+      "[elbow_active_joint], gains: {elbow_active_joint: {p: 1}}}\n";
+  for (const std::string& text : {arm, typed}) {
+    for (const std::string other : {"b: {joints: [q], gains: 5}\n", "b: {c: {joints: [q]}}\n",
+                                    "b: {arm: {type: FollowJointTrajectory, joints: [q]}}\n"}) {
+      CHECK(load_controller(yaml(text + other)).name == "arm");
+      const auto notes = load_controller(yaml(other + text)).notes;
+      CHECK(has_note(notes, "not used, it has neither ros__parameters nor the type of a plugin"));
+    }
+  }
+  const std::string node = "b: {ros__parameters: {joints: [q]}}\n";
+  CHECK(has_note(load_controller(yaml(manager + arm + node)).notes,
+                 "b.ros__parameters: not used, the controller_manager does not list it"));
+  CHECK_THAT(complaint_of([&] { return load_controller(yaml(arm + node)); }),
+             Contains("there are several: arm in line 2, b in line 6"));
+  // Beside a controller's own parameters a map with joints is no section.
+  CHECK_THAT(complaint_of([&] {
+               return load_controller(yaml("gains: {a: {p: 1}}\nother: {joints: [a]}\n"));
+             }),
+             Contains("unknown key 'other'"));
   // Without types and ros__parameters as well.
   CHECK(load_controller(
             yaml("b:\narm: {joints: [elbow_active_joint], gains: {elbow_active_joint: {p: 1}}}\n"))

@@ -25,11 +25,15 @@ namespace articula::detail {
 /// @param relevant  without a name, sections for which this is false are left out, and noted
 /// @param what      is looked for, for the message
 /// @param notes     receives what was left out
+/// @param narrow    takes those away that are not likely to be meant where several are relevant, and
+///                  adds a note on each; none: all count
 /// @throws ConfigError if there is none
 [[nodiscard]] inline std::vector<ConfigSection> chosen_sections(
     const ConfigSections& all, std::string_view name,
     const std::function<bool(const ConfigSection&)>& relevant, const std::string& what,
-    std::vector<std::string>& notes) {
+    std::vector<std::string>& notes,
+    const std::function<void(std::vector<ConfigSection>&, std::vector<std::string>&)>& narrow =
+        nullptr) {
   while (name.starts_with('/')) name.remove_prefix(1);
   std::vector<std::string> names, left_out;
   std::vector<ConfigSection> full, exact, chosen;
@@ -49,6 +53,7 @@ namespace articula::detail {
                          ": not used, it is no " + what);
     }
   }
+  if (narrow && full.empty() && exact.empty()) narrow(chosen, left_out);
   for (std::vector<ConfigSection>* sections : {&full, &exact, &chosen}) {
     for (const ConfigSection& section : *sections) section.check();
     if (!sections->empty() && sections != &chosen) return *sections;

@@ -183,9 +183,14 @@ class SectionFinder {
     };
     for (ConfigSection& section : found_.sections) {
       const ConfigNode* type = section.parameters.find("type");
-      const ConfigNode* manager = type == nullptr ? manager_of(section) : nullptr;
+      const ConfigNode* manager = manager_of(section);
       const ConfigNode* entry = manager != nullptr ? manager->find(section.name) : nullptr;
-      if (entry != nullptr) type = entry->find("type");
+      const ConfigNode* listed = entry != nullptr ? entry->find("type") : nullptr;
+      // What has no place of its own is there by a wildcard, and wildcards have ros__parameters.
+      section.is_declared = section.path.empty() || section.path.ends_with(ros_parameters) ||
+                            (type != nullptr && type->text.find('/') != std::string::npos);
+      section.is_listed = listed != nullptr;
+      if (type == nullptr) type = listed;
       if (type != nullptr && type->kind == ConfigNode::Kind::scalar) section.type = type->text;
     }
   }

@@ -106,6 +106,36 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
   }
 }
 
+/// True if sections are controllers of one joint each, of one type: they are put together.
+[[nodiscard]] inline bool are_single_joints(const std::vector<ConfigSection>& sections) {
+  return std::all_of(sections.begin(), sections.end(), [&](const ConfigSection& section) {
+    const ConfigNode& node = section.parameters;
+    return section.type == sections.front().type && node.find("joints") == nullptr &&
+           node.find("dof_names") == nullptr && node.find("joint_names") == nullptr &&
+           node.find("gains") == nullptr;
+  });
+}
+
+/// Where several sections may be the controller: those that the controller manager lists, and of
+/// these those with ros__parameters or a plugin's type. The others belong to other programs.
+/// @param notes  receives a line on each other one
+inline void keep_declared(const std::string& file, std::vector<ConfigSection>& sections,
+                          std::vector<std::string>& notes) {
+  const auto keep = [&](bool ConfigSection::*sign, const std::string& reason) {
+    if (are_single_joints(sections)) return;
+    const auto has_sign = [&](const ConfigSection& section) { return section.*sign; };
+    if (std::none_of(sections.begin(), sections.end(), has_sign)) return;
+    std::erase_if(sections, [&](const ConfigSection& section) {
+      if (has_sign(section)) return false;
+      notes.push_back(file + ":" + std::to_string(section.line()) + ": " + section.path +
+                      ": not used, " + reason);
+      return true;
+    });
+  };
+  keep(&ConfigSection::is_listed, "the controller_manager does not list it");
+  keep(&ConfigSection::is_declared, "it has neither ros__parameters nor the type of a plugin");
+}
+
 /// One controller, or single-joint controllers as if they were one.
 /// @param relevant  see chosen_sections
 /// @param what      is looked for, for messages
@@ -119,7 +149,9 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
   const auto controls = [&](const ConfigSection& section) {
     return !is_broadcaster(section) && relevant(section);
   };
-  const std::vector<ConfigSection> chosen = chosen_sections(all, name, controls, what, all.notes);
+  const std::vector<ConfigSection> chosen = chosen_sections(
+      all, name, controls, what, all.notes,
+      [&](auto& sections, auto& notes) { keep_declared(all.file, sections, notes); });
   std::vector<std::string> names;
   std::string found;
   bool single_joints = true;

@@ -18,6 +18,8 @@ struct ConfigSection {
   std::string path{};   ///< the keys from the top
   std::string group{};  ///< the namespaces around it, with slashes
   std::string type{};   ///< that the section or the controller manager gives it; may be empty
+  bool is_listed = false;    ///< the controller manager gives its type
+  bool is_declared = false;  ///< it has ros__parameters, or a plugin's type of its own
   ConfigNode parameters{};
   std::optional<ConfigError> fault{};  ///< why it cannot be used; no matter to who does not ask
   std::vector<std::string> notes{};    ///< on what another section has changed

@@ -9,9 +9,11 @@
 #include "articula/config/section_name.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -64,23 +66,27 @@ class SectionSearch {
     }
   }
   [[nodiscard]] static bool is_namespace(const ConfigNode& map) {
-    return std::any_of(map.items.begin(), map.items.end(), [](const ConfigNode& item) {
-      return item.is_map() &&
-             (item.find(ros_parameters) != nullptr || has_type(item) || lists_joints(item) ||
-              item.key == "controller_manager" || is_namespace(item));
+    // Beside a controller's own parameters, a map with joints is one of them.
+    const bool has_parameters = std::any_of(map.items.begin(), map.items.end(), is_parameter);
+    return std::any_of(map.items.begin(), map.items.end(), [&](const ConfigNode& item) {
+      return item.is_map() && (item.find(ros_parameters) != nullptr || has_type(item) ||
+                               (lists_joints(item) && !has_parameters) ||
+                               item.key == "controller_manager" || is_namespace(item));
     });
   }
   [[nodiscard]] static bool lists_joints(const ConfigNode& node) {
     return node.find("joints") != nullptr || node.find("dof_names") != nullptr ||
            node.find("joint_names") != nullptr;
   }
+  /// A parameter of a controller that is a map, so no section.
+  [[nodiscard]] static bool is_parameter(const ConfigNode& item) {
+    static constexpr std::array<std::string_view, 6> parameters = {
+        "pid", "gains", "constraints", "chain", "gravity", "waveforms"};
+    return std::find(parameters.begin(), parameters.end(), item.key) != parameters.end();
+  }
   [[nodiscard]] static bool is_of_maps(const ConfigNode& map) {
-    const std::vector<std::string> parameters = {"pid",   "gains",   "constraints",
-                                                 "chain", "gravity", "waveforms"};
-    return std::all_of(map.items.begin(), map.items.end(), [&](const ConfigNode& item) {
-      return item.is_map() &&
-             std::find(parameters.begin(), parameters.end(), item.key) == parameters.end();
-    });
+    return std::all_of(map.items.begin(), map.items.end(),
+                       [](const ConfigNode& item) { return item.is_map() && !is_parameter(item); });
   }
   [[nodiscard]] static std::string joined(const std::string& a, const std::string& b) {
     return a.empty() || b.empty() ? a + b : a + "." + b;
