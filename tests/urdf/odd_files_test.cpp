@@ -7,6 +7,7 @@
 #include "catch.hpp"
 #include "urdf_text.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,6 +75,63 @@ TEST_CASE("a joint has one limit for both directions: the narrower counts, and a
   }
 }
 
+TEST_CASE("limits that contradict themselves are noted where they do not count") {
+  const auto read = [](const std::string& kind, const std::string& bounds, bool kinematic,
+                       const std::string& mimic = "<mimic joint=\"pivot\"/>") {
+    const std::string range = "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"3\"/>";
+    return read_urdf(
+        UrdfSource(robot("<link name=\"base\"/>" + solid("rod") + solid("end") +
+                         joint("pivot", "revolute", "base", "rod", range) +
+                         joint("next", "revolute", "rod", "end", range + mimic) +
+                         "<ros2_control name=\"c\" type=\"system\"><hardware><plugin>p</plugin>"
+                         "</hardware><joint name=\"pivot\"/><joint name=\"next\">"
+                         "<command_interface name=\"" +
+                         kind + "\">" + bounds + "</command_interface></joint></ros2_control>")),
+        {.kinematic = kinematic});
+  };
+  const auto has = [](const UrdfDescription& description, const std::string& notice) {
+    return std::count(description.notices.begin(), description.notices.end(), notice) == 1;
+  };
+  const std::string owner = "<ros2_control>: joint 'next': ", bounds = param("min", "0");
+  for (const std::string kind : {"velocity", "effort", "torque"}) {
+    for (const bool kinematic : {false, true}) {
+      CHECK(has(read(kind, bounds + param("max", "3"), kinematic),
+                owner + kind + ": its limits (min 0, max 3) do not count: it mimics 'pivot'"));
+      CHECK(has(read(kind, param("min", "2"), kinematic),
+                owner + kind + ": its limits (min 2, max inf) do not count: it mimics 'pivot'"));
+      if (kinematic && kind != "velocity") {
+        CHECK(has(read(kind, bounds, true, ""),
+                  owner + kind +
+                      ": its limits (min 0, max inf) do not count: the robot has no dynamics"));
+      } else {
+        CHECK_THROWS_WITH(read(kind, bounds, kinematic, ""), Contains("leave one direction alone"));
+      }
+    }
+  }
+  const UrdfDescription place = read("position", param("min", "2"), false);
+  CHECK(has(place,
+            "joint 'next': its limits, 2 .. inf in <ros2_control> and -1 .. 1 in <limit>, "
+            "leave it no place; it mimics 'pivot', so those of <limit> count"));
+  CHECK(place.joints[1].limits.lower == -1);
+  CHECK_THROWS_WITH(read("position", param("min", "2"), false, ""), Contains("leave it no place"));
+}
+
+TEST_CASE("soft limits that leave a joint no room are noted") {
+  const auto notices = [](const std::string& lower, const std::string& upper) {
+    return read_urdf(UrdfSource(
+                         robot("<link name=\"base\"/>" + solid("rod") +
+                               joint("pivot", "revolute", "base", "rod",
+                                     "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"3\"/>"
+                                     "<safety_controller soft_lower_limit=\"" +
+                                         lower + "\" soft_upper_limit=\"" + upper + "\"/>"))))
+        .notices;
+  };
+  CHECK(notices("1", "3") == Notices{"joint 'pivot': its soft limits, 1 .. 3, leave it no room to "
+                                     "move within its limits, -1 .. 1"});
+  CHECK(notices("-3", "-1").size() == 1);
+  CHECK(notices("0.5", "3").empty());
+}
+
 TEST_CASE("torque and force are other words for effort") {
   for (const std::string kind : {"torque", "force"}) {
     const std::string command = "\"" + kind + "\">";
@@ -105,6 +163,12 @@ TEST_CASE("limits of acceleration and jerk are read") {
   CHECK(notices("\"jerk\">" + param("max", "900")).empty());
   CHECK(notices("\"acceleration\">" + param("min", "-8") + param("max", "15")) ==
         Notices{owner + "acceleration: min -8 and max 15 differ; 8 counts in both directions"});
+  CHECK(limits_with("\"acceleration\">" + param("max", "-4")).acceleration == 4);
+  CHECK(notices("\"acceleration\">" + param("max", "-4")) ==
+        Notices{owner + "acceleration: max -4 counts as its size, 4, in both directions"});
+  CHECK(notices("\"jerk\">" + param("min", "4")) ==
+        Notices{owner + "jerk: min 4 counts as its size, 4, in both directions"});
+  CHECK(notices("\"jerk\">" + param("min", "-4")).empty());
   CHECK(notices("\"jerk\">" + param("max", "0")) ==
         Notices{owner + "jerk: a limit of 0 does not count, for the joint could not move"});
   CHECK(notices("\"jerk\">" + param("max", "much")) ==

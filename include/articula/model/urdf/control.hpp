@@ -22,6 +22,13 @@ struct UrdfInitialValues {
   std::optional<double> velocity{};  ///< [rad/s or m/s]
 };
 
+/// Limits of a command that leave it nothing.
+struct LimitContradiction {
+  std::string kind{};    ///< velocity, effort, torque or force
+  std::string bounds{};  ///< min and max, as a text
+  std::string reason{};  ///< why they cannot be, and what to do
+};
+
 namespace detail {
 
 /// Reads what <ros2_control> says about joints, and what <limit> says that urdfdom passes over.
@@ -40,11 +47,11 @@ class ControlReader {
     });
   }
 
-  std::map<std::string, JointLimits> limits{};                ///< of the commands, by joint
-  std::map<std::string, std::string> contradictions{};        ///< why they cannot be, likewise
-  std::vector<std::string> notices{};                         ///< what of them does not count
-  std::map<std::string, UrdfInitialValues> initial_values{};  ///< by joint
-  std::map<std::string, std::string> mimics{};                ///< whom, by joint; empty: nobody
+  std::map<std::string, JointLimits> limits{};                      ///< of the commands, by joint
+  std::multimap<std::string, LimitContradiction> contradictions{};  ///< between them, likewise
+  std::vector<std::string> notices{};                               ///< what of them does not count
+  std::map<std::string, UrdfInitialValues> initial_values{};        ///< by joint
+  std::map<std::string, std::string> mimics{};  ///< whom, by joint; empty: nobody
 
  private:
   /// The bounds of a command.
@@ -122,17 +129,18 @@ class ControlReader {
                      const Bounds& bounds) {
     constexpr double infinity = JointLimits::infinity;
     const double lower = bounds.min.value_or(-infinity), upper = bounds.max.value_or(infinity);
+    const std::string text = "min " + number_text(lower) + ", max " + number_text(upper);
     if (lower > 0 || upper < 0) {
-      contradictions.try_emplace(joint, kind + ": 0 is not within its limits (min " +
-                                            number_text(lower) + ", max " + number_text(upper) +
-                                            ")");
+      contradictions.insert({joint, {kind, text, "0 is not within its limits (" + text + ")"}});
       return;
     }
     if ((lower == 0) != (upper == 0)) {
-      contradictions.try_emplace(
-          joint, kind + ": its limits (min " + number_text(lower) + ", max " + number_text(upper) +
-                     ") leave one direction alone, and a joint has one limit for both: give min "
-                     "and max of both signs, or <limits enable=\"false\"/>");
+      contradictions.insert(
+          {joint,
+           {kind, text,
+            "its limits (" + text +
+                ") leave one direction alone, and a joint has one limit for both: give min and "
+                "max of both signs, or <limits enable=\"false\"/>"}});
       return;
     }
     narrow(limit, "<ros2_control>: joint '" + joint + "': " + kind, lower, upper);
@@ -148,6 +156,12 @@ class ControlReader {
       notices.push_back(where + ": a limit of 0 does not count, for the joint could not move");
       if (lower == upper) return;
     }
+    const auto note_sign = [&](const char* which, double bound) {
+      notices.push_back(where + ": " + which + " " + number_text(bound) + " counts as its size, " +
+                        number_text(std::abs(bound)) + ", in both directions");
+    };
+    if (bounds.min && *bounds.min > 0) note_sign("min", *bounds.min);
+    if (bounds.max && *bounds.max < 0) note_sign("max", *bounds.max);
     narrow(limit, where, lower == 0 ? upper : lower, upper == 0 ? lower : upper);
   }
 

@@ -106,37 +106,14 @@ namespace detail {
           .orientation = document.joint_orientations.at(joint.name)};
 }
 
-/// Refuses limits that leave a joint nothing because <ros2_control> narrows them to that.
-inline void check_limits(const UrdfDocument& document, const urdf::Joint& joint,
-                         const JointLimits& narrowed) {
-  const auto contradiction = document.contradictions.find(joint.name);
-  if (contradiction != document.contradictions.end()) {
-    throw UrdfError(document.file,
-                    "<ros2_control>: joint '" + joint.name + "': " + contradiction->second);
-  }
-  const auto command = document.command_limits.find(joint.name);
-  if (command == document.command_limits.end() || narrowed.lower <= narrowed.upper ||
-      !joint.limits || joint.limits->lower > joint.limits->upper) {
-    return;  // whatever else is wrong is no matter of these
-  }
-  const auto range = [](double lower, double upper) {
-    return number_text(lower) + " .. " + number_text(upper);
-  };
-  throw UrdfError(document.file, "joint '" + joint.name + "': its limits, " +
-                                     range(command->second.lower, command->second.upper) +
-                                     " in <ros2_control> and " +
-                                     range(joint.limits->lower, joint.limits->upper) +
-                                     " in <limit>, leave it no place");
-}
-
-/// A joint without whom it mimics, see leader_of.
+/// A joint without whom it mimics, see leader_of, and with limits as they are, see
+/// LimitContradictions.
 [[nodiscard]] inline Joint joint_of(const UrdfDocument& document, const urdf::Joint& joint) {
   Joint result = fixed_joint_of(document, joint);
   result.type = type_of(document, joint);
   if (result.type == JointType::fixed) return result;
   result.axis = vector_of(joint.axis);
   result.limits = joint_limits(document, joint);
-  check_limits(document, joint, result.limits);
   if (joint.dynamics) {
     result.damping = joint.dynamics->damping;
     result.friction = joint.dynamics->friction;

@@ -2,6 +2,7 @@
 /// @file A robot's description read from URDF.
 #pragma once
 
+#include "articula/model/urdf/contradictions.hpp"
 #include "articula/model/urdf/convert.hpp"
 #include "articula/model/urdf/document.hpp"
 #include "articula/model/urdf/fault_text.hpp"
@@ -165,6 +166,10 @@ class UrdfReader {
       if (mimics) notices_.add_lock(joint, position);
     } else {
       result_.joints.push_back(joint_of(document_, joint));
+      if (result_.joints.back().type != JointType::fixed) {
+        LimitContradictions(document_, options_.kinematic, notices_)
+            .check(joint, mimics ? leader.joint : "", result_.joints.back().limits);
+      }
       if (mimics) {
         check_leader(joint.name, leader.joint);
         result_.joints.back().mimic = {name_of(document_, leader.joint), leader.multiplier,

@@ -36,7 +36,7 @@ struct UrdfDocument {
       joint_orientations{};  ///< roll, pitch, yaw [rad] by joint; urdfdom keeps quaternions only
   std::map<std::string, Vector3<double>> inertia_orientations{};  ///< likewise by link
   std::map<std::string, JointLimits> command_limits{};            ///< from <ros2_control>, by joint
-  std::map<std::string, std::string> contradictions{};            ///< why these limits cannot be
+  std::multimap<std::string, LimitContradiction> contradictions{};  ///< between them, by joint
   std::map<std::string, UrdfSoftLimits> soft_limits{};        ///< of <safety_controller>, by joint
   std::map<std::string, UrdfInitialValues> initial_values{};  ///< likewise, by joint
   std::map<std::string, std::string>

@@ -107,8 +107,10 @@ class UrdfNotices {
                    " times, no room to move, so they do not count");
   }
 
- private:
+  /// Anything else.
   void add(const std::string& text) { notices_.push_back(text); }
+
+ private:
   void add(const Joint& joint, const std::string& text) {
     add("joint '" + std::string(joint.name.view()) + "': " + text);
   }
@@ -208,6 +210,12 @@ class UrdfNotices {
       add(joint, range + "it mimics '" + std::string(joint.mimic.joint.view()) + "'");
     } else if (!is_finite(joint.limits.soft_lower)) {
       add(joint, range + "they are beyond its limits, " + range_text(joint.limits));
+    } else if (joint.limits.lower < joint.limits.upper &&
+               std::max(joint.limits.lower, joint.limits.soft_lower) >=
+                   std::min(joint.limits.upper, joint.limits.soft_upper)) {
+      add(joint, "its soft limits, " + rounded_text(soft->second.lower) + " .. " +
+                     rounded_text(soft->second.upper) +
+                     ", leave it no room to move within its limits, " + range_text(joint.limits));
     }
   }
 
