@@ -16,6 +16,8 @@
 #include <articula/reference/trajectory_follower.hpp>
 #include <articula/sim/simulator.hpp>
 
+#include <type_traits>
+
 using namespace articula;
 
 struct Scara {
@@ -38,6 +40,10 @@ struct Scara {
       .kinematic = true};
 };
 using Loaded = KinematicModel<2>;
+
+// Neither makes the other, in silence or in braces.
+static_assert(!std::is_convertible_v<Loaded, Model<2>> && !std::is_convertible_v<Model<2>, Loaded>);
+static_assert(!std::is_constructible_v<Model<2>, Loaded> && !std::is_base_of_v<Model<2>, Loaded>);
 
 static_assert(Robot<Scara> && Robot<Loaded> && DescribedRobot<Scara>);
 static_assert(!DynamicRobot<Scara> && !DynamicRobot<Loaded> && DynamicRobot<Model<2>>);
@@ -114,6 +120,13 @@ int main() {
 #ifdef EFFORT_LOOP
   Loop<MockHardware<Loaded>, Pid> loop{MockHardware<Loaded>{loaded}, Pid<Loaded>{loaded, {}}};
   static_cast<void>(loop.update());
+#endif
+#ifdef SLICED
+  const Model<2>& dynamic = loaded;
+  sum += gravity(dynamic, q)[0];
+#endif
+#ifdef BRACED
+  sum += gravity(Model<2>{loaded}, q)[0];
 #endif
 #ifdef INERTIA
   sum += equivalent_inertia(loaded, JointVector<2>(0.1, 0.2), 0);

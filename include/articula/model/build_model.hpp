@@ -125,6 +125,7 @@ struct ModelBuilder {
 /// The model of a description without fault.
 /// @tparam N       number of joints, as model_size has it
 /// @tparam Bodies  number of moving bodies, likewise
+/// @tparam Kinematic  whether its masses are not known: then it is a KinematicModel
 /// @param name     of the robot
 /// @param gravity  acceleration of free fall in the root link's frame [m/s^2], 3 x 1
 /// @param links    all links
@@ -133,19 +134,19 @@ struct ModelBuilder {
 /// @param right_angle_tolerance  see canonical_form
 /// @pre            find_fault finds none
 /// Real-time: no (set-up or compile time).
-template <int N, int Bodies = N, class LinkFrames>
-[[nodiscard]] constexpr Model<N, Bodies, LinkFrames> build_model(
+template <int N, int Bodies = N, bool Kinematic = false, class LinkFrames>
+[[nodiscard]] constexpr Model<N, Bodies, LinkFrames, Kinematic> build_model(
     const Name& name, const Vector3<double>& gravity, std::span<const Link> links,
     std::span<const Joint> joints, LinkFrames frames,
     double right_angle_tolerance = default_right_angle_tolerance) {
-  Model<N, Bodies, LinkFrames> model{.name = name,
-                                     .mechanism = {},
-                                     .canonical = {},
-                                     .joints = {},
-                                     .moving_joints = {},
-                                     .links = frames};
+  Model<N, Bodies, LinkFrames, Kinematic> model{.name = name,
+                                                .mechanism = {},
+                                                .canonical = {},
+                                                .joints = {},
+                                                .moving_joints = {},
+                                                .links = frames};
   model.mechanism.gravity = gravity;
-  detail::ModelBuilder<Model<N, Bodies, LinkFrames>> builder{links, joints, model};
+  detail::ModelBuilder<Model<N, Bodies, LinkFrames, Kinematic>> builder{links, joints, model};
   for (const Link& link : links) {
     if (detail::carrier_of(joints, link.name).empty()) builder.add_link(link.name, -1, {}, {});
   }

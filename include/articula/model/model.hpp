@@ -24,11 +24,12 @@ struct LinkFrame {
 /// @tparam N           number of joints that can be commanded: moving ones that mimic no other
 /// @tparam Bodies      number of moving bodies: N and one for each mimic joint
 /// @tparam LinkFrames  container of LinkFrame: an array where the robot is known at compile time
-template <int N, int Bodies = N, class LinkFrames = std::vector<LinkFrame>>
+/// @tparam Kinematic   whether its masses are not known, see KinematicModel
+template <int N, int Bodies = N, class LinkFrames = std::vector<LinkFrame>, bool Kinematic = false>
 struct Model {
   static constexpr int joint_count = N;
   static constexpr int body_count = Bodies;
-  static constexpr bool kinematic = false;  ///< true for a KinematicModel
+  static constexpr bool kinematic = Kinematic;
 
   Name name{};
   Mechanism<N, Bodies> mechanism{};  ///< the bodies as described; link frames refer to it
@@ -40,10 +41,9 @@ struct Model {
 };
 
 /// A Model of a robot whose masses are not known. Kinematics, profiles, loops of positions and
-/// velocities, and mocks take it as any robot. What needs dynamics does not compile with it.
+/// velocities, and mocks take it as any robot. What needs dynamics does not compile with it. No
+/// Model can be made of it by mistake: it is another type.
 template <int N, int Bodies = N, class LinkFrames = std::vector<LinkFrame>>
-struct KinematicModel : Model<N, Bodies, LinkFrames> {
-  static constexpr bool kinematic = true;
-};
+using KinematicModel = Model<N, Bodies, LinkFrames, true>;
 
 }  // namespace articula

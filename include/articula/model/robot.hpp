@@ -23,10 +23,8 @@ namespace detail {
 
 template <class T>
 inline constexpr bool is_model = false;
-template <int N, int Bodies, class LinkFrames>
-inline constexpr bool is_model<Model<N, Bodies, LinkFrames>> = true;
-template <int N, int Bodies, class LinkFrames>
-inline constexpr bool is_model<KinematicModel<N, Bodies, LinkFrames>> = true;
+template <int N, int Bodies, class LinkFrames, bool Kinematic>
+inline constexpr bool is_model<Model<N, Bodies, LinkFrames, Kinematic>> = true;
 
 /// The model of a described robot, made and checked by the compiler.
 template <DescribedRobot R>
@@ -40,14 +38,9 @@ template <DescribedRobot R>
   } else {
     constexpr ModelSize size = model_size(description.joints);
     using LinkFrames = std::array<LinkFrame, description.links.size()>;
-    const auto model = build_model<size.joints, size.bodies>(
+    return build_model<size.joints, size.bodies, description.kinematic>(
         description.name, description.gravity, description.links, description.joints, LinkFrames{},
         description.right_angle_tolerance);
-    if constexpr (description.kinematic) {
-      return KinematicModel<size.joints, size.bodies, LinkFrames>{model};
-    } else {
-      return model;
-    }
   }
 }
 

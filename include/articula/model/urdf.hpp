@@ -32,9 +32,9 @@ namespace detail {
 }
 
 /// The model of a description, of either kind.
-template <int N, int Bodies>
-[[nodiscard]] Model<N, Bodies> any_model_of_urdf(const UrdfDescription& description,
-                                                 bool kinematic) {
+template <int N, int Bodies, bool Kinematic>
+[[nodiscard]] Model<N, Bodies, std::vector<LinkFrame>, Kinematic> any_model_of_urdf(
+    const UrdfDescription& description) {
   const ModelSize size = model_size(description.joints);
   if (size.joints != N || size.bodies != Bodies) {
     throw UrdfError(description.file, size_text(description, N, Bodies));
@@ -42,11 +42,11 @@ template <int N, int Bodies>
   const DescriptionFault fault =
       find_fault(description.name, description.gravity, description.links, description.joints,
                  description.allow_unphysical,  // what was changed since it was read is not known
-                 kinematic);
+                 Kinematic);
   if (fault.rule != Rule::none) {
     throw UrdfError(description.file, fault_text(fault, description.links, description.joints));
   }
-  return build_model<N, Bodies>(
+  return build_model<N, Bodies, Kinematic>(
       description.name, description.gravity, description.links, description.joints,
       std::vector<LinkFrame>(description.links.size()), description.right_angle_tolerance);
 }
@@ -66,7 +66,7 @@ template <int N, int Bodies = N>
                     "it was read as kinematic, without masses: call load_kinematic_urdf or "
                     "kinematic_model_of_urdf, or read it without UrdfOptions::kinematic");
   }
-  return detail::any_model_of_urdf<N, Bodies>(description, false);
+  return detail::any_model_of_urdf<N, Bodies, false>(description);
 }
 
 /// The model of a description of which the masses do not count, see KinematicModel.
@@ -74,7 +74,7 @@ template <int N, int Bodies = N>
 template <int N, int Bodies = N>
 [[nodiscard]] KinematicModel<N, Bodies> kinematic_model_of_urdf(
     const UrdfDescription& description) {
-  return {detail::any_model_of_urdf<N, Bodies>(description, true)};
+  return detail::any_model_of_urdf<N, Bodies, true>(description);
 }
 
 /// Loads a robot:
