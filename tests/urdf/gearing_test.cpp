@@ -122,16 +122,16 @@ TEST_CASE("A simulation starts at the initial values of ros2_control") {
       "</state_interface><state_interface name=\"effort\">"
       "<param name=\"initial_value\">7</param></state_interface></joint></ros2_control>");
   const auto pendulum = model_of_urdf<1>(description);
-  CHECK(initial_positions(description, pendulum)[0] == 0.375);
-  CHECK(initial_velocities(description, pendulum)[0] == -2);
+  CHECK(initial_positions(pendulum, description)[0] == 0.375);
+  CHECK(initial_velocities(pendulum, description)[0] == -2);
 
   UrdfDescription silent = description;
   silent.initial_values.clear();
   silent.joints[0].type = JointType::revolute;
   silent.joints[0].limits = {.lower = 0.5, .upper = 1};
   const auto raised = model_of_urdf<1>(silent);
-  CHECK(initial_positions(silent, raised)[0] == 0.5);
-  CHECK(initial_velocities(silent, raised)[0] == 0);
+  CHECK(initial_positions(raised, silent)[0] == 0.5);
+  CHECK(initial_velocities(raised, silent)[0] == 0);
   silent.joints[0].damping = -3;  // what is changed after the reading is looked at, too
   CHECK_THROWS_WITH(model_of_urdf<1>(silent),
                     Contains("'pivot'") && Contains("damping is negative") && Contains("-3"));
