@@ -66,6 +66,7 @@ TEST_CASE("a CSV file has a header with units and a line per record, exact to th
   writer.write(record);
   writer.write(record);
   writer.close();
+  writer.close();  // does nothing
 
   std::ifstream stream(file.path());
   std::string line;

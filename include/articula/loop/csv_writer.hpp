@@ -67,9 +67,11 @@ class CsvWriter {
     check();
   }
 
-  /// Completes the file.
+  /// Completes the file. Does nothing if it is closed already. The destructor completes it, too, but
+  /// does not say whether all was written.
   /// @throws std::runtime_error if not all could be written
   void close() {
+    if (!file_.is_open()) return;
     file_.close();
     check();
   }

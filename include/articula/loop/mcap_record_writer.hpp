@@ -12,7 +12,7 @@
 namespace articula {
 
 /// Writes records to an MCAP file, as JSON messages of the topic "cycle". Their time is the loop's,
-/// which begins at 0.
+/// which begins at 0. The destructor completes the file; close() also says whether that went well.
 /// @tparam R            the robot
 /// @tparam CommandType  of the loop
 template <Robot R, class CommandType>
@@ -41,7 +41,7 @@ class McapRecordWriter {
                   record_json(robot_, record, extras_).dump());
   }
 
-  /// Completes the file.
+  /// Completes the file. Does nothing if it is closed already.
   /// @throws std::runtime_error if not all could be written
   void close() { writer_.close(); }
 

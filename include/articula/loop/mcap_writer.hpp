@@ -48,6 +48,15 @@ class McapWriter {
     put(0x04, channel_);
     check();
   }
+  /// Completes the file if it is open. What close() would throw is lost: call that to learn of it.
+  ~McapWriter() {
+    try {
+      close();
+    } catch (...) {
+    }
+  }
+  McapWriter(McapWriter&&) = default;
+  McapWriter& operator=(McapWriter&&) = delete;
 
   /// Appends a message.
   /// @param time     since any moment, >= 0
@@ -68,9 +77,11 @@ class McapWriter {
     check();
   }
 
-  /// Completes the file with its summary, which readers use as a table of contents.
+  /// Completes the file with its summary, which readers use as a table of contents. Does nothing if
+  /// the file is closed already.
   /// @throws std::runtime_error if not all could be written
   void close() {
+    if (!file_.is_open()) return;
     complete_chunk();
     put(0x0f, Bytes().number(0, 4));
     Bytes statistics;
