@@ -50,7 +50,9 @@ static_assert(!DynamicRobot<Scara> && !DynamicRobot<Loaded> && DynamicRobot<Mode
 
 // What needs no masses.
 template <Robot R>
-using Positions = MockHardware<R, PositionCommand<2>>;
+using Positions = MockHardware<R>;  // of a kinematic robot
+static_assert(std::same_as<Positions<Scara>::Command, PositionCommand<2>>);
+static_assert(std::same_as<Positions<Loaded>::Command, PositionCommand<2>>);
 template <Robot R>
 using Velocities = MockHardware<R, VelocityCommand<2>>;
 template <class R>
@@ -65,7 +67,7 @@ template <Robot R>
 void motion(const R& robot) {
   const CommandLimits<2> limits = command_limits(robot);
   Loop<Positions<R>, LimitedPosition> positions{
-      Positions<R>{robot}, LimitedPosition<R>{robot, limits, ForwardPosition<R>{robot}}};
+      Positions<R>{robot}, LimitedPosition<R>{robot, limits}};  // makes its ForwardPosition
   Loop<Velocities<R>, LimitedVelocity> velocities{
       Velocities<R>{robot}, LimitedVelocity<R>{robot, limits, ForwardVelocity<R>{robot}}};
   SupervisedLoop<Positions<R>, ForwardPosition> supervised{Positions<R>{robot},
@@ -118,7 +120,8 @@ int main() {
   EffortLimiter<Scara> limiter(Scara{}, {});
 #endif
 #ifdef EFFORT_LOOP
-  Loop<MockHardware<Loaded>, Pid> loop{MockHardware<Loaded>{loaded}, Pid<Loaded>{loaded, {}}};
+  using Efforts = MockHardware<Loaded, EffortCommand<2>>;
+  Loop<Efforts, Pid> loop{Efforts{loaded}, Pid<Loaded>{loaded, {}}};
   static_cast<void>(loop.update());
 #endif
 #ifdef SLICED

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a loop is made of has to fit.
+#include <articula/control/forward_position.hpp>
+#include <articula/control/limited.hpp>
 #include <articula/control/pid.hpp>
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/control/switch.hpp>
+#include <articula/hardware/mock_hardware.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -90,6 +93,12 @@ int main() {
   Loop of_any_robot{Drives(), Limp<Q2d>(), 2e-3};
   static_assert(std::same_as<decltype(of_one_robot)::ControllerType, LimpArm>);
   static_assert(std::same_as<decltype(of_any_robot)::ControllerType, Limp<Q2d>>);
+#ifdef MOCK_OF_EFFORTS
+  Loop<MockHardware<Q2d>, ForwardPosition> mistake;
+#endif
+#ifdef LIMITED_WITHOUT_CONTROLLER
+  Limited<Bare, PidPlusGravity> mistake(command_limits(Bare()));
+#endif
 #ifdef ROBOT_AS_HARDWARE
   Loop<Q2d, PidPlusGravity> mistake;
 #endif

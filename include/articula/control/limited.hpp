@@ -17,6 +17,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <exception>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -70,15 +71,20 @@ class Limited {
   /// @param controller  whose commands are limited
   /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is
   ///         beyond what the description says, or is missing (see EffortLimiter)
-  Limited(const R& robot, const CommandLimits<joint_count>& limits,
-          ControllerType controller = ControllerType())
+  Limited(const R& robot, const CommandLimits<joint_count>& limits, ControllerType controller)
       : controller_(std::move(controller)),
         limits_(limits),
         limiter_(make_limiter(robot, limits)) {}
+  /// With a controller that is made from the robot, or by default where none can be.
+  Limited(const R& robot, const CommandLimits<joint_count>& limits)
+      : Limited(robot, limits, controller_of(robot)) {}
   /// For a robot known at compile time.
-  explicit Limited(const CommandLimits<joint_count>& limits,
-                   ControllerType controller = ControllerType()) requires DescribedRobot<R>
+  Limited(const CommandLimits<joint_count>& limits,
+          ControllerType controller) requires DescribedRobot<R>
       : Limited(R(), limits, std::move(controller)) {}
+  /// @copydoc Limited(const CommandLimits<joint_count>&, ControllerType)
+  explicit Limited(const CommandLimits<joint_count>& limits) requires DescribedRobot<R>
+      : Limited(R(), limits) {}
 
   /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
   void start(const State& state) noexcept {
@@ -156,6 +162,19 @@ class Limited {
 
   [[nodiscard]] static constexpr std::size_t index(int j) noexcept {
     return static_cast<std::size_t>(j);
+  }
+
+  [[nodiscard]] static ControllerType controller_of(const R& robot) {
+    if constexpr (std::constructible_from<ControllerType, const R&>) {
+      return ControllerType(robot);
+    } else if constexpr (std::default_initializable<ControllerType>) {
+      return ControllerType();
+    } else {
+      static_assert(std::default_initializable<ControllerType>,
+                    "Limited cannot make this controller from the robot alone: pass the "
+                    "controller behind the limits");
+      std::terminate();
+    }
   }
 
   [[nodiscard]] static Limiter make_limiter(const R& robot,

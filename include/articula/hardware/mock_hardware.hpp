@@ -5,16 +5,27 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/hardware/mock_fault.hpp"
+#include "articula/model/dynamic_robot.hpp"
 #include "articula/model/robot.hpp"
 
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace articula {
+
+namespace detail {
+
+/// What a mock takes unless it is said: positions where the robot has no masses, else efforts.
+template <Robot R>
+using MockCommand = std::conditional_t<is_kinematic<R>, PositionCommand<joint_count<R>>,
+                                       EffortCommand<joint_count<R>>>;
+
+}  // namespace detail
 
 /// Hardware that is not there: joints that do at once what they are told, without any dynamics, and
 /// fail by a script. For trying out everything around a robot.
@@ -25,8 +36,8 @@ namespace articula {
 /// a damper alone move with its velocity, and all show the effort.
 /// Commands move joints while the hardware is active; a command that is not finite is refused.
 /// @tparam R            the robot
-/// @tparam CommandType  what the drives take
-template <Robot R, JointCommand<joint_count<R>> CommandType = EffortCommand<joint_count<R>>>
+/// @tparam CommandType  what the drives take; by default efforts, of a kinematic robot positions
+template <Robot R, JointCommand<joint_count<R>> CommandType = detail::MockCommand<R>>
 class MockHardware {
  public:
   using RobotType = R;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a type lacks to be the controller of a loop: one message for each thing.
+/// @file What types lack to be the hardware and controller of a loop: one message for each thing.
 #pragma once
 
 #include "articula/core/controller.hpp"
@@ -56,6 +56,12 @@ struct CheckedController<C, N, false> : CheckedUpdate<C, N> {
   static_assert(Startable<C, N>,
                 "the controller has no start(JointState<N>) for the N joints of this robot, see "
                 "core/controller.hpp");
+};
+
+/// Hardware that is written such commands, whatever else it may lack.
+template <class H, class Command>
+concept TakesCommand = requires(H hardware, const Command& command) {
+  hardware.write(command);
 };
 
 /// The robot of a hardware.

@@ -61,9 +61,15 @@ class Loop {
   using State = JointState<joint_count>;
   using Reference = JointReference<joint_count>;
   using Command = typename detail::CheckedController<ControllerType, joint_count>::Command;
-  static_assert(!Controller<ControllerType, joint_count> || Hardware<HardwareType, Command>,
-                "the hardware does not accept this controller's command, or "
-                "lacks something, see core/hardware.hpp");
+  static_assert(!Controller<ControllerType, joint_count> ||
+                    detail::TakesCommand<HardwareType, Command>,
+                "the hardware does not take this controller's kind of command: give it drives that "
+                "do, such as MockHardware<R, PositionCommand<N>> for positions, or choose another "
+                "controller");
+  static_assert(!Controller<ControllerType, joint_count> ||
+                    !detail::TakesCommand<HardwareType, Command> || Hardware<HardwareType, Command>,
+                "the hardware lacks something: robot(), activate(), deactivate(), or noexcept "
+                "read(state) and write(command) that return a Status, see core/hardware.hpp");
 
   /// Default hardware and controller.
   Loop() requires std::default_initializable<HardwareType>
