@@ -6,6 +6,7 @@
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/control/switch.hpp>
 #include <articula/hardware/mock_hardware.hpp>
+#include <articula/loop/gains_exchange.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -108,6 +109,12 @@ int main() {
 #ifdef GAINS_OF_NOBODY
   TwoPids<Q2d>().set_gains(ValidPidGains<2>());
 #endif
+  GainsExchange<PidGains, 2> exchange(Q2d{});
+  TwoPids<Q2d> two;
+#ifdef EXCHANGE_WITH_NOBODY
+  exchange.apply(two);
+#endif
+  exchange.apply(two.member<0>());
   TwoPids<Q2d>().member<Pid<Q2d>>().set_gains(ValidPidGains<2>());
 #ifdef WITHOUT_GAINS
   Loop<BareDrives, PidPlusGravity> mistake;

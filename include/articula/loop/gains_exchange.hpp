@@ -48,13 +48,23 @@ class GainsExchange {
 
   /// Gives the controller the latest gains, if there are any that it does not have yet. For the
   /// control thread, between two cycles.
+  /// @param controller  has a noexcept set_gains(ValidGains<G, N>); of a Switch or Groups in which
+  ///                    several have, the one that is meant: `member<I>()`
   /// @return whether there were some
   /// Real-time: yes. Wait-free.
-  template <TakesGains<ValidGains<G, N>> C>
+  template <class C>
   bool apply(C& controller) noexcept {
-    if (!latest_.update()) return false;
-    controller.set_gains(latest_.value());
-    return true;
+    if constexpr (TakesGains<C, ValidGains<G, N>>) {
+      if (!latest_.update()) return false;
+      controller.set_gains(latest_.value());
+      return true;
+    } else {
+      static_assert(TakesGains<C, ValidGains<G, N>>,
+                    "this controller does not take such gains for N joints: of several in a Switch "
+                    "or Groups pass the one that is meant, apply(loop.controller().member<I>()); "
+                    "your own controller needs set_gains(const ValidGains<G, N>&) noexcept");
+      return false;
+    }
   }
 
  private:
