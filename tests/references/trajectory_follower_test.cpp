@@ -453,13 +453,14 @@ TEST_CASE("a refusal says which figure of which joint breaks which rule") {
   CHECK(why().empty());
   run(follower, 0, 3);
   CHECK(follower.start(there, {}, 0.5) == old_header_timestamp);
-  CHECK(why() == "time_from_start of the last point 2 has passed");
+  CHECK(why() == "the last point's time_from_start 2 has passed");
 
   // At (-1, 1) now, and 0.1 s are not enough: the shoulder would need 10 m/s, and has 2.
   const Points near({{.time_from_start = 0.1, .position = {0, 0.9}}});
   CHECK(follower.start(near) == invalid_goal);
   CHECK(why() ==
-        "mean velocity to the last point 10 of joint 'shoulder_active_joint' is above its limit 2");
+        "on the way to the last point the mean velocity 10 of joint 'shoulder_active_joint' is "
+        "above its limit 2");
 
   // In motion there is a trajectory that the mean velocity lets through, but not the acceleration.
   REQUIRE(follower.start(Points({{.time_from_start = 1, .position = {0.5, 1}}})) == active);

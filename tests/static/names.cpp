@@ -9,7 +9,11 @@ constexpr auto elbow = articula::joint_index(articula::Q2d{}, "elbow_active_join
 #ifdef UNKNOWN_LINK
 constexpr auto mistake = articula::link_index(articula::Q2d{}, "tool_lnik");
 #endif
-#ifdef UNKNOWN_NAMED_LINK
+#ifdef UNKNOWN_LINK_OF_POSE
+const auto mistake =
+    articula::forward_kinematics<"tool_lnik">(articula::Q2d{}, articula::JointVector<2>::Zero());
+#endif
+#ifdef UNKNOWN_LINK_OF_JACOBIAN
 const auto mistake =
     articula::jacobian<"tool_lnik">(articula::Q2d{}, articula::JointVector<2>::Zero());
 #endif

@@ -202,7 +202,8 @@ TEST_CASE("Inertias that cannot be") {
   CHECK(refusal(inertial("-1"), {.allow_unphysical = true}) ==
         "URDF: link 'rod': the mass is negative (-1 kg)");
   CHECK(refusal(pendulum("<link name='rod'/>")) ==
-        "URDF: joint 'pivot': the joint moves no link that has mass (lock it, or give rod a mass)" +
+        "URDF: joint 'pivot': the joint moves no link that has mass (lock it, or give link "
+        "'rod' a mass)" +
             kinematic);
 }
 

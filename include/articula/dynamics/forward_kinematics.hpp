@@ -5,6 +5,7 @@
 #include "articula/dynamics/body_placements.hpp"
 #include "articula/dynamics/evaluate.hpp"
 #include "articula/dynamics/link_chain.hpp"
+#include "articula/dynamics/link_check.hpp"
 
 #include <Eigen/Geometry>
 
@@ -106,8 +107,12 @@ template <Robot R>
 template <Name Link, DescribedRobot R>
 [[nodiscard]] Eigen::Isometry3d forward_kinematics(const R&,
                                                    const JointVector<joint_count<R>>& q) noexcept {
-  [[maybe_unused]] constexpr LinkIndex there_is = link_index(R{}, Link);
-  return detail::to_isometry(compiled::run<PlacementOf<Link>, R>(q.data()));
+  if constexpr (detail::has_link<Link, R>()) {
+    return detail::to_isometry(compiled::run<PlacementOf<Link>, R>(q.data()));
+  } else {
+    detail::reject_link<Link, R>();
+    return Eigen::Isometry3d::Identity();
+  }
 }
 
 /// The same for a link given by name.

@@ -126,11 +126,14 @@ template <Robot R>
 template <Name Link, DescribedRobot R>
 [[nodiscard]] LinkJacobian<joint_count<R>> jacobian(const R&,
                                                     const JointVector<joint_count<R>>& q) noexcept {
-  [[maybe_unused]] constexpr LinkIndex there_is = link_index(R{}, Link);
-  const auto columns = compiled::run<JacobianOf<Link>, R>(q.data());
   LinkJacobian<joint_count<R>> jacobian;
-  symbolic::detail::for_each_index<columns.size()>([&](
-      std::size_t i) __attribute__((always_inline)) { jacobian.data()[i] = columns[i]; });
+  if constexpr (detail::has_link<Link, R>()) {
+    const auto columns = compiled::run<JacobianOf<Link>, R>(q.data());
+    symbolic::detail::for_each_index<columns.size()>([&](
+        std::size_t i) __attribute__((always_inline)) { jacobian.data()[i] = columns[i]; });
+  } else {
+    detail::reject_link<Link, R>();
+  }
   return jacobian;
 }
 

@@ -32,7 +32,7 @@ struct NamedTrajectory {
 
 /// What is done about numbers that a named trajectory leaves out:
 ///
-///     arrange(Ur10(), named, {.allow_partial_joints = true, .from = loop.reference()});
+///     arrange(Ur10(), named, {.allow_partial_joints = true, .from = follower.reference()});
 template <int N>
 struct ArrangeOptions {
   TrajectoryOptions trajectory{};

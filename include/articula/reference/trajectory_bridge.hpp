@@ -82,7 +82,10 @@ template <Robot R, int Capacity, int N = joint_count<R>>
 
     const double period = points[k].time_from_start - time;
     const JointVector<N> distance = (bridge.to.position - present.position).cwiseAbs();
-    if (!within("mean velocity to the last point", distance / period, limits.velocity)) continue;
+    if (!within("on the way to the last point the mean velocity", distance / period,
+                limits.velocity)) {
+      continue;
+    }
 
     if (moves) {
       const JointReference<N> onward =
@@ -103,11 +106,12 @@ template <Robot R, int Capacity, int N = joint_count<R>>
                            highest(present.velocity, end.velocity, limits.velocity),
                            highest(present.acceleration, end.acceleration, limits.acceleration)};
     const auto peaks = peaks_between(bridge.from, bridge.to, most);
-    if (within("velocity on the way to the last point", peaks.velocity, most.velocity) &&
-        within("acceleration on the way to the last point", peaks.acceleration,
+    if (within("on the way to the last point the highest velocity", peaks.velocity,
+               most.velocity) &&
+        within("on the way to the last point the highest acceleration", peaks.acceleration,
                most.acceleration) &&
-        within("position on the way to the last point", peaks.highest, most.highest) &&
-        within("position on the way to the last point", peaks.lowest, most.lowest, -1)) {
+        within("on the way to the last point the position", peaks.highest, most.highest) &&
+        within("on the way to the last point the position", peaks.lowest, most.lowest, -1)) {
       return bridge;
     }
   }

@@ -250,7 +250,7 @@ class TrajectoryFollower {
 
   [[nodiscard]] bool is_past(const TrajectoryType& trajectory, double own_time) noexcept {
     if (trajectory.duration() > own_time) return false;
-    refusal_ = {.what = "time_from_start of the last point",
+    refusal_ = {.what = "the last point's time_from_start",
                 .value = trajectory.duration(),
                 .rule = "has passed"};
     return true;

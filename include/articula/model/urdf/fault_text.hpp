@@ -58,7 +58,7 @@ namespace articula::detail {
     case Rule::reflected_inertia_is_negative:
       return rounded_text(joint.reflected_inertia);
     case Rule::joint_moves_no_mass:
-      return "lock it, or give " + std::string(joint.child.view()) + " a mass";
+      return "lock it, or give link '" + std::string(joint.child.view()) + "' a mass";
     case Rule::mimicked_joint_does_not_exist:
     case Rule::mimicked_joint_is_not_free:
       return std::string(joint.mimic.joint.view());
