@@ -4,6 +4,7 @@
 
 #include "articula/control/feedforward.hpp"
 #include "articula/control/friction_compensation.hpp"
+#include "articula/control/part_scope.hpp"
 #include "articula/control/pid_law.hpp"
 #include "articula/control/sum_controller.hpp"
 #include "articula/dynamics/forward_dynamics.hpp"
@@ -76,6 +77,11 @@ class ComputedTorqueLaw {
 
   /// Goes on with other gains of the feedback. Real-time: yes.
   void set_gains(const ValidPidGains<joint_count>& gains) noexcept { feedback_.set_gains(gains); }
+
+  /// Calls function(feedback, scope): the PID, whose output is an acceleration.
+  void for_each_part(auto&& function) const {
+    function(feedback_, PartScope<joint_count>{.asks_acceleration = true});
+  }
 
  private:
   [[no_unique_address]] R robot_;

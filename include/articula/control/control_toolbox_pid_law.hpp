@@ -4,6 +4,7 @@
 
 #include "articula/control/joint_pid.hpp"
 #include "articula/control/pid_gains.hpp"
+#include "articula/control/sampled_feedback.hpp"
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
 
@@ -93,6 +94,14 @@ class ControlToolboxPidLaw {
 
   /// Goes on with other gains, none of them negative. Real-time: yes.
   void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains.values(); }
+
+  /// What becomes of one joint's measurements, see gain_notices. Real-time: yes.
+  [[nodiscard]] SampledFeedback sampled_feedback(std::size_t joint) const noexcept {
+    SampledFeedback feedback = SampledFeedback::of(gains_[joint]);
+    feedback.filter_time = 0;  // it has none
+    feedback.integral_lags = version_ == ControlToolbox::current;
+    return feedback;
+  }
 
   /// The integral terms that the next (current) or the last output (all others) contains
   /// [output], N x 1. Real-time: yes.

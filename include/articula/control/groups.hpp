@@ -6,6 +6,7 @@
 #include "articula/control/damping_effort.hpp"
 #include "articula/control/effort_law.hpp"
 #include "articula/control/joint_group.hpp"
+#include "articula/control/part_scope.hpp"
 #include "articula/control/resume.hpp"
 #include "articula/control/safe_command.hpp"
 #include "articula/control/switch_board.hpp"
@@ -248,6 +249,17 @@ class Groups {
       }
     });
     return all;
+  }
+
+  /// Calls function(controller, scope) for each of the controllers.
+  void for_each_part(auto&& function) const {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      const auto scope = [](const Part& part) {
+        return PartScope<joint_count>{.joints = part.chosen, .divisor = part.divisor};
+      };
+      (function(std::get<I>(controllers_), scope(parts_[I])), ...);
+    }
+    (std::index_sequence_for<Controllers...>());
   }
 
   /// The controller of a group, by the group's place in the list.

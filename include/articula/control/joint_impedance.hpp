@@ -5,6 +5,7 @@
 #include "articula/control/feedforward.hpp"
 #include "articula/control/gravity_compensation.hpp"
 #include "articula/control/impedance_gains.hpp"
+#include "articula/control/sampled_feedback.hpp"
 #include "articula/control/sum_controller.hpp"
 
 #include <string_view>
@@ -32,6 +33,14 @@ class ImpedanceLaw {
                   g.damping * (reference.velocity[j] - state.velocity[j]);
     }
     return effort;
+  }
+
+  /// What becomes of one joint's measurements, see gain_notices. Real-time: yes.
+  [[nodiscard]] SampledFeedback sampled_feedback(std::size_t joint) const noexcept {
+    return {.proportional = gains_[joint].stiffness,
+            .derivative = gains_[joint].damping,
+            .proportional_name = "stiffness",
+            .derivative_name = "damping"};
   }
 
   /// Goes on with other springs and dampers. Real-time: yes.

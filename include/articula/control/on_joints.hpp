@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/control/effort_law.hpp"
+#include "articula/control/part_scope.hpp"
 #include "articula/model/robot.hpp"
 
 #include <span>
@@ -65,6 +66,9 @@ class OnJoints {
   template <class Gains>
   requires TakesGains<Law, Gains>
   void set_gains(const Gains& gains) noexcept { law_.set_gains(gains); }
+
+  /// Calls function(part, scope).
+  void for_each_part(auto&& function) const { function(law_, PartScope<N>{.joints = chosen_}); }
 
  private:
   /// What belongs to the part's joints; a NaN of another joint does not get through.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/control/joint_pid.hpp"
+#include "articula/control/sampled_feedback.hpp"
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/model/robot.hpp"
@@ -121,6 +122,13 @@ class PidLaw {
   void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains; }
 
   [[nodiscard]] const JointPidGains<N>& gains() const noexcept { return gains_.values(); }
+
+  /// What becomes of one joint's measurements, see gain_notices. Real-time: yes.
+  [[nodiscard]] SampledFeedback sampled_feedback(std::size_t joint) const noexcept {
+    SampledFeedback feedback = SampledFeedback::of(gains_[joint]);
+    feedback.of_velocity = Variable == PidOf::velocity;
+    return feedback;
+  }
 
   /// The integral terms I [output], N x 1. Real-time: yes.
   [[nodiscard]] JointVector<N> integral() const noexcept {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Where a part of a controller acts, and when.
+#pragma once
+
+#include "articula/core/joint_vector.hpp"
+
+namespace articula {
+
+/// What a controller does with the output of one of its parts. `for_each_part` of controllers that
+/// are made of parts calls function(part) or function(part, scope).
+/// @tparam N  number of joints
+template <int N>
+struct PartScope {
+  JointVector<N> joints = JointVector<N>::Ones();  ///< 1 for the joints that it acts on, else 0
+  int divisor = 1;                 ///< it is asked in every cycle of this number, >= 1
+  bool asks_acceleration = false;  ///< its output is an acceleration, which the model turns into
+                                   ///< efforts, so that every joint is an inertia of 1
+
+  /// The scope of a part of a part. Real-time: yes.
+  [[nodiscard]] PartScope of(const PartScope& inner) const noexcept {
+    return {joints.cwiseProduct(inner.joints), divisor * inner.divisor,
+            asks_acceleration || inner.asks_acceleration};
+  }
+};
+
+}  // namespace articula
