@@ -83,7 +83,7 @@ TEST_CASE("what a loop has to say before it runs is a warning") {
   on_thread([&] { CHECK(run(loop, options).cycles == 1); });
   on_thread([&] { CHECK(run(supervised, options).cycles == 1); });
   REQUIRE(warnings.size() == 2);
-  CHECK(warnings[0].find("'elbow_active_joint' will chatter") != std::string::npos);
+  CHECK(warnings[0].find("joint 'elbow_active_joint': the gains ") != std::string::npos);
   CHECK(warnings[1] == warnings[0]);
 }
 
