@@ -5,6 +5,7 @@
 #include "articula/control/joint_plant.hpp"
 #include "articula/control/part_scope.hpp"
 #include "articula/control/sampled_feedback.hpp"
+#include "articula/control/sampled_loop.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
