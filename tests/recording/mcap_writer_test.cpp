@@ -294,13 +294,13 @@ TEST_CASE("the index of the chunks leads to every message") {
 
 TEST_CASE("a file that was never closed has all messages, wherever it ends") {
   const support::ScratchFile file("open.mcap");
-  const std::string text(60'000, 'x');  // 18 of them complete a chunk
+  const std::string text(3'750, 'x');  // 18 of them complete a chunk
   McapWriter writer(file.path(), "cycle", "K", "{}");
   for (std::size_t k = 0; k < 40; ++k) writer.write(std::chrono::milliseconds(k), text);
   const std::string bytes = content_of(file.path());  // as a crash would leave it
   const auto all = messages_from_the_front(bytes);
   const std::size_t count = all.size();
-  REQUIRE(count >= 39);  // the end of the last one may still be in the stream's buffer
+  REQUIRE(count >= 37);  // the last ones may still be in the stream's buffer
   for (std::size_t k = 0; k < count; ++k) CHECK(all[k].sequence == k);
 
   // As the file was while the third chunk was being filled: cut within it.
@@ -315,6 +315,11 @@ TEST_CASE("a file that was never closed has all messages, wherever it ends") {
   for (std::size_t cut = third; cut <= bytes.size(); cut += 997) {
     const std::size_t whole = cut < third + head ? 0 : (cut - third - head) / size;
     CHECK(messages_from_the_front(bytes.substr(0, cut)).size() == before + whole);
+  }
+  // A copy that lacks its end, in the middle of a chunk that is complete.
+  for (std::size_t cut = 500; cut < third; cut += 997) {
+    const std::size_t reached = cut / size;
+    CHECK(messages_from_the_front(bytes.substr(0, cut)).size() + 18 >= reached);
   }
 }
 

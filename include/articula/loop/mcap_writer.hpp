@@ -24,11 +24,12 @@ namespace articula {
 /// Readers with random access need chunks and their index. Readers of a file that was never closed
 /// need messages outside of an unfinished chunk. Both get them: a chunk is first written empty, and
 /// its messages stand behind it. When it is full, its length is set, so that it contains them.
-/// So a file that ends anywhere has a valid beginning with all messages that reached the disk.
+/// So a file that was never closed has all messages that were written. A file of which the end was
+/// lost has those of all chunks before the one in which it ends.
 class McapWriter {
  public:
   /// A chunk is complete when its messages take this much [bytes]. Readers load whole chunks.
-  static constexpr std::uint64_t chunk_size = 1 << 20;
+  static constexpr std::uint64_t chunk_size = 1 << 16;
 
   /// @param path         the file; must be seekable, so it cannot be a pipe
   /// @param topic        name of the topic
