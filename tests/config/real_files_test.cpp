@@ -82,7 +82,14 @@ TEST_CASE("a placeholder without a value is named, and how to give it") {
   CHECK_THAT(complaint_of([] {
                return load_controller({ur, {{"prefix", ""}}}, trajectory);
              }),
-             Contains("'$(var tf_prefix)'") && Contains(how));
+             Contains("'$(var tf_prefix)'") && Contains(how + "; given were values for 'prefix'"));
+  CHECK_THAT(complaint_of([] {
+               const std::string joints = "joints: [elbow_active_joint]\nconstraints: ";
+               return load_trajectory_tolerances(
+                   Q2d(), ConfigSource::text(joints + "{$(var x)elbow: {goal: 1}}\n", "test",
+                                             {{"y", "1"}, {"z", "2"}}));
+             }),
+             Contains("unknown key '$(var x)elbow'") && Contains("values for 'y', 'z'"));
   const auto keys = [](const std::string& key) {
     return complaint_of([&] {
       return load_trajectory_tolerances(

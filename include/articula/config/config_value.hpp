@@ -34,7 +34,7 @@ class ConfigValue {
   }
   /// @throws ConfigError: what stands there, and what should
   [[noreturn]] void refuse(const std::string& expected) const {
-    refuse(what_is(*node_), expected + value_hint(node_->text));
+    refuse(what_is(*node_), expected + value_hint(node_->text, node_->given));
   }
 
   /// A finite number.

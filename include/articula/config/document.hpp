@@ -36,8 +36,14 @@ class ConfigBuilder final : public YAML::EventHandler {
   static constexpr std::size_t deepest = 32;        ///< levels of lists and maps
   static constexpr std::size_t most_nodes = 20000;  ///< with those that aliases repeat
 
-  /// @param text  what is parsed; it must live on
-  ConfigBuilder(std::string file, const FilledText& text) : file_(std::move(file)), text_(&text) {}
+  /// @param text    what is parsed; it must live on
+  /// @param values  of placeholders that were given
+  ConfigBuilder(std::string file, const FilledText& text, const ConfigValues& values)
+      : file_(std::move(file)), text_(&text) {
+    for (const auto& [name, value] : values) {
+      given_ += (given_.empty() ? "'" : ", '") + shown(name) + "'";
+    }
+  }
 
   /// The root of the document.
   [[nodiscard]] ConfigNode take() { return std::move(root_); }
@@ -205,11 +211,15 @@ class ConfigBuilder final : public YAML::EventHandler {
       if (node.kind == ConfigNode::Kind::nothing) node.mark = node.key_mark;
       parent.has_key = false;
     }
+    if (!given_.empty() && (has_placeholder(node.key) || has_placeholder(node.text))) {
+      node.given = given_;
+    }
     parent.node.items.push_back(std::move(node));
   }
 
   std::string file_;
   const FilledText* text_;
+  std::string given_{};  ///< the names of values, listed
   bool started_ = false;
   std::size_t nodes_ = 0;
   std::vector<Open> stack_{};
@@ -226,7 +236,7 @@ class ConfigBuilder final : public YAML::EventHandler {
   const std::string& text = filled.text();
   check_characters(source.name(), text);
   std::istringstream stream(text);
-  ConfigBuilder builder(source.name(), filled);
+  ConfigBuilder builder(source.name(), filled, source.values());
   try {
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) continue;

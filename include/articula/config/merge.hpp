@@ -85,7 +85,8 @@ inline void insert_dotted(const ConfigPlace& place, ConfigNode& map, std::string
     map.items.push_back({.kind = ConfigNode::Kind::map,
                          .key = std::string(first),
                          .mark = item.mark,
-                         .key_mark = item.key_mark});
+                         .key_mark = item.key_mark,
+                         .given = item.given});
     same = map.items.end() - 1;
   }
   if (same->is_map() && inner) {

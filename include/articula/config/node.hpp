@@ -28,6 +28,7 @@ struct ConfigNode {
   bool inherited = false;  ///< likewise: something that the section may not know
   ConfigMark mark{};
   ConfigMark key_mark{};
+  std::string given{};  ///< values that were given, if text or key has a placeholder without one
   std::vector<ConfigNode> items{};  ///< of a list or map
 
   [[nodiscard]] bool is_map() const noexcept { return kind == Kind::map; }

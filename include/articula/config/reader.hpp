@@ -38,7 +38,8 @@ class ConfigMap {
         tolerant_(inherited == Inherited::may_be_unknown) {
     const ConfigNode& node = value_.node();
     if (node.is_map()) return;
-    const std::string hint = node.kind == ConfigNode::Kind::scalar ? key_hint(node.text) : "";
+    const std::string hint =
+        node.kind == ConfigNode::Kind::scalar ? key_hint(node.text, node.given) : "";
     value_.refuse("a map" + (hint.empty() ? hint : ", and " + hint));
   }
 
@@ -135,7 +136,7 @@ class ConfigMap {
   /// What YAML takes for a key though nobody has meant one.
   void refuse_slips(const std::vector<const ConfigNode*>& others) const {
     for (const ConfigNode* item : others) {
-      const std::string hint = key_hint(item->key);
+      const std::string hint = key_hint(item->key, item->given);
       if (!hint.empty()) refuse_key(*item, hint);
       refuse_comma(*item);
     }

@@ -103,14 +103,18 @@ struct ParsedNumber {
 }
 
 /// Likewise, to be said behind what was expected in its place.
-[[nodiscard]] inline std::string value_hint(std::string_view text) {
-  return has_placeholder(text) ? ", or a value for it" + value_example(text) : "";
+/// @param given  the names of the values that were given; may be empty
+[[nodiscard]] inline std::string value_hint(std::string_view text, std::string_view given = {}) {
+  if (!has_placeholder(text)) return "";
+  return ", or a value for it" + value_example(text) +
+         (given.empty() ? "" : "; given were values for " + std::string(given));
 }
 
 /// What is likely to be wrong with a key; empty if that is not known.
-[[nodiscard]] inline std::string key_hint(std::string_view key) {
+/// @param given  likewise
+[[nodiscard]] inline std::string key_hint(std::string_view key, std::string_view given = {}) {
   if (has_placeholder(key)) {
-    return "this placeholder to be filled in by a template tool before" + value_hint(key);
+    return "this placeholder to be filled in by a template tool before" + value_hint(key, given);
   }
   if (!odd_character_in(key).empty()) return "an ordinary blank, or none";
   if (key.find("\xEF\xBC\x9A") != std::string_view::npos) return "an ordinary colon and a blank";
