@@ -367,6 +367,85 @@ TEST_CASE("half a million random motions, and as many longer ones, arrive and ke
 
 // For a time that is too short, the target's distance lies outside of what the envelopes leave, or
 // the envelopes leave no motion at all.
+TEST_CASE("in the whole range of limits that are accepted, motions are found and keep them") {
+  support::Random random(11);
+  const auto size = [&](double orders) { return std::pow(10.0, random.number(-orders, orders)); };
+  for (int k = 0; k < 60000; ++k) {
+    INFO(k);
+    Case c;
+    const double V = size(3), A = V * size(4);  // V / A is 0.1 ms to 10 000 s
+    c.bounds = {-V, V, -A, A, std::clamp(size(6) * A * A / V, 1e-9, 1e9)};
+    const auto more = [&] { return std::pow(10.0, random.number(0, 2)); };
+    (random.one_in(2) ? c.bounds.highest_velocity : c.bounds.lowest_velocity) *= more();
+    (random.one_in(2) ? c.bounds.highest_acceleration : c.bounds.lowest_acceleration) *= more();
+    for (JointMotion* state : {&c.start, &c.target}) {
+      *state = {random.number(-8, 8), random.number(-1, 1) * V, random.number(-1, 1) * A};
+      if (random.one_in(2)) state->acceleration = 0;
+      if (random.one_in(4)) state->velocity = state->acceleration = 0;
+    }
+    if (!is_viable(c.target, c.bounds, -1)) continue;
+    const StateToStateMotion motion = motion_of(c);
+    REQUIRE(motion.exists());
+    for (const double factor : {1.0, 1.3, 4.0}) {
+      const double wanted = factor * motion.least_duration();
+      const double T = motion.can_take(wanted) ? wanted : motion.next_duration(wanted);
+      const TimedMotion found = motion.motion(T);
+      REQUIRE(found.keeps(c.bounds));
+      REQUIRE(found.duration() == T);
+    }
+  }
+}
+
+TEST_CASE("what differs from 0 by rounding alone is 0") {
+  support::Random random(12);
+  const auto limits = both_ways(motion_limits(Q2d(), {10, 30}, {200, 600}));
+  for (const double order : {10.0, 15.0, 20.0, 34.0, 44.0, 80.0, 120.0, 300.0}) {
+    for (int k = 0; k < 500; ++k) {
+      const auto tiny = [&] {
+        return random.one_in(3)
+                   ? 0
+                   : random.number(-1, 1) * std::pow(10, -order * random.number(0.6, 1));
+      };
+      JointReference<2> from, to;
+      for (int j = 0; j < 2; ++j) {
+        from.position[j] = tiny();
+        from.velocity[j] = tiny();
+        from.acceleration[j] = tiny();
+        to.position[j] = tiny();
+      }
+      INFO(order << " " << k);
+      const auto profile = Profile::plan(from, to, limits);
+      REQUIRE(profile);
+      REQUIRE(profile->duration() < 0.1);
+      REQUIRE(profile->sample(profile->duration()).position == to.position);
+    }
+  }
+  // A figure that a joint shows stays.
+  const StateToStateMotion slow({0, 1e-9, 0}, {0, 0, 0}, either_way(1, 1, 1));
+  CHECK(slow.motion(slow.least_duration()).sample(0).velocity == 1e-9);
+}
+
+TEST_CASE("a motion is compared with its limits") {
+  TimedMotion motion({0, 0, 0});
+  motion.append(1, 1);
+  motion.append(-1, 2);
+  motion.append(1, 1);
+  CHECK(motion.keeps(either_way(1, 1, 1)));
+  CHECK_FALSE(motion.keeps(either_way(0.99, 1, 1)));
+  CHECK_FALSE(motion.keeps(either_way(1, 0.99, 1)));
+  CHECK_FALSE(motion.keeps(either_way(1, 1, 0.99)));
+  TimedMotion jumps = motion;
+  jumps.end_at({motion.end().position + 0.1, motion.end().velocity, 0});
+  CHECK_FALSE(jumps.keeps(either_way(1, 1, 1)));
+  jumps.end_at({motion.end().position, motion.end().velocity + 0.1, 0});
+  CHECK_FALSE(jumps.keeps(either_way(1, 1, 1)));
+  // The velocity turns within a stretch.
+  TimedMotion turns({0, 0, 1});
+  turns.append(-1, 2);
+  CHECK(turns.keeps(either_way(0.5, 1, 1)));
+  CHECK_FALSE(turns.keeps({-1, 0.4, -1, 1, 2}));
+}
+
 TEST_CASE("no motion between two states is faster") {
   constexpr unsigned seed = 20262;
   CAPTURE(seed);
@@ -517,6 +596,24 @@ TEST_CASE("limits and states that make no profile are refused by name") {
   bad.lowest_velocity[1] = 1;
   CHECK_THROWS_WITH(Profile(rest, rest, bad),
                     Contains("lowest velocity 1 of joint 'elbow_active_joint'"));
+  bad = limits;
+  bad.lowest_velocity[0] = -0.01;
+  CHECK_THROWS_WITH(Profile(rest, rest, bad),
+                    Contains("lowest velocity -0.01 and highest velocity 2 of joint "
+                             "'shoulder_active_joint' differ more than 100 times in size"));
+  bad = limits;
+  bad.highest_acceleration[1] = 0.1;
+  CHECK_THROWS_WITH(
+      Profile(rest, rest, bad),
+      Contains("lowest acceleration -50 and highest acceleration 0.1 of joint 'elbow"));
+  for (const double jerk : {1e-5, 1e9}) {
+    bad = limits;
+    bad.jerk[0] = jerk;
+    CHECK_THROWS_WITH(Profile(rest, rest, bad),
+                      Contains("of joint 'shoulder_active_joint' does not suit velocity 2 and "
+                               "acceleration 20: velocity * jerk / acceleration^2 is ") &&
+                          Contains("not between 1e-6 and 1e6"));
+  }
   bad = limits;
   bad.highest_velocity[0] = 3;
   CHECK_THROWS_WITH(Profile(rest, rest, bad), Contains("above the joint's limit 2.27"));

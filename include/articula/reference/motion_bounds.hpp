@@ -7,6 +7,8 @@
 #include "articula/model/robot.hpp"
 #include "articula/reference/motion_limits.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace articula {
@@ -45,10 +47,18 @@ template <int N>
           limits.jerk};
 }
 
-/// Refuses limits that no motion can be computed with: the size of each must lie between 1e-9 and
-/// 1e9, the lowest ones be negative and the highest ones positive. A velocity must not be above the
-/// limit of the robot's joint.
-/// @throws std::invalid_argument naming limit, joint and value
+/// Refuses limits that no motion can be computed with:
+///
+/// - the size of each must lie between 1e-9 and 1e9, the lowest ones be negative and the highest
+///   ones positive;
+/// - the limits of the two directions must differ 100 times at most;
+/// - V J / A^2 must lie between 1e-6 and 1e6, with the smaller limits of the two directions. It is
+///   the time in which the acceleration brings the joint to its velocity, over that in which the
+///   jerk brings it to its acceleration. A jerk beyond this range makes no motion faster.
+///
+/// Random motions in this range are tested, with V / A between 1e-4 s and 1e4 s. Beyond it, rounding
+/// of double makes some motions pass their limits. A velocity must not be above the limit of the robot's joint.
+/// @throws std::invalid_argument naming limit, joint and values
 /// Real-time: no (throws).
 template <Robot R>
 void validate(const R& robot, const DirectedLimits<joint_count<R>>& limits) {
@@ -65,6 +75,24 @@ void validate(const R& robot, const DirectedLimits<joint_count<R>>& limits) {
     check("lowest acceleration", bounds.lowest_acceleration, -1);
     check("highest acceleration", bounds.highest_acceleration, 1);
     check("jerk", bounds.jerk, 1);
+    const auto check_directions = [&](std::string_view what, double lowest, double highest) {
+      constexpr double most = 100;
+      if (-lowest <= most * highest && highest <= -most * lowest) return;
+      detail::refuse({"motion limits: lowest ", what, " ", lowest, " and highest ", what, " ",
+                      highest, " of joint '", joint.name.view(),
+                      "' differ more than 100 times in size"});
+    };
+    check_directions("velocity", bounds.lowest_velocity, bounds.highest_velocity);
+    check_directions("acceleration", bounds.lowest_acceleration, bounds.highest_acceleration);
+    const double V = std::min(-bounds.lowest_velocity, bounds.highest_velocity);
+    const double A = std::min(-bounds.lowest_acceleration, bounds.highest_acceleration);
+    const double ratio = V * bounds.jerk / A / A;
+    if (!(ratio >= 1e-6 && ratio <= 1e6)) {
+      detail::refuse({"motion limits: jerk ", bounds.jerk, " of joint '", joint.name.view(),
+                      "' does not suit velocity ", V, " and acceleration ", A,
+                      ": velocity * jerk / acceleration^2 is ", ratio,
+                      ", not between 1e-6 and 1e6"});
+    }
     for (const double velocity : {bounds.lowest_velocity, bounds.highest_velocity}) {
       if (std::abs(velocity) <= joint.limits.velocity) continue;
       detail::refuse({"motion limits: velocity ", velocity, " of joint '", joint.name.view(),

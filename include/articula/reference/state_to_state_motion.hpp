@@ -37,21 +37,11 @@ class StateToStateMotion {
   /// Real-time: yes.
   StateToStateMotion(const JointMotion& start, const JointMotion& target,
                      const MotionBounds& bounds) noexcept
-      : target_(target),
-        bounds_(bounds),
-        starts_{acceleration_led_back(start, bounds), braking_motion(start, bounds)} {
-    // The end, backwards in time, must have a motion that leads to it.
-    const double a = target.acceleration, J = bounds.jerk;
-    const double bend = a / 2 / J * std::abs(a);
-    const auto within = [](double low, double x, double high) {
-      const double rounding = 1e-12 * (high - low);
-      return x >= low - rounding && x <= high + rounding;
-    };
-    const double low = bounds.lowest_velocity, high = bounds.highest_velocity;
-    if (!within(bounds.lowest_acceleration, a, bounds.highest_acceleration) ||
-        !within(low, target.velocity, high) || !within(low, target.velocity - bend, high)) {
-      return;
-    }
+      : target_(without_traces(target, target.position, bounds)), bounds_(bounds) {
+    const JointMotion from = without_traces(start, target.position, bounds);
+    starts_ = {acceleration_led_back(from, bounds), braking_motion(from, bounds)};
+    if (!can_be_arrived_at(target_, bounds)) return;
+    const double J = bounds.jerk, low = bounds.lowest_velocity, high = bounds.highest_velocity;
     const bool is_fast = !within(low, starts_[0].end().velocity, high);
     const bool is_viable = starts_[1].size() == starts_[0].size();
     for (std::size_t way = is_fast ? 1 : 0; way < (is_viable ? 1 : 2); ++way) {
@@ -68,6 +58,18 @@ class StateToStateMotion {
         });
       }
     }
+  }
+
+  /// Whether a target is within the limits, and it is possible to have arrived there within them.
+  /// Real-time: yes.
+  [[nodiscard]] static bool can_be_arrived_at(const JointMotion& target,
+                                              const MotionBounds& bounds) noexcept {
+    // The end, backwards in time, must have a motion that leads to it.
+    const double a = target.acceleration, v = target.velocity;
+    const double bend = a / 2 / bounds.jerk * std::abs(a);
+    const double low = bounds.lowest_velocity, high = bounds.highest_velocity;
+    return within(bounds.lowest_acceleration, a, bounds.highest_acceleration) &&
+           within(low, v, high) && within(low, v - bend, high);
   }
 
   /// Whether there is a motion: the target must be within the limits, and it must be possible to
@@ -107,6 +109,27 @@ class StateToStateMotion {
   }
 
  private:
+  /// A state without what is 0 but for rounding. Products of up to six such figures leave the range
+  /// of double. 1e-15 of the limits is what rounding leaves of figures of their size: nothing that
+  /// a joint shows. Lengths have the scale of the way on which the joint reaches its limits.
+  [[nodiscard]] static JointMotion without_traces(const JointMotion& state, double target,
+                                                  const MotionBounds& b) noexcept {
+    constexpr double trace = 1e-15;
+    const auto cleared = [](double x, double scale) {
+      return std::abs(x) <= trace * scale ? 0.0 : x;
+    };
+    const double V = std::min(-b.lowest_velocity, b.highest_velocity);
+    const double A = std::min(-b.lowest_acceleration, b.highest_acceleration), J = b.jerk;
+    const double length = std::min(V * std::sqrt(V / J), A / J * (A / J) * A);
+    const bool is_there = std::abs(state.position - target) <= trace * length;
+    return {is_there ? target : state.position, cleared(state.velocity, std::min(V, A / J * A)),
+            cleared(state.acceleration, std::min(A, std::sqrt(V * J)))};
+  }
+  [[nodiscard]] static bool within(double low, double x, double high) noexcept {
+    const double rounding = 1e-12 * (high - low);
+    return x >= low - rounding && x <= high + rounding;
+  }
+
   /// share * up + (1 - share) * down, after one of the two starts.
   struct Mixture {
     detail::FurthestMotion up{}, down{};

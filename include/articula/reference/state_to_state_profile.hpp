@@ -80,10 +80,16 @@ class StateToStateProfile {
     if (found) *this = *found;
     for (int j = 0; j < joint_count; ++j) {
       const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
-      if (!motion_of(from, to, limits, j).exists()) {
+      const JointMotion target{to.position[j], to.velocity[j], to.acceleration[j]};
+      if (!StateToStateMotion::can_be_arrived_at(target, limits.of(j))) {
         detail::refuse({"profile: target velocity ", to.velocity[j], " and acceleration ",
                         to.acceleration[j], " of joint '", joint.name.view(),
                         "' are not within its motion limits, or cannot be arrived at within them"});
+      }
+      if (!motion_of(from, to, limits, j).exists()) {
+        detail::refuse({"profile: no motion was found for joint '", joint.name.view(), "' from ",
+                        from.position[j], " with velocity ", from.velocity[j], " to ",
+                        to.position[j], " with velocity ", to.velocity[j]});
       }
       if (!found) continue;
       const PositionRange way = motions_[static_cast<std::size_t>(j)].positions();
@@ -96,7 +102,11 @@ class StateToStateProfile {
                       below ? way.lowest : way.highest, ", outside its limits ", joint.limits.lower,
                       " .. ", joint.limits.upper});
     }
-    if (!found) detail::refuse({"profile: no duration suits all joints"});
+    if (!found) {
+      detail::refuse(
+          {"profile: no motion was found in which all joints arrive together and keep "
+           "their limits"});
+    }
   }
   /// For a robot known at compile time.
   StateToStateProfile(const Reference& from, const Reference& to, const Limits& limits,
@@ -105,7 +115,8 @@ class StateToStateProfile {
 
   /// The same for the control loop: the limits are known to be good, and positions on the way are
   /// not compared with the joints' limits.
-  /// @return nothing if a figure is not finite, or a target cannot be arrived at
+  /// @return nothing if a figure is not finite, a target cannot be arrived at, or no motion was
+  ///         found that keeps the limits
   /// Real-time: yes. O(N^2) in the worst case; some 10 us for each joint.
   [[nodiscard]] static std::optional<StateToStateProfile> plan(const Reference& from,
                                                                const Reference& to,
@@ -121,6 +132,7 @@ class StateToStateProfile {
     if (!is_finite(profile.duration_)) return std::nullopt;
     for (std::size_t j = 0; j < joints.size(); ++j) {
       profile.motions_[j] = joints[j].motion(profile.duration_);
+      if (!profile.motions_[j].keeps(limits.of(static_cast<int>(j)))) return std::nullopt;
     }
     profile.from_effort_ = from.effort;
     profile.to_effort_ = to.effort;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/reference/jerk_motion.hpp"
+#include "articula/reference/motion_bounds.hpp"
 
 #include <algorithm>
 #include <array>
@@ -98,6 +99,42 @@ class TimedMotion {
       }
     }
     return range;
+  }
+
+  /// Whether it keeps limits and has no jump. Where it starts beyond a limit, it may go as far as
+  /// the start, and as the velocity does while the start's acceleration fades.
+  /// Real-time: yes. O(capacity).
+  [[nodiscard]] bool keeps(const MotionBounds& bounds) const noexcept {
+    if (size_ == 0) return true;
+    const auto& [q0, v0, a0] = stretches_[0].from;
+    const double faded = v0 + a0 / 2 / bounds.jerk * std::abs(a0);
+    const double slowest = std::min({bounds.lowest_velocity, v0, faded});
+    const double fastest = std::max({bounds.highest_velocity, v0, faded});
+    const double lowest = std::min(bounds.lowest_acceleration, a0);
+    const double highest = std::max(bounds.highest_acceleration, a0);
+    // What rounding may add to a limit, and a jump that no drive notices.
+    constexpr double rounding = 1e-9, jump = 1e-6;
+    const double v_slack = rounding * (fastest - slowest), a_slack = rounding * (highest - lowest);
+    const auto has_velocity = [&](double v) noexcept {
+      return v >= slowest - v_slack && v <= fastest + v_slack;
+    };
+    const double v_jump = jump * (fastest - slowest),
+                 q_size = std::abs(q0) + std::abs(end_.position);
+    const double q_jump = v_jump * duration_ + rounding * q_size;
+    for (std::size_t k = 0; k < size_; ++k) {
+      const auto& [start, j, from] = stretches_[k];
+      const JointMotion& to = k + 1 < size_ ? stretches_[k + 1].from : end_;
+      const JointMotion led = advance(from, j, start_of(k + 1) - start);
+      if (!(std::abs(j) <= bounds.jerk * (1 + rounding)) || !has_velocity(to.velocity) ||
+          !(to.acceleration >= lowest - a_slack && to.acceleration <= highest + a_slack) ||
+          !(std::abs(led.velocity - to.velocity) <= v_jump) ||
+          !(std::abs(led.position - to.position) <= q_jump)) {
+        return false;
+      }
+      const double a = from.acceleration;  // where it passes 0, the velocity turns
+      if (a * to.acceleration < 0 && !has_velocity(from.velocity - a * a / 2 / j)) return false;
+    }
+    return true;
   }
 
  private:
