@@ -514,7 +514,6 @@ TEST_CASE("limits of many turns are reported") {
                                       joint("elbow", type, "base", "a", limit))))
         .notices;
   };
-  using Notices = std::vector<std::string>;
   CHECK(notices("revolute", "-1", "170") ==
         Notices{"joint 'elbow': its limits, -1 .. 170 rad, reach farther than four turns; are they "
                 "degrees?"});
@@ -529,7 +528,6 @@ TEST_CASE("angles of more than a turn and inertias of giants are reported") {
                                       joint("elbow", "continuous", "base", "a", origin))))
         .notices;
   };
-  using Notices = std::vector<std::string>;
   CHECK(notices(solid("a"), "<origin rpy='0 -90 0'/>") ==
         Notices{"joint 'elbow': <origin>: rpy 0 -90 0 rad is more than a turn; are these "
                 "degrees?"});
@@ -578,7 +576,6 @@ TEST_CASE("a place beyond the limits is reported") {
   const auto notices = [&](const UrdfOptions& options) {
     return read_urdf(UrdfSource(file), options).notices;
   };
-  using Notices = std::vector<std::string>;
   CHECK(notices({}) ==
         Notices{"joint 'elbow': its initial_value is 1.5, beyond its limits, -1 .. 1"});
   CHECK(notices({.locked = {{"elbow", 0.5}, {"follower", -1}}}).empty());
@@ -640,7 +637,6 @@ TEST_CASE("a mimic that stands in ros2_control alone is reported") {
 }
 
 TEST_CASE("elements given twice that say the same, or do not count, are reported") {
-  using Notices = std::vector<std::string>;
   const auto notices = [](const std::string& inside, const std::string& type = "continuous") {
     const std::string file = robot("<link name=\"base\"/>" + solid("rod") + solid("tip") +
                                    joint("pivot", "continuous", "base", "rod") +
@@ -694,7 +690,6 @@ TEST_CASE("a word that many links or joints have is reported once") {
 }
 
 TEST_CASE("words that URDF does not know are reported") {
-  using Notices = std::vector<std::string>;
   const auto notices = [](const std::string& inside, const std::string& attributes = "") {
     const std::string pivot = "<joint name=\"pivot\" type=\"continuous\"" + attributes +
                               "><parent link=\"base\"/><child link=\"rod\"/>" + inside + "</joint>";
