@@ -180,13 +180,13 @@ TEST_CASE("a fault of a drive without error code has the code of its emergency m
 }
 
 TEST_CASE("velocity from positions counts the cycles between them") {
+  int number = 0;  // outlives the bench, whose last frames count too
   Bench<VelocityCommand<2>> bench({.has_velocity = false});
   REQUIRE(bench.arm.activate() == Status::ok);
   const VelocityCommand<2> steady{{0, 0.5}};
   CHECK(bench.cycles(500, steady));
   const double before = bench.state.velocity[1];
   CHECK(before == Approx(0.5).epsilon(0.05));
-  int number = 0;
   bench.bus->on_feedback = [&](CanFrame& frame) {
     return frame.identifier != 0x186 || ++number % 23 != 0;
   };
