@@ -24,7 +24,7 @@ packages=(
 case ${1:-} in
   '') ;;
   --all)
-    packages+=(clang-19 libclang-rt-19-dev clang-format clang-tidy valgrind)
+    packages+=(clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19 valgrind)
     packages+=(liborocos-kdl-dev libmujoco-dev) # peers, in tests and benchmarks
     # tests/vcan: a virtual machine whose kernel has CAN, where this one has none
     packages+=(qemu-system-x86 busybox-static dash cpio xz-utils iproute2 can-utils)

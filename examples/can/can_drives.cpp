@@ -102,8 +102,7 @@ void play(const BenchOptions& options) {
 }
 
 int complain(std::string message, int exit_status) {
-  std::ranges::replace_if(
-      message, [](unsigned char c) { return std::iscntrl(c); }, ' ');
+  std::ranges::replace_if(message, [](unsigned char c) { return std::iscntrl(c); }, ' ');
   std::cerr << "can_drives: " << message << '\n';
   return exit_status;
 }

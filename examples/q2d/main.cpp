@@ -59,8 +59,7 @@ void run_all(const Options& options) {
 
 /// Says what went wrong, in one line even if the user put line breaks into an option.
 int complain(std::string message, int exit_status) {
-  std::ranges::replace_if(
-      message, [](unsigned char c) { return std::iscntrl(c); }, ' ');
+  std::ranges::replace_if(message, [](unsigned char c) { return std::iscntrl(c); }, ' ');
   std::cerr << "q2d_demo: " << message << '\n';
   return exit_status;
 }

@@ -79,9 +79,7 @@ TEST_CASE("a placeholder without a value is named, and how to give it") {
             "'$(var tf_prefix)', which a template tool was to fill in, expected a name, or a "
             "value for it: " +
             how);
-  CHECK_THAT(complaint_of([] {
-               return load_controller({ur, {{"prefix", ""}}}, trajectory);
-             }),
+  CHECK_THAT(complaint_of([] { return load_controller({ur, {{"prefix", ""}}}, trajectory); }),
              Contains("'$(var tf_prefix)'") && Contains(how + "; given were values for 'prefix'"));
   CHECK_THAT(complaint_of([] {
                const std::string joints = "joints: [elbow_active_joint]\nconstraints: ";
@@ -153,10 +151,9 @@ TEST_CASE("values fill in all kinds of placeholders, in all that loads") {
                                          {{"a", ""}, {"b", "many"}}));
              }),
              Contains("test:2:10: pid.i: the word 'many'"));
-  CHECK_THAT(complaint_of([&] {
-               return load_controller(of("joint: $(var a)\n", {{"a", "b\nc"}}));
-             }),
-             Contains("the value given for 'a' has a line break or tab"));
+  CHECK_THAT(
+      complaint_of([&] { return load_controller(of("joint: $(var a)\n", {{"a", "b\nc"}})); }),
+      Contains("the value given for 'a' has a line break or tab"));
 }
 
 TEST_CASE("a gripper, sections that say nothing, values between them") {

@@ -146,8 +146,7 @@ void check_steps(Controllers controllers, support::Random& random, double size) 
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (look(controllers.template member<I>(), I), ...);
-    }
-    (std::make_index_sequence<count>());
+    }(std::make_index_sequence<count>());
     const Vector given = number(command, state);
     const bool took_over = starts != starts_before || controllers.active() != active_before;
     if (cycle > 0) {

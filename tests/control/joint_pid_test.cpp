@@ -251,7 +251,7 @@ TEST_CASE("new gains keep the integral's output") {
 
 TEST_CASE("each new gain is refused where it makes no sense, naming joint, gain and value") {
   struct Bad {
-    double PidGains::*member;
+    double PidGains::* member;
     std::string name;
     std::vector<double> values;
   };

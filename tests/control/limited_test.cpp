@@ -515,7 +515,7 @@ TEST_CASE("after it has braked for a wrong number a joint follows as after a sta
 }
 
 TEST_CASE("on the way to a position every cycle's report says what holds the joint back") {
-  const auto check = [](const CommandLimits<1>& limits, bool JointLimitReport::*limit) {
+  const auto check = [](const CommandLimits<1>& limits, bool JointLimitReport::* limit) {
     PositionRun run(limits);
     int cycles = 0;
     // What has come as close as rounding is there.
@@ -669,7 +669,7 @@ TEST_CASE("positions and speeds stay within their limits however the period chan
 
 TEST_CASE("limits that make no sense are refused, naming joint, limit and value") {
   struct Bad {
-    JointVector<1> CommandLimits<1>::*member;
+    JointVector<1> CommandLimits<1>::* member;
     double value;
     const char* name;
   };

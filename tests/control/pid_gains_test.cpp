@@ -19,7 +19,7 @@ using support::not_a_number;
 namespace {
 
 struct BadGain {
-  double PidGains::*member;
+  double PidGains::* member;
   double value;
   std::string gain;  // what the message must name
   std::string text;  // how it writes the value

@@ -80,8 +80,7 @@ void check_all_links(support::Random& random) {
   const auto q = random.vector<joint_count<R>>(3);
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     (check_named<R::description.links[I].name>(R{}, q), ...);
-  }
-  (std::make_index_sequence<R::description.links.size()>{});
+  }(std::make_index_sequence<R::description.links.size()>{});
 }
 
 /// A UR10 of which nobody knows the masses.

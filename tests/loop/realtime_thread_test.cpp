@@ -99,7 +99,7 @@ TEST_CASE("options that make no sense are refused by name") {
 }
 
 TEST_CASE("a loop runs in real time, as far as the system lets it, until a signal") {
-  struct sigaction before {};
+  struct sigaction before{};
   REQUIRE(sigaction(SIGTERM, nullptr, &before) == 0);
   on_thread([] {
     Loop<Q2dSim, PidPlusGravity> loop;
@@ -116,7 +116,7 @@ TEST_CASE("a loop runs in real time, as far as the system lets it, until a signa
     CHECK(report.cycles == 20);
     CHECK(report.latency.count() == 20);
   });
-  struct sigaction after {};
+  struct sigaction after{};
   REQUIRE(sigaction(SIGTERM, nullptr, &after) == 0);
   CHECK(after.sa_handler == before.sa_handler);
 }

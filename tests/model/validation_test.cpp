@@ -54,8 +54,9 @@ Symmetric3<double> turned(support::Random& random, const Symmetric3<double>& ine
 }  // namespace
 
 TEST_CASE("every rule is found broken, and the element at fault named") {
-  [&]<int... K>(std::integer_sequence<int, K...>) { (check_fault<static_cast<Rule>(K)>(), ...); }
-  (std::make_integer_sequence<int, rule_count>());
+  [&]<int... K>(std::integer_sequence<int, K...>) {
+    (check_fault<static_cast<Rule>(K)>(), ...);
+  }(std::make_integer_sequence<int, rule_count>());
 }
 
 TEST_CASE("every rule has words of its own") {
@@ -69,16 +70,16 @@ TEST_CASE("every rule has words of its own") {
 TEST_CASE("a number that is not finite is found wherever it stands") {
   using LinkChange = void (*)(Link&, double);
   for (LinkChange change : {
-           LinkChange([](Link&l, double x) { l.mass = x; }),
-           LinkChange([](Link&l, double x) { l.center_of_mass.x = x; }),
-           LinkChange([](Link&l, double x) { l.center_of_mass.z = x; }),
-           LinkChange([](Link&l, double x) { l.inertia.xx = x; }),
-           LinkChange([](Link&l, double x) { l.inertia.xy = x; }),
-           LinkChange([](Link&l, double x) { l.inertia.xz = x; }),
-           LinkChange([](Link&l, double x) { l.inertia.yy = x; }),
-           LinkChange([](Link&l, double x) { l.inertia.yz = x; }),
-           LinkChange([](Link&l, double x) { l.inertia.zz = x; }),
-           LinkChange([](Link&l, double x) { l.inertia_orientation.y = x; }),
+           LinkChange([](Link& l, double x) { l.mass = x; }),
+           LinkChange([](Link& l, double x) { l.center_of_mass.x = x; }),
+           LinkChange([](Link& l, double x) { l.center_of_mass.z = x; }),
+           LinkChange([](Link& l, double x) { l.inertia.xx = x; }),
+           LinkChange([](Link& l, double x) { l.inertia.xy = x; }),
+           LinkChange([](Link& l, double x) { l.inertia.xz = x; }),
+           LinkChange([](Link& l, double x) { l.inertia.yy = x; }),
+           LinkChange([](Link& l, double x) { l.inertia.yz = x; }),
+           LinkChange([](Link& l, double x) { l.inertia.zz = x; }),
+           LinkChange([](Link& l, double x) { l.inertia_orientation.y = x; }),
        }) {
     for (double x : {infinity, -infinity, not_a_number, 1.01e50, -1e51, support::largest}) {
       Blueprint robot = double_pendulum();
@@ -89,16 +90,16 @@ TEST_CASE("a number that is not finite is found wherever it stands") {
   }
   using JointChange = void (*)(Joint&, double);
   for (JointChange change : {
-           JointChange([](Joint&j, double x) { j.origin.x = x; }),
-           JointChange([](Joint&j, double x) { j.origin.y = x; }),
-           JointChange([](Joint&j, double x) { j.origin.z = x; }),
-           JointChange([](Joint&j, double x) { j.orientation.x = x; }),
-           JointChange([](Joint&j, double x) { j.orientation.z = x; }),
-           JointChange([](Joint&j, double x) { j.damping = x; }),
-           JointChange([](Joint&j, double x) { j.friction = x; }),
-           JointChange([](Joint&j, double x) { j.reflected_inertia = x; }),
-           JointChange([](Joint&j, double x) { j.mimic.multiplier = x; }),
-           JointChange([](Joint&j, double x) { j.mimic.offset = x; }),
+           JointChange([](Joint& j, double x) { j.origin.x = x; }),
+           JointChange([](Joint& j, double x) { j.origin.y = x; }),
+           JointChange([](Joint& j, double x) { j.origin.z = x; }),
+           JointChange([](Joint& j, double x) { j.orientation.x = x; }),
+           JointChange([](Joint& j, double x) { j.orientation.z = x; }),
+           JointChange([](Joint& j, double x) { j.damping = x; }),
+           JointChange([](Joint& j, double x) { j.friction = x; }),
+           JointChange([](Joint& j, double x) { j.reflected_inertia = x; }),
+           JointChange([](Joint& j, double x) { j.mimic.multiplier = x; }),
+           JointChange([](Joint& j, double x) { j.mimic.offset = x; }),
        }) {
     for (double x : {infinity, -infinity, not_a_number, 1.01e50, -1e51, support::largest}) {
       Blueprint robot = double_pendulum();

@@ -11,7 +11,7 @@ using articula::testing::heap_calls_in;
 
 TEST_CASE("adding to step metrics does not touch the heap, whatever is added") {
   StepMetrics metrics(0, 1), broken(0, 1);
-  static_assert(noexcept(metrics.add(0, 0))&& noexcept(metrics.overshoot()));
+  static_assert(noexcept(metrics.add(0, 0)) && noexcept(metrics.overshoot()));
   double volatile seen = 0;
   const std::size_t calls = heap_calls_in([&] {
     for (int k = 0; k < 1000; ++k) {

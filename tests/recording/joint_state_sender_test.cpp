@@ -147,7 +147,9 @@ TEST_CASE("NaN goes as null, so that the text stays JSON") {
 TEST_CASE("what the system does not take is counted and does not disturb") {
   // Nobody listens: from the second datagram on the system may say so.
   std::uint16_t port = 0;
-  { port = Listener().port(); }
+  {
+    port = Listener().port();
+  }
   JointStateSender<Q2d> sender({.port = port, .divisor = 1});
   for (int k = 0; k < 10; ++k) sender.write(support::some_record());
   CHECK(sender.sent() + sender.not_sent() == 10);

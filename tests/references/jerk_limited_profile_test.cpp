@@ -454,7 +454,7 @@ TEST_CASE("a stop goes on from the reference and keeps its effort") {
 
 TEST_CASE("limits and positions that make no profile are refused by name") {
   using Profile = JerkLimitedProfile<Q2d>;
-  const auto with = [](JointVector<2> MotionLimits<2>::*member, double value) {
+  const auto with = [](JointVector<2> MotionLimits<2>::* member, double value) {
     auto changed = limits;
     (changed.*member)[1] = value;
     return changed;

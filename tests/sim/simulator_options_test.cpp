@@ -57,17 +57,11 @@ TEST_CASE("bad options are refused, naming option, joint, value and limit") {
       {[](Options& o) { o.substeps = 0; }, {"substeps", "0", "1"}},
       {[](Options& o) { o.substeps = -7; }, {"substeps", "-7", "1"}},
       {[](Options& o) { o.drives = DriveModel(7); }, {"drives", "7", "servo", "ideal"}},
-      {[](Options& o) {
-         o.initial_position = {0, 1.6};
-       },
+      {[](Options& o) { o.initial_position = {0, 1.6}; },
        {"initial_position", "1.6", elbow, "-1.57", "1.57"}},
-      {[](Options& o) {
-         o.initial_position = {-1.6, 0};
-       },
+      {[](Options& o) { o.initial_position = {-1.6, 0}; },
        {"initial_position", "-1.6", shoulder, "-1.57", "1.57"}},
-      {[](Options& o) {
-         o.initial_position = {not_a_number, 0};
-       },
+      {[](Options& o) { o.initial_position = {not_a_number, 0}; },
        {"initial_position", "nan", shoulder}},
       {[](Options& o) { o.initial_velocity[1] = -infinity; }, {"initial_velocity", "-inf", elbow}},
       {[](Options& o) { o.initial_velocity[0] = not_a_number; },

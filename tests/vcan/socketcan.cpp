@@ -237,7 +237,7 @@ TEST_CASE("frames for which there was no room are counted") {
 
 TEST_CASE("a signal ends the wait for a frame, and does not prolong it") {
   const Bench bench;
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = [](int) {};
   REQUIRE(::sigaction(SIGALRM, &action, nullptr) == 0);
   const itimerval once{{0, 0}, {0, 50'000}};

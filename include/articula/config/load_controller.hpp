@@ -121,7 +121,7 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
 /// @param notes  receives a line on each other one
 inline void keep_declared(const std::string& file, std::vector<ConfigSection>& sections,
                           std::vector<std::string>& notes) {
-  const auto keep = [&](bool ConfigSection::*sign, const std::string& reason) {
+  const auto keep = [&](bool ConfigSection::* sign, const std::string& reason) {
     if (are_single_joints(sections)) return;
     const auto has_sign = [&](const ConfigSection& section) { return section.*sign; };
     if (std::none_of(sections.begin(), sections.end(), has_sign)) return;

@@ -17,7 +17,9 @@ class Bypass : public EffortController<R, EffortFeedforward<joint_count<R>>> {
  public:
   static constexpr std::string_view name = "bypass";
 
-  Bypass() requires DescribedRobot<R> : Bypass(R()) {}
+  Bypass()
+    requires DescribedRobot<R>
+      : Bypass(R()) {}
   explicit Bypass(const R& robot)
       : EffortController<R, EffortFeedforward<articula::joint_count<R>>>(robot, {}) {}
 };

@@ -42,7 +42,7 @@ struct CommandLimits {
 /// acceleration, jerk and soft limits. Real-time: yes.
 template <Robot R>
 [[nodiscard]] CommandLimits<joint_count<R>> command_limits(const R& robot) noexcept {
-  const auto of = [&](double JointLimits::*limit) {
+  const auto of = [&](double JointLimits::* limit) {
     return joint_values(robot, [&](const JointProperties& joint) { return joint.limits.*limit; });
   };
   CommandLimits<joint_count<R>> limits;

@@ -102,7 +102,9 @@ class ComputedTorque : public EffortController<R, ComputedTorqueLaw<R>, Friction
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// Critically damped errors that decay with exp(-20 t): 63 % of a step in about 0.1 s.
-  ComputedTorque() requires DescribedRobot<R> : ComputedTorque(critically_damped(20)) {}
+  ComputedTorque()
+    requires DescribedRobot<R>
+      : ComputedTorque(critically_damped(20)) {}
 
   /// @param robot  its model does the work
   /// @param gains  of the feedback: proportional [1/s^2], integral [1/s^3], derivative [1/s],
@@ -113,7 +115,8 @@ class ComputedTorque : public EffortController<R, ComputedTorqueLaw<R>, Friction
                          EffortFeedforward<joint_count>>(robot, ComputedTorqueLaw<R>(robot, gains),
                                                          FrictionCompensation<R>(robot), {}) {}
   /// For a robot known at compile time.
-  explicit ComputedTorque(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+  explicit ComputedTorque(const JointPidGains<joint_count>& gains)
+    requires DescribedRobot<R>
       : ComputedTorque(R(), gains) {}
 
   /// Feedback gains for critically damped errors, the same for all joints: p = w^2, d = 2 w.

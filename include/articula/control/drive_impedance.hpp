@@ -27,7 +27,8 @@ class DriveImpedance {
   DriveImpedance(const R& robot, const JointImpedanceGains<joint_count>& gains)
       : gains_(gains, joint_names(robot)), added_(robot, GravityCompensation<R>(robot), {}) {}
   /// For a robot known at compile time.
-  explicit DriveImpedance(const JointImpedanceGains<joint_count>& gains) requires DescribedRobot<R>
+  explicit DriveImpedance(const JointImpedanceGains<joint_count>& gains)
+    requires DescribedRobot<R>
       : DriveImpedance(R(), gains) {}
 
   /// Nothing to forget. Real-time: yes.

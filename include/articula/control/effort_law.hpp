@@ -19,13 +19,11 @@ namespace articula {
 /// @tparam L  the part
 /// @tparam N  number of joints
 template <class L, int N>
-concept EffortLaw = requires(L law, const JointState<N>& state, const JointReference<N>& reference,
-                             double period) {
-  { law.start(state) }
-  noexcept;
-  { law.effort(state, reference, period) }
-  noexcept->std::convertible_to<JointVector<N>>;
-};
+concept EffortLaw =
+    requires(L law, const JointState<N>& state, const JointReference<N>& reference, double period) {
+      { law.start(state) } noexcept;
+      { law.effort(state, reference, period) } noexcept -> std::convertible_to<JointVector<N>>;
+    };
 
 /// What must know when its command is cut off: after `effort` (or a controller's `update`),
 /// `limited(excess)` tells by how much the total exceeded the limits (positive above the upper
@@ -33,16 +31,14 @@ concept EffortLaw = requires(L law, const JointState<N>& state, const JointRefer
 /// what would only wind up. It may be told more than once in a cycle, of one limit after the other.
 template <class L, int N>
 concept LimitAware = requires(L law, const JointVector<N>& excess) {
-  { law.limited(excess) }
-  noexcept;
+  { law.limited(excess) } noexcept;
 };
 
 /// What goes on from the command that was given in the end: after `update`, `given(command)` tells
 /// the numbers of that command, N x 1 (see numbers_of), whatever became of the controller's own.
 template <class L, int N>
 concept TakesGiven = requires(L law, const JointVector<N>& command) {
-  { law.given(command) }
-  noexcept;
+  { law.given(command) } noexcept;
 };
 
 /// What can take over from another controller without a jump: after `start` and before the first
@@ -53,8 +49,7 @@ concept TakesGiven = requires(L law, const JointVector<N>& command) {
 template <class L, int N>
 concept Primable = requires(L law, const JointState<N>& state, const JointReference<N>& reference,
                             double period, const JointVector<N>& effort) {
-  { law.prime(state, reference, period, effort) }
-  noexcept->std::convertible_to<JointVector<N>>;
+  { law.prime(state, reference, period, effort) } noexcept -> std::convertible_to<JointVector<N>>;
 };
 
 /// What is known of the command that a Primable part begins with. A part that minds takes it as a
@@ -82,8 +77,7 @@ JointVector<N> prime(Law& law, const JointState<N>& state, const JointReference<
 /// What can go on with other gains of the kind `Gains` between two cycles.
 template <class L, class Gains>
 concept TakesGains = requires(L law, const Gains& gains) {
-  { law.set_gains(gains) }
-  noexcept;
+  { law.set_gains(gains) } noexcept;
 };
 
 }  // namespace articula

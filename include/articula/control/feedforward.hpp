@@ -11,7 +11,7 @@ namespace articula {
 /// feed-forward.
 /// @tparam N       number of joints
 /// @tparam Member  which one, in the unit of the command
-template <int N, JointVector<N> JointReference<N>::*Member>
+template <int N, JointVector<N> JointReference<N>::* Member>
 class Feedforward {
  public:
   /// Nothing to forget. Real-time: yes.

@@ -17,7 +17,9 @@ class ForwardPosition : public PositionController<R, PositionFeedforward<joint_c
  public:
   static constexpr std::string_view name = "forward_position";
 
-  ForwardPosition() requires DescribedRobot<R> : ForwardPosition(R()) {}
+  ForwardPosition()
+    requires DescribedRobot<R>
+      : ForwardPosition(R()) {}
   explicit ForwardPosition(const R& robot)
       : PositionController<R, PositionFeedforward<articula::joint_count<R>>>(robot, {}) {}
 };

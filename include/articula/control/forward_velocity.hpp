@@ -17,7 +17,9 @@ class ForwardVelocity : public VelocityController<R, VelocityFeedforward<joint_c
  public:
   static constexpr std::string_view name = "forward_velocity";
 
-  ForwardVelocity() requires DescribedRobot<R> : ForwardVelocity(R()) {}
+  ForwardVelocity()
+    requires DescribedRobot<R>
+      : ForwardVelocity(R()) {}
   explicit ForwardVelocity(const R& robot)
       : VelocityController<R, VelocityFeedforward<articula::joint_count<R>>>(robot, {}) {}
 };

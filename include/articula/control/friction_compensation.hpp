@@ -16,7 +16,9 @@ class FrictionCompensation {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 
-  FrictionCompensation() requires DescribedRobot<R> {}
+  FrictionCompensation()
+    requires DescribedRobot<R>
+  {}
   explicit FrictionCompensation(const R& robot) : robot_(robot) {}
 
   /// Nothing to forget. Real-time: yes.

@@ -47,10 +47,10 @@ namespace detail {
     const JointPlant& plant, SampledFeedback feedback, double period,
     std::initializer_list<double SampledFeedback::*> gains) {
   for (int k = 0; k < 10; ++k) {
-    for (double SampledFeedback::*gain : gains) feedback.*gain /= 2;
+    for (double SampledFeedback::* gain : gains) feedback.*gain /= 2;
     if (shakes(plant, feedback, period)) continue;
     std::vector<std::string> names, values;
-    for (double SampledFeedback::*gain : gains) {
+    for (double SampledFeedback::* gain : gains) {
       if (feedback.*gain == 0) continue;
       names.emplace_back(feedback.name_of(gain));
       values.push_back(message_of({feedback.*gain}));

@@ -19,7 +19,9 @@ class GravityCompensation {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 
-  GravityCompensation() requires DescribedRobot<R> {}
+  GravityCompensation()
+    requires DescribedRobot<R>
+  {}
   explicit GravityCompensation(const R& robot) : robot_(robot) {}
 
   /// Nothing to forget. Real-time: yes.

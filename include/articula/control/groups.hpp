@@ -104,8 +104,8 @@ class Groups {
     board_.validate();
   }
   /// For a robot known at compile time.
-  explicit Groups(const std::array<JointGroup, group_count>& groups,
-                  Controllers... controllers) requires DescribedRobot<R>
+  explicit Groups(const std::array<JointGroup, group_count>& groups, Controllers... controllers)
+    requires DescribedRobot<R>
       : Groups(R(), groups, std::move(controllers)...) {}
 
   /// Starts all controllers anew. Real-time: yes.
@@ -165,7 +165,8 @@ class Groups {
   /// @return  what they begin with of it, N x 1
   Vector prime(const State& state, const Reference& reference, double period, const Vector& command,
                LastCommand is = LastCommand::any) noexcept
-      requires(Primable<Controllers, joint_count> || ...) {
+    requires(Primable<Controllers, joint_count> || ...)
+  {
     Vector share = Vector::Zero();
     for_each([&](auto& controller, std::size_t g) noexcept {
       if constexpr (Primable<decltype(controller), joint_count>) {
@@ -200,7 +201,8 @@ class Groups {
   /// Says at compile time that several controllers take such gains. (As it may throw, it is not
   /// what TakesGains asks for.)
   template <class Gains>
-  requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) > 1) void set_gains(const Gains&) {
+    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) > 1)
+  void set_gains(const Gains&) {
     static_assert(
         sizeof(Gains) == 0,
         "several controllers take such gains: write member<I>().set_gains(gains) for the one "
@@ -210,8 +212,8 @@ class Groups {
   /// Goes on with other gains of the one group that takes them. Where several do, whose gains they
   /// are must be said: `member<I>().set_gains(gains)`. Real-time: yes.
   template <class Gains>
-  requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) ==
-           1) void set_gains(const Gains& gains) noexcept {
+    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) == 1)
+  void set_gains(const Gains& gains) noexcept {
     for_each([&](auto& controller, std::size_t) noexcept {
       if constexpr (TakesGains<decltype(controller), Gains>) controller.set_gains(gains);
     });
@@ -258,8 +260,7 @@ class Groups {
         return PartScope<joint_count>{.joints = part.chosen, .divisor = part.divisor};
       };
       (function(std::get<I>(controllers_), scope(parts_[I])), ...);
-    }
-    (std::index_sequence_for<Controllers...>());
+    }(std::index_sequence_for<Controllers...>());
   }
 
   /// The controller of a group, by the group's place in the list.
@@ -337,8 +338,7 @@ class Groups {
   void for_each(auto function) noexcept {
     [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
       (function(std::get<I>(controllers_), I), ...);
-    }
-    (std::index_sequence_for<Controllers...>());
+    }(std::index_sequence_for<Controllers...>());
   }
 
   /// Calls function(switch, group) for every group that has one.
@@ -352,8 +352,7 @@ class Groups {
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
       (look(std::get<I>(controllers), I), ...);
-    }
-    (std::index_sequence_for<Controllers...>());
+    }(std::index_sequence_for<Controllers...>());
   }
 
   static constexpr double damping_time = 0.1;  ///< that of Standby [s]

@@ -72,7 +72,8 @@ class JointImpedance
             robot, ImpedanceLaw<joint_count>({gains, joint_names(robot)}),
             GravityCompensation<R>(robot), {}) {}
   /// For a robot known at compile time.
-  explicit JointImpedance(const JointImpedanceGains<joint_count>& gains) requires DescribedRobot<R>
+  explicit JointImpedance(const JointImpedanceGains<joint_count>& gains)
+    requires DescribedRobot<R>
       : JointImpedance(R(), gains) {}
 };
 

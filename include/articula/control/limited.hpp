@@ -63,7 +63,8 @@ class Limited {
   static constexpr bool by_effort = requires(Command command) { command.effort; };
 
   /// The limits of the robot's description. (For efforts it does not say enough.)
-  Limited() requires DescribedRobot<R> && std::default_initializable<ControllerType> &&(!by_effort)
+  Limited()
+    requires DescribedRobot<R> && std::default_initializable<ControllerType> && (!by_effort)
       : Limited(command_limits(R())) {}
 
   /// @param robot       whose joints these are
@@ -79,11 +80,12 @@ class Limited {
   Limited(const R& robot, const CommandLimits<joint_count>& limits)
       : Limited(robot, limits, controller_of(robot)) {}
   /// For a robot known at compile time.
-  Limited(const CommandLimits<joint_count>& limits,
-          ControllerType controller) requires DescribedRobot<R>
+  Limited(const CommandLimits<joint_count>& limits, ControllerType controller)
+    requires DescribedRobot<R>
       : Limited(R(), limits, std::move(controller)) {}
   /// @copydoc Limited(const CommandLimits<joint_count>&, ControllerType)
-  explicit Limited(const CommandLimits<joint_count>& limits) requires DescribedRobot<R>
+  explicit Limited(const CommandLimits<joint_count>& limits)
+    requires DescribedRobot<R>
       : Limited(R(), limits) {}
 
   /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
@@ -149,8 +151,10 @@ class Limited {
 
   /// Goes on with other gains of the controller. Real-time: yes.
   template <class Gains>
-  requires TakesGains<ControllerType, Gains>
-  void set_gains(const Gains& gains) noexcept { controller_.set_gains(gains); }
+    requires TakesGains<ControllerType, Gains>
+  void set_gains(const Gains& gains) noexcept {
+    controller_.set_gains(gains);
+  }
 
  private:
   using Vector = JointVector<joint_count>;

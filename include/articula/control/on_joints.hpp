@@ -29,8 +29,8 @@ class OnJoints {
   /// @param joints  names of those that the part acts on
   /// @throws std::invalid_argument if the robot has no such joint, or one is named twice
   template <Robot R>
-  requires(joint_count<R> == N)
-      OnJoints(const R& robot, Law law, std::span<const std::string_view> joints)
+    requires(joint_count<R> == N)
+  OnJoints(const R& robot, Law law, std::span<const std::string_view> joints)
       : law_(std::move(law)) {
     for (const std::string_view name : joints) {
       const int j = joint_index(robot, name);
@@ -53,19 +53,25 @@ class OnJoints {
   /// Lets the part begin with what was given last on its joints. Real-time: yes.
   JointVector<N> prime(const JointState<N>& state, const JointReference<N>& reference,
                        double period, const JointVector<N>& effort,
-                       LastCommand is = LastCommand::any) noexcept requires Primable<Law, N> {
+                       LastCommand is = LastCommand::any) noexcept
+    requires Primable<Law, N>
+  {
     return chosen(detail::prime(law_, state, reference, period, chosen(effort), is));
   }
 
   /// Tells the part what was cut off on its joints. Real-time: yes.
-  void limited(const JointVector<N>& excess) noexcept requires LimitAware<Law, N> {
+  void limited(const JointVector<N>& excess) noexcept
+    requires LimitAware<Law, N>
+  {
     law_.limited(chosen(excess));
   }
 
   /// Goes on with other gains. Real-time: yes.
   template <class Gains>
-  requires TakesGains<Law, Gains>
-  void set_gains(const Gains& gains) noexcept { law_.set_gains(gains); }
+    requires TakesGains<Law, Gains>
+  void set_gains(const Gains& gains) noexcept {
+    law_.set_gains(gains);
+  }
 
   /// Calls function(part, scope).
   void for_each_part(auto&& function) const { function(law_, PartScope<N>{.joints = chosen_}); }

@@ -22,7 +22,9 @@ class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// With the gains that the robot brings along.
-  Pid() requires HasPidGains<R> : Pid(R::pid_gains) {}
+  Pid()
+    requires HasPidGains<R>
+      : Pid(R::pid_gains) {}
 
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   Pid(const R& robot, const JointPidGains<joint_count>& gains)
@@ -30,11 +32,14 @@ class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward
             robot, PidLaw<joint_count>(robot, gains), {}) {}
   /// For a robot known at compile time.
   template <std::same_as<JointPidGains<joint_count>> Gains>
-  explicit Pid(const Gains& gains) requires DescribedRobot<R> : Pid(R(), gains) {}
+  explicit Pid(const Gains& gains)
+    requires DescribedRobot<R>
+      : Pid(R(), gains) {}
   /// With a list in place: `Pid<Q2d>({{.proportional = 5}, {.proportional = 6}})`.
   /// @throws std::invalid_argument as above, and if the list is not as long as there are joints
   Pid(std::initializer_list<PidGains> gains)  // NOLINT: a list is the gains
-      requires DescribedRobot<R> : Pid(R(), pid_gains_of<joint_count>(gains)) {}
+    requires DescribedRobot<R>
+      : Pid(R(), pid_gains_of<joint_count>(gains)) {}
 };
 
 }  // namespace articula

@@ -145,8 +145,6 @@ template <int N>
 
 /// A robot that brings gains for its PID controllers along.
 template <class R>
-concept HasPidGains = requires {
-  R::pid_gains;
-};
+concept HasPidGains = requires { R::pid_gains; };
 
 }  // namespace articula

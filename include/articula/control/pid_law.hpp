@@ -46,7 +46,8 @@ class PidLaw {
   /// For a robot's joints, of which the continuous ones take the short way round.
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   template <Robot R>
-  requires(joint_count<R> == N) PidLaw(const R& robot, const JointPidGains<N>& gains)
+    requires(joint_count<R> == N)
+  PidLaw(const R& robot, const JointPidGains<N>& gains)
       : PidLaw(ValidPidGains<N>(gains, joint_names(robot))) {
     if constexpr (Variable == PidOf::position) {
       for (std::size_t i = 0; i < turns_.size(); ++i) {

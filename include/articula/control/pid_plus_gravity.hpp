@@ -24,7 +24,9 @@ class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, Gravit
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// With the gains that the robot brings along.
-  PidPlusGravity() requires HasPidGains<R> : PidPlusGravity(R::pid_gains) {}
+  PidPlusGravity()
+    requires HasPidGains<R>
+      : PidPlusGravity(R::pid_gains) {}
 
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   PidPlusGravity(const R& robot, const JointPidGains<joint_count>& gains)
@@ -33,12 +35,14 @@ class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, Gravit
                                                          GravityCompensation<R>(robot), {}) {}
   /// For a robot known at compile time.
   template <std::same_as<JointPidGains<joint_count>> Gains>
-  explicit PidPlusGravity(const Gains& gains) requires DescribedRobot<R>
+  explicit PidPlusGravity(const Gains& gains)
+    requires DescribedRobot<R>
       : PidPlusGravity(R(), gains) {}
   /// With a list in place: `PidPlusGravity<Q2d>({{.proportional = 5}, {.proportional = 6}})`.
   /// @throws std::invalid_argument as above, and if the list is not as long as there are joints
   PidPlusGravity(std::initializer_list<PidGains> gains)  // NOLINT: a list is the gains
-      requires DescribedRobot<R> : PidPlusGravity(R(), pid_gains_of<joint_count>(gains)) {}
+    requires DescribedRobot<R>
+      : PidPlusGravity(R(), pid_gains_of<joint_count>(gains)) {}
 };
 
 }  // namespace articula

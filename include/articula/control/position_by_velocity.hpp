@@ -27,7 +27,8 @@ class PositionByVelocity
       : VelocityController<R, PidLaw<joint_count>, VelocityFeedforward<joint_count>>(
             robot, PidLaw<joint_count>(robot, gains), {}) {}
   /// For a robot known at compile time.
-  explicit PositionByVelocity(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+  explicit PositionByVelocity(const JointPidGains<joint_count>& gains)
+    requires DescribedRobot<R>
       : PositionByVelocity(R(), gains) {}
 };
 

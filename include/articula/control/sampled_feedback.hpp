@@ -20,7 +20,7 @@ struct SampledFeedback {
   std::string_view proportional_name = "p", derivative_name = "d";  ///< what users call them
 
   /// What users call a gain.
-  [[nodiscard]] std::string_view name_of(double SampledFeedback::*gain) const noexcept {
+  [[nodiscard]] std::string_view name_of(double SampledFeedback::* gain) const noexcept {
     if (gain == &SampledFeedback::integral) return "i";
     return gain == &SampledFeedback::derivative ? derivative_name : proportional_name;
   }

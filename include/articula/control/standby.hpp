@@ -34,7 +34,9 @@ class Standby {
   static constexpr bool brakes_without_reference = true;
   static constexpr int joint_count = articula::joint_count<R>;
 
-  Standby() requires DescribedRobot<R> : Standby(0.1) {}
+  Standby()
+    requires DescribedRobot<R>
+      : Standby(0.1) {}
   /// @param robot         whose weight is carried
   /// @param damping_time  T, in which the velocity falls to 1/e [s]; shorter than two periods it is
   ///                      taken for those
@@ -44,7 +46,9 @@ class Standby {
     detail::refuse({"standby: damping_time ", damping_time, " s is not a number > 0"});
   }
   /// For a robot known at compile time.
-  explicit Standby(double damping_time) requires DescribedRobot<R> : Standby(R(), damping_time) {}
+  explicit Standby(double damping_time)
+    requires DescribedRobot<R>
+      : Standby(R(), damping_time) {}
 
   /// Takes the position that is to be held. Real-time: yes.
   void start(const JointState<joint_count>& state) noexcept { position_ = state.position; }

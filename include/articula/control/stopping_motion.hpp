@@ -181,7 +181,7 @@ class StoppingMotion {
   /// The range of a quantity, found at the ends of the stretches and next to
   /// its turning points.
   template <class TurningPoints>
-  [[nodiscard]] ValueRange range(double CommandMotion::*quantity,
+  [[nodiscard]] ValueRange range(double CommandMotion::* quantity,
                                  TurningPoints turning_points) const noexcept {
     CommandMotion m = motion_;
     ValueRange values{m.*quantity, m.*quantity};

@@ -28,7 +28,7 @@ struct CommandRange {
 template <class Command, Robot R>
 [[nodiscard]] CommandRange<joint_count<R>> command_range(const R& robot) noexcept {
   constexpr int n = joint_count<R>;
-  const auto limits = [&](double JointLimits::*limit) {
+  const auto limits = [&](double JointLimits::* limit) {
     return joint_values(robot, [&](const JointProperties& joint) { return joint.limits.*limit; });
   };
   if constexpr (std::same_as<Command, PositionCommand<n>>) {
@@ -101,7 +101,8 @@ class SumController {
                                  const JointReference<joint_count>& reference, double period,
                                  const JointVector<joint_count>& command,
                                  LastCommand is = LastCommand::any) noexcept
-      requires(Primable<Laws, joint_count> || ...) {
+    requires(Primable<Laws, joint_count> || ...)
+  {
     JointVector<joint_count> rest = command;
     for_each_law([&](auto& law) noexcept {
       if constexpr (!Primable<decltype(law), joint_count>) {
@@ -129,7 +130,8 @@ class SumController {
 
   /// Goes on with other gains, in every part that takes them. Real-time: yes.
   template <class Gains>
-  requires(TakesGains<Laws, Gains> || ...) void set_gains(const Gains& gains) noexcept {
+    requires(TakesGains<Laws, Gains> || ...)
+  void set_gains(const Gains& gains) noexcept {
     for_each_law([&](auto& law) noexcept {
       if constexpr (TakesGains<decltype(law), Gains>) law.set_gains(gains);
     });
@@ -150,8 +152,7 @@ class SumController {
   void for_each_law(auto function) noexcept {
     [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
       (function(std::get<I>(laws_)), ...);
-    }
-    (std::index_sequence_for<Laws...>());
+    }(std::index_sequence_for<Laws...>());
   }
 
   detail::CommandRange<joint_count> range_;

@@ -69,8 +69,8 @@ class Switch {
                 "the controllers of a Switch have the same type of command");
 
   /// The controllers as they are by default.
-  explicit Switch(const SwitchOptions<joint_count>& options = {}) requires DescribedRobot<R> &&
-      (std::default_initializable<Controllers>&&...)
+  explicit Switch(const SwitchOptions<joint_count>& options = {})
+    requires DescribedRobot<R> && (std::default_initializable<Controllers> && ...)
       : Switch(options, Controllers()...) {}
 
   /// @param robot        whose joints these are
@@ -97,8 +97,8 @@ class Switch {
     set_active(board_.active_at(0));
   }
   /// For a robot known at compile time.
-  explicit Switch(const SwitchOptions<joint_count>& options,
-                  Controllers... controllers) requires DescribedRobot<R>
+  explicit Switch(const SwitchOptions<joint_count>& options, Controllers... controllers)
+    requires DescribedRobot<R>
       : Switch(R(), options, std::move(controllers)...) {}
 
   /// Begins anew with the controller that is active, or was asked for. Real-time: yes.
@@ -226,7 +226,8 @@ class Switch {
   /// Says at compile time that several controllers take such gains. (As it may throw, it is not
   /// what TakesGains asks for.)
   template <class Gains>
-  requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) > 1) void set_gains(const Gains&) {
+    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) > 1)
+  void set_gains(const Gains&) {
     static_assert(
         sizeof(Gains) == 0,
         "several controllers take such gains: write member<C>().set_gains(gains) for the one "
@@ -236,8 +237,8 @@ class Switch {
   /// Goes on with other gains of the one controller that takes them. Where several do, whose gains
   /// they are must be said: `member<C>().set_gains(gains)`. Real-time: yes.
   template <class Gains>
-  requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) ==
-           1) void set_gains(const Gains& gains) noexcept {
+    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) == 1)
+  void set_gains(const Gains& gains) noexcept {
     for_each([&](auto& controller) noexcept {
       if constexpr (TakesGains<decltype(controller), Gains>) controller.set_gains(gains);
     });
@@ -263,8 +264,7 @@ class Switch {
   void for_each(auto function) noexcept {
     [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
       (function(std::get<I>(controllers_)), ...);
-    }
-    (std::index_sequence_for<Controllers...>());
+    }(std::index_sequence_for<Controllers...>());
   }
 
   void set_active(std::size_t index) noexcept {

@@ -147,10 +147,8 @@ class SwitchBoard {
 /// A controller that holds several and can be asked to switch: a Switch or Groups.
 template <class C>
 concept Switching = requires(C controller, const SwitchRequest& request) {
-  { controller.request(request) }
-  noexcept->std::same_as<SwitchOutcome>;
-  { controller.list() }
-  noexcept->std::same_as<std::array<ControllerInfo, C::controller_count>>;
+  { controller.request(request) } noexcept -> std::same_as<SwitchOutcome>;
+  { controller.list() } noexcept -> std::same_as<std::array<ControllerInfo, C::controller_count>>;
 };
 
 /// The Switch or Groups in a controller: itself, or what a Limited one limits. Real-time: yes.

@@ -13,8 +13,7 @@ namespace articula {
 /// A controller that can tell, after `update`, that it cannot control: its command does not count.
 template <class C>
 concept TellsFailure = requires(const C& controller) {
-  { controller.failed() }
-  noexcept->std::same_as<bool>;
+  { controller.failed() } noexcept -> std::same_as<bool>;
 };
 
 /// One whose command, if it is finite, counts even then, because it is a safe one: a member

@@ -28,7 +28,8 @@ class VelocityByEffort : public EffortController<R, PidLaw<joint_count<R>, PidOf
   VelocityByEffort(const R& robot, const JointPidGains<joint_count>& gains)
       : EffortController<R, Law, EffortFeedforward<joint_count>>(robot, Law(robot, gains), {}) {}
   /// For a robot known at compile time.
-  explicit VelocityByEffort(const JointPidGains<joint_count>& gains) requires DescribedRobot<R>
+  explicit VelocityByEffort(const JointPidGains<joint_count>& gains)
+    requires DescribedRobot<R>
       : VelocityByEffort(R(), gains) {}
 };
 

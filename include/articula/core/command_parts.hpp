@@ -49,7 +49,7 @@ struct CommandPart {
 /// @param command  outlives what is returned
 /// Real-time: yes.
 template <class Command>
-requires JointCommand<Command, Command::joint_count>
+  requires JointCommand<Command, Command::joint_count>
 [[nodiscard]] constexpr auto parts_of(const Command& command) noexcept {
   constexpr int N = Command::joint_count;
   using Part = CommandPart<N>;

@@ -20,10 +20,8 @@ namespace articula {
 template <class C, int N>
 concept Controller = requires(C controller, const JointState<N>& state,
                               const JointReference<N>& reference, double period) {
-  { controller.start(state) }
-  noexcept;
-  { controller.update(state, reference, period) }
-  noexcept->JointCommand<N>;
+  { controller.start(state) } noexcept;
+  { controller.update(state, reference, period) } noexcept -> JointCommand<N>;
 };
 
 }  // namespace articula

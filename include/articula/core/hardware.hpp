@@ -38,19 +38,15 @@ concept Hardware = requires(H hardware, const H& constant, JointState<H::joint_c
   { constant.robot() } -> std::convertible_to<const typename H::RobotType&>;
   { hardware.activate() } -> std::same_as<Status>;
   { hardware.deactivate() } -> std::same_as<Status>;
-  { hardware.read(state) }
-  noexcept->std::same_as<Status>;
-  { hardware.write(command) }
-  noexcept->std::same_as<Status>;
-}
-&&JointCommand<Command, H::joint_count>;
+  { hardware.read(state) } noexcept -> std::same_as<Status>;
+  { hardware.write(command) } noexcept -> std::same_as<Status>;
+} && JointCommand<Command, H::joint_count>;
 
 /// Hardware whose own cycle can pace the loop: `wait_for_cycle(timeout)` blocks until that cycle
 /// begins, and answers with another status than Status::ok if it does not begin in time.
 template <class H>
 concept PacingHardware = requires(H hardware, std::chrono::nanoseconds timeout) {
-  { hardware.wait_for_cycle(timeout) }
-  noexcept->std::same_as<Status>;
+  { hardware.wait_for_cycle(timeout) } noexcept -> std::same_as<Status>;
 };
 
 }  // namespace articula

@@ -52,7 +52,7 @@ struct MultiModeCommand {
 /// Any of the commands above for N joints.
 template <class C, int N>
 concept JointCommand = std::same_as<C, EffortCommand<N>> || std::same_as<C, PositionCommand<N>> ||
-    std::same_as<C, VelocityCommand<N>> || std::same_as<C, MultiModeCommand<N>>;
+                       std::same_as<C, VelocityCommand<N>> || std::same_as<C, MultiModeCommand<N>>;
 
 /// The numbers of a command, whatever they command, N x 1. Real-time: yes.
 template <int N>

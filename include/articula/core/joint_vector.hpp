@@ -36,8 +36,7 @@ template <int N, class Function>
   // A fold and not a loop: compilers leave vectors in memory that are filled by loops.
   [&]<int... J>(std::integer_sequence<int, J...>) __attribute__((always_inline)) {
     ((vector.coeffRef(J) = f(J)), ...);
-  }
-  (std::make_integer_sequence<int, N>{});
+  }(std::make_integer_sequence<int, N>{});
   return vector;
 }
 

@@ -24,16 +24,12 @@ namespace articula::compiled {
 /// shared among them. They are run on the mechanism as it is described and say so by a member
 /// `needs_own_frames`; the others on its canonical form.
 template <class Algorithm>
-inline constexpr bool needs_own_frames = requires {
-  requires Algorithm::needs_own_frames;
-};
+inline constexpr bool needs_own_frames = requires { requires Algorithm::needs_own_frames; };
 
 /// True for algorithms of kinematics: robots have them whose masses are not known, too. They say so
 /// by a member `needs_no_masses`.
 template <class Algorithm>
-inline constexpr bool needs_no_masses = requires {
-  requires Algorithm::needs_no_masses;
-};
+inline constexpr bool needs_no_masses = requires { requires Algorithm::needs_no_masses; };
 
 /// Refuses, in the compiler, an algorithm of dynamics for a robot whose masses are not known.
 template <class Algorithm, Robot R>
@@ -46,9 +42,7 @@ consteval void check_masses() {
 /// True for algorithms about one link, named at compile time. They take the robot's model and the
 /// joint positions: `evaluate<frames, S>(model, q)`.
 template <class Algorithm>
-concept OfALink = requires {
-  Algorithm::link;
-};
+concept OfALink = requires { Algorithm::link; };
 
 /// The mechanism of a robot on which an algorithm is run. Real-time: yes.
 template <class Algorithm, Robot R>
@@ -73,8 +67,7 @@ consteval std::size_t input_arrays() {
                     const std::array<JointArray<S, N>, Arrays>& inputs) {
       Algorithm::template evaluate<S, N, B>(mechanism, configuration, inputs[I]...);
     };
-  }
-  (std::make_index_sequence<Arrays>{});
+  }(std::make_index_sequence<Arrays>{});
   if constexpr (fits || OfALink<Algorithm>) {
     return Arrays;
   } else {
@@ -105,8 +98,7 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
       const auto configuration = configuration_of<Symbol, n, b, frames>(mechanism, inputs[0]);
       return Algorithm::template evaluate<Symbol, n, b>(mechanism, configuration, inputs[1 + I]...);
     }
-  }
-  (std::make_index_sequence<arrays>{});
+  }(std::make_index_sequence<arrays>{});
 
   symbolic::GrowingArray<symbolic::Term> outputs(128);
   symbolic::for_each_scalar<Symbol>(result, [&](Symbol& symbol) { outputs.append(symbol.term()); });
@@ -246,7 +238,7 @@ template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>...
   typename detail::Result<Algorithm, R, S, Inputs...>::Type result;
   std::size_t next = 0;
   symbolic::for_each_scalar<S>(
-      result, [&](S & value) __attribute__((always_inline)) { value = output[next++]; });
+      result, [&](S& value) __attribute__((always_inline)) { value = output[next++]; });
   return result;
 }
 

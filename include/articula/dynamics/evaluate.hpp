@@ -23,8 +23,7 @@ template <int N>
     const JointVector<N>& vector) noexcept {
   return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
     return JointArray<double, N>{vector.coeff(I)...};
-  }
-  (std::make_integer_sequence<int, N>{});
+  }(std::make_integer_sequence<int, N>{});
 }
 
 template <std::size_t N>
@@ -33,8 +32,7 @@ template <std::size_t N>
   JointVector<static_cast<int>(N)> vector;
   [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     ((vector.coeffRef(static_cast<Eigen::Index>(I)) = array[I]), ...);
-  }
-  (std::make_index_sequence<N>{});
+  }(std::make_index_sequence<N>{});
   return vector;
 }
 
@@ -60,8 +58,7 @@ template <std::size_t N>
        ...);
     };
     (copy_row(I), ...);
-  }
-  (std::make_index_sequence<N>{});
+  }(std::make_index_sequence<N>{});
   return matrix;
 }
 
@@ -94,8 +91,7 @@ template <class Algorithm, Robot R, class Input, class... Inputs>
     const auto array = [](const Input& numbers) __attribute__((always_inline)) {
       return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
         return JointArray<S, n>{numbers[I]...};
-      }
-      (std::make_index_sequence<std::size_t{n}>{});
+      }(std::make_index_sequence<std::size_t{n}>{});
     };
     const auto configuration = configuration_of<S, n, b>(mechanism, array(q));
     if constexpr (has_alternative_for_numbers<Algorithm, n, b>) {
@@ -145,8 +141,9 @@ template <class Algorithm, Robot R, int K, std::same_as<JointVectors<joint_count
     };
     const JointArray<Pack, n> packed =
         evaluate_numbers<Algorithm>(robot, columns(q), columns(inputs)...);
-    symbolic::detail::for_each_index<std::size_t{n}>([&](std::size_t i) __attribute__((
-        always_inline)) { packed[i].store(result.data() + i * K + first); });
+    symbolic::detail::for_each_index<std::size_t{n}>(
+        [&](std::size_t i)
+            __attribute__((always_inline)) { packed[i].store(result.data() + i * K + first); });
   }
   return result;
 }

@@ -129,8 +129,8 @@ template <Name Link, DescribedRobot R>
   LinkJacobian<joint_count<R>> jacobian;
   if constexpr (detail::has_link<Link, R>()) {
     const auto columns = compiled::run<JacobianOf<Link>, R>(q.data());
-    symbolic::detail::for_each_index<columns.size()>([&](
-        std::size_t i) __attribute__((always_inline)) { jacobian.data()[i] = columns[i]; });
+    symbolic::detail::for_each_index<columns.size()>(
+        [&](std::size_t i) __attribute__((always_inline)) { jacobian.data()[i] = columns[i]; });
   } else {
     detail::reject_link<Link, R>();
   }

@@ -43,8 +43,7 @@ constexpr void reject_link() {
   constexpr const auto& links = model_of(R{}).links;
   []<std::size_t... I>(std::index_sequence<I...>) {
     print_names<R>(printable<Link>(), printable<links[I].name>()...);
-  }
-  (std::make_index_sequence<links.size()>());
+  }(std::make_index_sequence<links.size()>());
 }
 
 }  // namespace articula::detail

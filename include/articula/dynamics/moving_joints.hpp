@@ -26,7 +26,8 @@ template <Robot R>
 
 /// Names live in their model: one that is about to vanish has none to give.
 template <Robot R>
-requires(!DescribedRobot<R>) auto moving_joint_names(const R&& robot) = delete;
+  requires(!DescribedRobot<R>)
+auto moving_joint_names(const R&& robot) = delete;
 
 /// Where all joints that move are: a joint that mimics another one is at
 /// q = multiplier q_of_the_other + offset.

@@ -43,18 +43,18 @@ enum class SyncProducer : unsigned char {
 };
 
 /// What a codec made of a frame.
-enum class [[nodiscard]] CanDecoding : unsigned char{
-    accepted,   ///< A drive's frame, taken into its report.
-    outdated,   ///< A drive's well-formed frame that is too old to be of use.
-    foreign,    ///< A frame of nobody that the codec knows.
-    malformed,  ///< Has a drive's identifier, but the content makes no sense.
+enum class [[nodiscard]] CanDecoding : unsigned char {
+  accepted,   ///< A drive's frame, taken into its report.
+  outdated,   ///< A drive's well-formed frame that is too old to be of use.
+  foreign,    ///< A frame of nobody that the codec knows.
+  malformed,  ///< Has a drive's identifier, but the content makes no sense.
 };
 
 /// How far the set-up of the drives is.
-enum class [[nodiscard]] CanSetUp : unsigned char{
-    in_progress,  ///< Go on.
-    done,         ///< All drives are enabled at zero effort (or where they are) and have said so.
-    failed,       ///< A drive has refused.
+enum class [[nodiscard]] CanSetUp : unsigned char {
+  in_progress,  ///< Go on.
+  done,         ///< All drives are enabled at zero effort (or where they are) and have said so.
+  failed,       ///< A drive has refused.
 };
 
 /// The language of an arm's drives: turns commands into frames and frames into reports. It has no
@@ -80,41 +80,36 @@ enum class [[nodiscard]] CanSetUp : unsigned char{
 /// Everything but `subscription` is noexcept and real-time.
 /// @tparam C  the codec
 template <class C>
-concept CanCodec = JointCommand<typename C::Command, C::joint_count> &&
+concept CanCodec =
+    JointCommand<typename C::Command, C::joint_count> &&
     requires(C codec, const C& constant, const typename C::Command& command, const CanFrame& frame,
              std::chrono::nanoseconds elapsed, CanBatch& batch) {
-  { constant.subscription() } -> std::same_as<CanSubscription>;
-  { codec.restart() }
-  noexcept;
-  { codec.set_up(elapsed, batch) }
-  noexcept->std::same_as<CanSetUp>;
-  { codec.encode(command, batch) }
-  noexcept;
-  { codec.encode_stop(batch) }
-  noexcept;
-  { codec.decode(frame) }
-  noexcept->std::same_as<CanDecoding>;
-  { constant.reports() }
-  noexcept
-      ->std::convertible_to<std::span<const DriveReport, static_cast<std::size_t>(C::joint_count)>>;
-};
+      { constant.subscription() } -> std::same_as<CanSubscription>;
+      { codec.restart() } noexcept;
+      { codec.set_up(elapsed, batch) } noexcept -> std::same_as<CanSetUp>;
+      { codec.encode(command, batch) } noexcept;
+      { codec.encode_stop(batch) } noexcept;
+      { codec.decode(frame) } noexcept -> std::same_as<CanDecoding>;
+      {
+        constant.reports()
+      } noexcept -> std::convertible_to<
+          std::span<const DriveReport, static_cast<std::size_t>(C::joint_count)>>;
+    };
 
 /// A codec whose drives have watchdogs that would report a fault after a clean end. Once the drives
 /// have let go, `release(elapsed, batch)` appends the frames that take the watchdogs off; it is
 /// called about once a cycle, `elapsed` from zero on, until it says done.
 template <class C>
-concept ReleasingCanCodec = CanCodec<C> &&
-    requires(C codec, std::chrono::nanoseconds elapsed, CanBatch& batch) {
-  { codec.release(elapsed, batch) }
-  noexcept->std::same_as<CanSetUp>;
-};
+concept ReleasingCanCodec =
+    CanCodec<C> && requires(C codec, std::chrono::nanoseconds elapsed, CanBatch& batch) {
+      { codec.release(elapsed, batch) } noexcept -> std::same_as<CanSetUp>;
+    };
 
 /// A codec that can tell why the set-up has not come to its end: which drive it was, and what it
 /// has refused.
 template <class C>
 concept ExplainingCanCodec = CanCodec<C> && requires(const C& constant) {
-  { constant.set_up_fault() }
-  noexcept->std::same_as<CanFault>;
+  { constant.set_up_fault() } noexcept -> std::same_as<CanFault>;
 };
 
 /// A codec whose drives' cycles are begun by a frame of another node, which can pace a loop:
@@ -124,8 +119,7 @@ concept ExplainingCanCodec = CanCodec<C> && requires(const C& constant) {
 /// the reports grow older by one all the same, so that a bus that falls silent is found.
 template <class C>
 concept PacedCanCodec = CanCodec<C> && requires(const C& constant) {
-  { constant.heard_cycles() }
-  noexcept->std::same_as<std::uint64_t>;
+  { constant.heard_cycles() } noexcept -> std::same_as<std::uint64_t>;
 };
 
 }  // namespace articula

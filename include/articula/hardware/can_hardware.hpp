@@ -54,8 +54,8 @@ class CanHardware {
     validate(options);
   }
   /// For a robot known at compile time.
-  CanHardware(Codec codec, Transport transport,
-              const CanHardwareOptions& options = {}) requires DescribedRobot<R>
+  CanHardware(Codec codec, Transport transport, const CanHardwareOptions& options = {})
+    requires DescribedRobot<R>
       : CanHardware(R(), std::move(codec), std::move(transport), options) {}
 
   /// The one that is moved from has no drives any more.
@@ -181,8 +181,9 @@ class CanHardware {
   /// @return         Status::ok, Status::stale_state if no cycle began in time, or
   ///                 Status::hardware_fault, at once, while the link is not up
   /// Real-time: yes, but for the wait.
-  [[nodiscard]] Status wait_for_cycle(std::chrono::nanoseconds timeout) noexcept requires
-      PacedCanCodec<Codec> {
+  [[nodiscard]] Status wait_for_cycle(std::chrono::nanoseconds timeout) noexcept
+    requires PacedCanCodec<Codec>
+  {
     const auto end = transport_.now() + timeout;
     drain();
     while (codec_.heard_cycles() == awaited_cycle_) {

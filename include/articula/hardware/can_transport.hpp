@@ -45,13 +45,13 @@ enum class CanLink : unsigned char {
 }
 
 /// What became of a cycle's frames. What was not taken is dropped, never sent later.
-enum class [[nodiscard]] CanSending : unsigned char{
-    sent,         ///< All taken, and those of the cycle before have been on the bus.
-    unconfirmed,  ///< All taken, but there is no sign that those before ever got onto the bus.
-    backlog,      ///< None taken: there is no sign yet that those of an earlier cycle have been on
-                  ///< the bus. `receive` takes that sign in.
-    congested,    ///< Not all taken: the queue is full.
-    failed,       ///< Not all taken: the link is not up.
+enum class [[nodiscard]] CanSending : unsigned char {
+  sent,         ///< All taken, and those of the cycle before have been on the bus.
+  unconfirmed,  ///< All taken, but there is no sign that those before ever got onto the bus.
+  backlog,      ///< None taken: there is no sign yet that those of an earlier cycle have been on
+                ///< the bus. `receive` takes that sign in.
+  congested,    ///< Not all taken: the queue is full.
+  failed,       ///< Not all taken: the link is not up.
 };
 
 /// The way to a CAN bus.
@@ -72,16 +72,11 @@ concept CanTransport = requires(T transport, const T& constant, const CanSubscri
                                 std::span<ReceivedCanFrame> frames, const CanBatch& batch,
                                 std::chrono::nanoseconds time) {
   { transport.open(subscription) } -> std::same_as<Status>;
-  { transport.receive(frames) }
-  noexcept->std::same_as<std::size_t>;
-  { transport.send(batch) }
-  noexcept->std::same_as<CanSending>;
-  { transport.wait(time) }
-  noexcept;
-  { constant.now() }
-  noexcept->std::same_as<std::chrono::nanoseconds>;
-  { constant.link() }
-  noexcept->std::same_as<CanLink>;
+  { transport.receive(frames) } noexcept -> std::same_as<std::size_t>;
+  { transport.send(batch) } noexcept -> std::same_as<CanSending>;
+  { transport.wait(time) } noexcept;
+  { constant.now() } noexcept -> std::same_as<std::chrono::nanoseconds>;
+  { constant.link() } noexcept -> std::same_as<CanLink>;
 };
 
 }  // namespace articula

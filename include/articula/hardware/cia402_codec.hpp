@@ -100,7 +100,8 @@ class Cia402Codec {
   }
   /// For a robot known at compile time.
   explicit Cia402Codec(const Cia402DriveList<joint_count>& drives, std::uint8_t period = 1,
-                       std::uint16_t deadline = 10) requires DescribedRobot<R>
+                       std::uint16_t deadline = 10)
+    requires DescribedRobot<R>
       : Cia402Codec(R(), drives, period, deadline) {}
 
   /// Real-time: no (allocates).
@@ -264,7 +265,9 @@ class Cia402Codec {
   }
   [[nodiscard]] const Cia402DriveList<joint_count>& drives() const noexcept { return drives_; }
   /// How many SYNC of another node have been heard. Real-time: yes.
-  [[nodiscard]] std::uint64_t heard_cycles() const noexcept requires(!sends_sync) {
+  [[nodiscard]] std::uint64_t heard_cycles() const noexcept
+    requires(!sends_sync)
+  {
     return heard_cycles_;
   }
 

@@ -54,8 +54,8 @@ class MockHardware {
     validate(script_, joint_count, period_);
   }
   /// For a robot known at compile time.
-  explicit MockHardware(std::vector<MockFault> script = {},
-                        double period = 1e-3) requires DescribedRobot<R>
+  explicit MockHardware(std::vector<MockFault> script = {}, double period = 1e-3)
+    requires DescribedRobot<R>
       : MockHardware(R(), std::move(script), period) {}
 
   /// Status::hardware_fault if the script says so, else Status::ok. Real-time: yes.

@@ -42,7 +42,8 @@ class QuanserCodec {
     }
   }
   /// For a robot known at compile time.
-  explicit QuanserCodec(const QuanserModules<joint_count>& modules) requires DescribedRobot<R>
+  explicit QuanserCodec(const QuanserModules<joint_count>& modules)
+    requires DescribedRobot<R>
       : QuanserCodec(R(), modules) {}
 
   /// Real-time: no (allocates).

@@ -56,7 +56,8 @@ class SimulatedCia402Drives {
   /// For a robot known at compile time.
   explicit SimulatedCia402Drives(const Cia402DriveList<joint_count>& drives,
                                  const SimulatorOptions<joint_count>& options = {},
-                                 const Quirks& quirks = {}) requires DescribedRobot<R>
+                                 const Quirks& quirks = {})
+    requires DescribedRobot<R>
       : SimulatedCia402Drives(R(), drives, options, quirks) {}
 
   /// Takes a frame from the bus. SYNC lets a period pass and is answered.

@@ -51,8 +51,9 @@ class SimulatedQuanserDrives {
   }
   /// For a robot known at compile time.
   explicit SimulatedQuanserDrives(const QuanserModules<joint_count>& modules,
-                                  const SimulatorOptions<joint_count>& options = {}) requires
-      DescribedRobot<R> : SimulatedQuanserDrives(R(), modules, options) {}
+                                  const SimulatorOptions<joint_count>& options = {})
+    requires DescribedRobot<R>
+      : SimulatedQuanserDrives(R(), modules, options) {}
 
   static constexpr double watchdog = 10e-3;             ///< longest time without efforts [s]
   static constexpr double heartbeat_interval = 100e-3;  ///< [s]

@@ -28,22 +28,16 @@ namespace articula {
 /// All vectors are size x 1, in rad, rad/s, N m or m, m/s, N. The maps take any value and are
 /// noexcept.
 template <class T>
-concept Transmission = requires(const T& transmission, const JointVector<T::size>& x,
-                                std::string_view where) {
-  { transmission.joint_position(x) }
-  noexcept->std::same_as<JointVector<T::size>>;
-  { transmission.joint_velocity(x) }
-  noexcept->std::same_as<JointVector<T::size>>;
-  { transmission.joint_effort(x) }
-  noexcept->std::same_as<JointVector<T::size>>;
-  { transmission.actuator_position(x) }
-  noexcept->std::same_as<JointVector<T::size>>;
-  { transmission.actuator_velocity(x) }
-  noexcept->std::same_as<JointVector<T::size>>;
-  { transmission.actuator_effort(x) }
-  noexcept->std::same_as<JointVector<T::size>>;
-  validate(transmission, where);
-};
+concept Transmission =
+    requires(const T& transmission, const JointVector<T::size>& x, std::string_view where) {
+      { transmission.joint_position(x) } noexcept -> std::same_as<JointVector<T::size>>;
+      { transmission.joint_velocity(x) } noexcept -> std::same_as<JointVector<T::size>>;
+      { transmission.joint_effort(x) } noexcept -> std::same_as<JointVector<T::size>>;
+      { transmission.actuator_position(x) } noexcept -> std::same_as<JointVector<T::size>>;
+      { transmission.actuator_velocity(x) } noexcept -> std::same_as<JointVector<T::size>>;
+      { transmission.actuator_effort(x) } noexcept -> std::same_as<JointVector<T::size>>;
+      validate(transmission, where);
+    };
 
 namespace detail {
 

@@ -68,8 +68,8 @@ class TransmittedHardware {
   /// @param gearings  one for each of the transmissions
   /// @throws std::invalid_argument naming the joint or actuator and the value, if a name is unknown
   ///         or there twice, or a figure is out of range
-  explicit TransmittedHardware(ActuatorHardware hardware,
-                               const Gearing<Transmissions>&... gearings) requires DescribedRobot<R>
+  explicit TransmittedHardware(ActuatorHardware hardware, const Gearing<Transmissions>&... gearings)
+    requires DescribedRobot<R>
       : TransmittedHardware(R(), std::move(hardware), gearings...) {}
 
   /// For a robot loaded at run time.
@@ -109,10 +109,10 @@ class TransmittedHardware {
   /// @return         as the actuators' hardware, which also sees what is not finite
   /// Real-time: yes, if the actuators' write is.
   template <JointCommand<joint_count> Command>
-  requires Hardware<ActuatorHardware, Command> &&
-      (!std::same_as<Command, MultiModeCommand<joint_count>> ||
-       joint_count == sizeof...(Transmissions)) [[nodiscard]] Status
-      write(const Command& command) noexcept {
+    requires Hardware<ActuatorHardware, Command> &&
+             (!std::same_as<Command, MultiModeCommand<joint_count>> ||
+              joint_count == sizeof...(Transmissions))
+  [[nodiscard]] Status write(const Command& command) noexcept {
     Command given;
     for_each_part([&](const auto& part) noexcept {
       const auto& [gearing, joints, actuators] = part;
@@ -160,13 +160,15 @@ class TransmittedHardware {
   }
 
   /// The actuators' own period [s], where they have one. Real-time: yes.
-  [[nodiscard]] double period() const noexcept requires requires(const ActuatorHardware& h) {
-    h.period();
+  [[nodiscard]] double period() const noexcept
+    requires requires(const ActuatorHardware& h) { h.period(); }
+  {
+    return hardware_.period();
   }
-  { return hardware_.period(); }
   /// Waits for the actuators' own cycle, where they have one. Real-time: yes, but for the wait.
-  [[nodiscard]] Status wait_for_cycle(std::chrono::nanoseconds timeout) noexcept requires
-      PacingHardware<ActuatorHardware> {
+  [[nodiscard]] Status wait_for_cycle(std::chrono::nanoseconds timeout) noexcept
+    requires PacingHardware<ActuatorHardware>
+  {
     return hardware_.wait_for_cycle(timeout);
   }
 

@@ -50,8 +50,8 @@ inline constexpr std::string_view urdf_transmission<FourBarTransmission> =
 ///         them
 /// Real-time: no (searches by name, throws).
 template <Transmission T>
-requires(!detail::urdf_transmission<T>.empty())
-    [[nodiscard]] Gearing<T> gearing_of(const UrdfDescription& description, std::string_view name) {
+  requires(!detail::urdf_transmission<T>.empty())
+[[nodiscard]] Gearing<T> gearing_of(const UrdfDescription& description, std::string_view name) {
   const std::string where = description.file + ": transmission '" + std::string(name) + "'";
   const auto found = std::ranges::find(description.transmissions, name, &UrdfTransmission::name);
   if (found == description.transmissions.end()) {

@@ -12,15 +12,12 @@
 namespace articula::detail {
 
 template <class C, int N>
-concept Startable = requires(C controller, const JointState<N>& state) {
-  controller.start(state);
-};
+concept Startable = requires(C controller, const JointState<N>& state) { controller.start(state); };
 
 template <class C, int N>
-concept Updatable = requires(C controller, const JointState<N>& state,
-                             const JointReference<N>& reference, double period) {
-  controller.update(state, reference, period);
-};
+concept Updatable =
+    requires(C controller, const JointState<N>& state, const JointReference<N>& reference,
+             double period) { controller.update(state, reference, period); };
 
 /// What is asserted of a type that can be updated.
 /// @tparam N  number of joints
@@ -60,13 +57,13 @@ struct CheckedController<C, N, false> : CheckedUpdate<C, N> {
 
 /// Hardware that is written such commands, whatever else it may lack.
 template <class H, class Command>
-concept TakesCommand = requires(H hardware, const Command& command) {
-  hardware.write(command);
-};
+concept TakesCommand = requires(H hardware, const Command& command) { hardware.write(command); };
 
 /// The robot of a hardware.
-template <class H, bool = requires { typename H::RobotType; }
-> struct RobotOf { using Type = typename H::RobotType; };
+template <class H, bool = requires { typename H::RobotType; }>
+struct RobotOf {
+  using Type = typename H::RobotType;
+};
 template <class H>
 struct RobotOf<H, false> {
   using Type = H;  // so that the messages below are the first

@@ -41,8 +41,8 @@ class CsvWriter {
     check();
   }
   /// For a robot known at compile time.
-  explicit CsvWriter(const std::filesystem::path& path,
-                     const RecordContents& contents = {}) requires DescribedRobot<R>
+  explicit CsvWriter(const std::filesystem::path& path, const RecordContents& contents = {})
+    requires DescribedRobot<R>
       : CsvWriter(R(), path, contents) {}
 
   /// Writes one record.

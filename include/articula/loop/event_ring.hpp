@@ -18,7 +18,7 @@ namespace articula {
 /// @tparam Atomic    std::atomic, or what a test puts in its place
 template <std::default_initializable T, std::size_t Capacity,
           template <class> class Atomic = std::atomic>
-requires std::is_copy_assignable_v<T>
+  requires std::is_copy_assignable_v<T>
 class EventRing {
  public:
   static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0,

@@ -31,7 +31,8 @@ class GainsExchange {
 
   /// @param robot  whose joints the messages name
   template <Robot R>
-  requires(joint_count<R> == N) explicit GainsExchange(const R& robot) {
+    requires(joint_count<R> == N)
+  explicit GainsExchange(const R& robot) {
     const auto names = joint_names(robot);
     std::copy(names.begin(), names.end(), names_.begin());
   }

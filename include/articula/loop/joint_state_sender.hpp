@@ -62,7 +62,8 @@ class JointStateSender {
     }
   }
   /// For a robot known at compile time.
-  explicit JointStateSender(const JointStateSenderOptions& options = {}) requires DescribedRobot<R>
+  explicit JointStateSender(const JointStateSenderOptions& options = {})
+    requires DescribedRobot<R>
       : JointStateSender(R(), options) {}
   ~JointStateSender() { ::close(socket_); }
   JointStateSender(const JointStateSender&) = delete;

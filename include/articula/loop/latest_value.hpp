@@ -21,7 +21,7 @@ namespace articula {
 /// @tparam T       what is handed over; its assignment must be fit for real time
 /// @tparam Atomic  std::atomic, or what a test puts in its place
 template <std::default_initializable T, template <class> class Atomic = std::atomic>
-requires std::is_copy_assignable_v<T>
+  requires std::is_copy_assignable_v<T>
 class LatestValue {
  public:
   LatestValue() = default;

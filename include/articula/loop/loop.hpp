@@ -72,11 +72,13 @@ class Loop {
                 "read(state) and write(command) that return a Status, see core/hardware.hpp");
 
   /// Default hardware and controller.
-  Loop() requires std::default_initializable<HardwareType>
+  Loop()
+    requires std::default_initializable<HardwareType>
       : Loop(HardwareType(), detail::default_controller<ControllerType>()) {}
 
   /// A given controller on default hardware.
-  explicit Loop(ControllerType controller) requires std::default_initializable<HardwareType>
+  explicit Loop(ControllerType controller)
+    requires std::default_initializable<HardwareType>
       : Loop(HardwareType(), std::move(controller)) {}
 
   /// Given hardware under the default controller.

@@ -15,10 +15,8 @@ namespace articula {
 ///   dictates the pace. The next cycle is due one period after what it returned.
 template <class C>
 concept LoopClock = requires(C clock, std::chrono::nanoseconds due) {
-  { clock.now() }
-  noexcept->std::same_as<std::chrono::nanoseconds>;
-  { clock.wait_until(due) }
-  noexcept->std::same_as<std::chrono::nanoseconds>;
+  { clock.now() } noexcept -> std::same_as<std::chrono::nanoseconds>;
+  { clock.wait_until(due) } noexcept -> std::same_as<std::chrono::nanoseconds>;
 };
 
 }  // namespace articula

@@ -30,8 +30,8 @@ class McapRecordWriter {
         writer_(path, "cycle", "articula.Cycle",
                 schema_of(record_json(robot, Record(), extras_)).dump()) {}
   /// For a robot known at compile time.
-  explicit McapRecordWriter(const std::filesystem::path& path,
-                            const RecordContents& contents = {}) requires DescribedRobot<R>
+  explicit McapRecordWriter(const std::filesystem::path& path, const RecordContents& contents = {})
+    requires DescribedRobot<R>
       : McapRecordWriter(R(), path, contents) {}
 
   /// Writes one record.

@@ -21,8 +21,7 @@ namespace articula {
 /// What can be run: a Loop, a SupervisedLoop or your own.
 template <class L>
 concept RunnableLoop = requires(L loop) {
-  { loop.update() }
-  noexcept->std::same_as<Status>;
+  { loop.update() } noexcept -> std::same_as<Status>;
   { loop.period() } -> std::convertible_to<double>;
 };
 
@@ -60,8 +59,8 @@ struct WhileOk {
 /// @throws std::invalid_argument if the loop's period is not between 1 ns and 1000 s
 /// Real-time: all cycles, if update, each and the clock are.
 template <RunnableLoop LoopType, LoopClock Clock, class Each = WhileOk>
-requires std::predicate<Each&, LoopType&, const RunReport&> RunReport
-run(LoopType& loop, Clock& clock, const RunOptions& options = {}, Each each = {}) {
+  requires std::predicate<Each&, LoopType&, const RunReport&>
+RunReport run(LoopType& loop, Clock& clock, const RunOptions& options = {}, Each each = {}) {
   using std::chrono::nanoseconds;
   const double seconds = loop.period();
   if (!is_finite(seconds) || seconds < 1e-9 || seconds > 1000) {

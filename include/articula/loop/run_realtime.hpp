@@ -24,9 +24,8 @@ struct RealtimeOptions {
 
 /// A loop whose hardware can pace it.
 template <class L>
-concept PacedLoop = requires(L loop) {
-  requires PacingHardware<std::remove_cvref_t<decltype(loop.hardware())>>;
-};
+concept PacedLoop =
+    requires(L loop) { requires PacingHardware<std::remove_cvref_t<decltype(loop.hardware())>>; };
 
 /// Makes the calling thread fit for real time and runs the loop on it; see make_realtime and the
 /// other `run`. What the loop has to say before (its notices) goes to options.thread.warn. The pace is that of the loop's hardware where it can give one (see HardwareClock),

@@ -24,7 +24,7 @@ class StopOnSignal {
     if (!target().compare_exchange_strong(none, &flag)) {
       throw std::logic_error("StopOnSignal: there is one already");
     }
-    struct sigaction action {};
+    struct sigaction action{};
     action.sa_handler = [](int) {
       if (StopFlag* raised = target().load()) raised->request();
     };
@@ -50,8 +50,8 @@ class StopOnSignal {
     return flag;
   }
 
-  struct sigaction interrupt_ {};
-  struct sigaction terminate_ {};
+  struct sigaction interrupt_{};
+  struct sigaction terminate_{};
 };
 
 }  // namespace articula

@@ -27,7 +27,7 @@ enum class Passage : unsigned char {
 /// @tparam HardwareType  what is supervised
 /// @tparam CommandType   what it accepts
 template <class HardwareType, class CommandType>
-requires Hardware<HardwareType, CommandType>
+  requires Hardware<HardwareType, CommandType>
 class SupervisedHardware {
  public:
   using RobotType = typename HardwareType::RobotType;
@@ -37,10 +37,11 @@ class SupervisedHardware {
       : hardware_(std::move(hardware)), options_(options) {}
 
   [[nodiscard]] const RobotType& robot() const noexcept { return hardware_.robot(); }
-  [[nodiscard]] double period() const noexcept requires requires(const HardwareType& h) {
-    h.period();
+  [[nodiscard]] double period() const noexcept
+    requires requires(const HardwareType& h) { h.period(); }
+  {
+    return hardware_.period();
   }
-  { return hardware_.period(); }
 
   /// Nothing: the loop inside is made long before anything shall move.
   [[nodiscard]] Status activate() noexcept { return Status::ok; }

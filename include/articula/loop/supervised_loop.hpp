@@ -42,8 +42,8 @@ class SupervisedLoop {
   using Command = typename Loop<HardwareType, ControllerTemplate>::Command;
 
   /// Default hardware and controller.
-  explicit SupervisedLoop(
-      const SupervisionOptions& options = {}) requires std::default_initializable<HardwareType>
+  explicit SupervisedLoop(const SupervisionOptions& options = {})
+    requires std::default_initializable<HardwareType>
       : SupervisedLoop(HardwareType(), detail::default_controller<ControllerType>(), options) {}
 
   /// Given hardware under the default controller.

@@ -47,7 +47,8 @@ class SwitchExchange {
 
   /// @param controller  a Switch or Groups, or a Limited one
   template <class C>
-  requires(detail::switch_size<C> == Count) explicit SwitchExchange(const C& controller)
+    requires(detail::switch_size<C> == Count)
+  explicit SwitchExchange(const C& controller)
       : infos_(switch_in(controller).list()), statuses_(infos_) {}
 
   // For the one thread that switches:
@@ -111,7 +112,8 @@ class SwitchExchange {
   /// @return  whether a controller started, stopped or failed since the last call
   /// Real-time: yes. Wait-free.
   template <class C>
-  requires(detail::switch_size<C> == Count) bool apply(C& controller) noexcept {
+    requires(detail::switch_size<C> == Count)
+  bool apply(C& controller) noexcept {
     auto& controllers = switch_in(controller);
     const std::array<ControllerInfo, Count> now = controllers.list();
     bool changed = false;

@@ -51,7 +51,7 @@ struct SharedRotors {
   Name joint{};  ///< name of the other joint; empty: none
   double inertia =
       0;  ///< sum of J n n' over the rotors that turn n and n' times as fast as the two
-};        ///< joints, of either sign [kg m^2, kg m or kg]
+};  ///< joints, of either sign [kg m^2, kg m or kg]
 
 /// A joint as URDF describes it: it carries the child link in the parent link.
 struct Joint {

@@ -23,8 +23,7 @@ template <Name Text>
 #if defined(__clang__)
   return []<std::size_t... I>(std::index_sequence<I...>) {
     return Spelled<Text.characters[I]...>{};
-  }
-  (std::make_index_sequence<Text.view().size()>{});
+  }(std::make_index_sequence<Text.view().size()>{});
 #else
   return Named<Text>{};
 #endif

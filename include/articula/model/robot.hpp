@@ -17,7 +17,7 @@ namespace articula {
 /// A robot known at compile time: an empty type with a constexpr description.
 template <class R>
 concept DescribedRobot = std::is_empty_v<R> && std::is_default_constructible_v<R> &&
-    is_robot_description<std::remove_cvref_t<decltype(R::description)>>;
+                         is_robot_description<std::remove_cvref_t<decltype(R::description)>>;
 
 namespace detail {
 
@@ -88,7 +88,8 @@ template <Robot R>
 
 /// Names live in their model: one that is about to vanish has none to give.
 template <Robot R>
-requires(!DescribedRobot<R>) auto joint_names(const R&& robot) = delete;
+  requires(!DescribedRobot<R>)
+auto joint_names(const R&& robot) = delete;
 
 /// The index of one of these joints by name.
 /// @throws std::invalid_argument if it is none of them, saying why: it is fixed, mimics another

@@ -58,7 +58,8 @@ class JerkLimitedProfile {
   }
   /// For a robot known at compile time.
   JerkLimitedProfile(const JointVector<joint_count>& from, const JointVector<joint_count>& to,
-                     const Limits& limits) requires DescribedRobot<R>
+                     const Limits& limits)
+    requires DescribedRobot<R>
       : JerkLimitedProfile(R(), from, to, limits) {}
 
   /// From rest to rest, as the constructor does, for numbers known to be good.

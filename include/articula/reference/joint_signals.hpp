@@ -84,10 +84,12 @@ class JointSignals {
       : JointSignals(robot, std::span(signals.begin(), signals.size()), around) {}
   /// For a robot known at compile time.
   explicit JointSignals(std::span<const JointSignal> signals,
-                        const JointReference<joint_count>& around = {}) requires DescribedRobot<R>
+                        const JointReference<joint_count>& around = {})
+    requires DescribedRobot<R>
       : JointSignals(R(), signals, around) {}
   explicit JointSignals(std::initializer_list<JointSignal> signals,
-                        const JointReference<joint_count>& around = {}) requires DescribedRobot<R>
+                        const JointReference<joint_count>& around = {})
+    requires DescribedRobot<R>
       : JointSignals(R(), signals, around) {}
 
   /// The reference at a time [s]. Real-time: yes. O(N + number of signals).

@@ -21,8 +21,7 @@ namespace articula {
 /// @tparam N  number of joints
 template <class G, int N>
 concept ReferenceGenerator = requires(G generator, double time) {
-  { generator.sample(time) }
-  noexcept->std::same_as<JointReference<N>>;
+  { generator.sample(time) } noexcept -> std::same_as<JointReference<N>>;
 };
 
 }  // namespace articula

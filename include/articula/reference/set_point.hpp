@@ -23,7 +23,8 @@ class SetPoint {
     reference_.position = position;
   }
   /// For a robot known at compile time.
-  explicit SetPoint(const JointVector<joint_count>& position) requires DescribedRobot<R>
+  explicit SetPoint(const JointVector<joint_count>& position)
+    requires DescribedRobot<R>
       : SetPoint(R(), position) {}
 
   /// The same at any time. Real-time: yes.

@@ -110,7 +110,8 @@ class StateToStateProfile {
   }
   /// For a robot known at compile time.
   StateToStateProfile(const Reference& from, const Reference& to, const Limits& limits,
-                      double minimum = 0) requires DescribedRobot<R>
+                      double minimum = 0)
+    requires DescribedRobot<R>
       : StateToStateProfile(R(), from, to, limits, minimum) {}
 
   /// The same for the control loop: the limits are known to be good, and positions on the way are

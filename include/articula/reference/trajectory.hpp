@@ -91,11 +91,11 @@ class Trajectory {
              const TrajectoryOptions& options = {})
       : Trajectory(robot, std::span(points.begin(), points.size()), options) {}
   /// For a robot known at compile time.
-  explicit Trajectory(std::span<const Point> points,
-                      const TrajectoryOptions& options = {}) requires DescribedRobot<R>
+  explicit Trajectory(std::span<const Point> points, const TrajectoryOptions& options = {})
+    requires DescribedRobot<R>
       : Trajectory(R(), points, options) {}
-  explicit Trajectory(std::initializer_list<Point> points,
-                      const TrajectoryOptions& options = {}) requires DescribedRobot<R>
+  explicit Trajectory(std::initializer_list<Point> points, const TrajectoryOptions& options = {})
+    requires DescribedRobot<R>
       : Trajectory(R(), points, options) {}
 
   /// Leaves a joint out: under a TrajectoryFollower it goes on with what it does, along an older

@@ -92,7 +92,8 @@ class TrajectoryFollower {
   }
   /// For a robot known at compile time.
   TrajectoryFollower(const JointVector<joint_count>& position, const Limits& limits,
-                     const FollowerOptions<joint_count>& options = {}) requires DescribedRobot<R>
+                     const FollowerOptions<joint_count>& options = {})
+    requires DescribedRobot<R>
       : TrajectoryFollower(R(), position, limits, options) {}
 
   /// Starts a trajectory in place of the one that is followed or waits.

@@ -43,8 +43,7 @@ class JointDynamics {
   [[nodiscard]] Motion<joint_count> advance(const Motion<joint_count>& motion,
                                             const JointVector<joint_count>& effort,
                                             double step) const noexcept {
-    return advance(
-        motion, [&effort](const auto&, const auto&) noexcept { return effort; }, step);
+    return advance(motion, [&effort](const auto&, const auto&) noexcept { return effort; }, step);
   }
 
   /// The motion after one step under efforts that depend on it.
@@ -53,12 +52,10 @@ class JointDynamics {
   /// @param step    [s]
   /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step.
   template <class Drives>
-  requires std::is_invocable_r_v < JointVector<joint_count>,
-  const Drives&, const JointVector<joint_count>&,
-      const JointVector<joint_count>& >
-          [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion,
-                                                    const Drives& effort,
-                                                    double step) const noexcept {
+    requires std::is_invocable_r_v<JointVector<joint_count>, const Drives&,
+                                   const JointVector<joint_count>&, const JointVector<joint_count>&>
+  [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion, const Drives& effort,
+                                            double step) const noexcept {
     double rest = step;
     for (int event = 0; event < most_events && rest > 0; ++event) {
       if (any_at_stop(motion)) motion = after_impact(motion, Rebound::yes);

@@ -37,7 +37,8 @@ class Simulator {
   /// A robot known at compile time.
   /// @throws std::invalid_argument if the options cannot be simulated; the message names joint,
   ///         value, limit
-  explicit Simulator(const SimulatorOptions<joint_count>& options = {}) requires DescribedRobot<R>
+  explicit Simulator(const SimulatorOptions<joint_count>& options = {})
+    requires DescribedRobot<R>
       : Simulator(R(), options) {}
 
   /// A robot loaded at run time.
@@ -157,7 +158,7 @@ class Simulator {
   /// Moves on by one period with ideal drives: at an even speed, as far as the limits of position
   /// and velocity allow. The effort is what the mean acceleration takes, without limit.
   void move_to(const JointVector<joint_count>& target) noexcept {
-    const auto limit = [this](double JointLimits::*which) {
+    const auto limit = [this](double JointLimits::* which) {
       return joint_values(robot_, [&](const JointProperties& j) { return j.limits.*which; });
     };
     const JointVector<joint_count> farthest = limit(&JointLimits::velocity) * options_.period;

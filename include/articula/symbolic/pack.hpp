@@ -31,7 +31,8 @@ struct SineAndCosine {
 /// makes them compute for as many robots at once.
 /// @tparam Lanes  how many: 2, or 4 or 8 if they fit into a register
 template <int Lanes = lanes_of_a_register>
-requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_register) class Pack {
+  requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_register)
+class Pack {
  public:
   static constexpr int lanes = Lanes;
 
@@ -118,9 +119,8 @@ requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_registe
     if constexpr (Begin < K) {
       constexpr std::size_t count = K - Begin < 3 ? K - Begin : 3;
       std::array<Reals, count> x, s, c;
-      detail::for_each_index<count>([&](std::size_t i) __attribute__((always_inline)) {
-        x[i] = angle[Begin + i].reals_;
-      });
+      detail::for_each_index<count>(
+          [&](std::size_t i) __attribute__((always_inline)) { x[i] = angle[Begin + i].reals_; });
       detail::sine_cosine_by_lane<Lanes, count>(x, s, c);
       detail::for_each_index<count>([&](std::size_t i) __attribute__((always_inline)) {
         sine[Begin + i].reals_ = s[i];

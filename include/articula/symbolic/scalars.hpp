@@ -37,8 +37,7 @@ template <class S, class Result, class Visit>
     // No loop: compilers leave arrays that loops have filled in memory.
     [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
       (for_each_scalar<S>(result[I], visit), ...);
-    }
-    (std::make_index_sequence<std::tuple_size_v<Shape>>{});
+    }(std::make_index_sequence<std::tuple_size_v<Shape>>{});
   }
 }
 

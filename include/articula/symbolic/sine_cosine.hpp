@@ -38,8 +38,7 @@ template <int Lanes, std::size_t Begin, std::size_t Times, std::size_t K>
   return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     // (% K: the compiler wants a valid index also where none is read.)
     return Reals<Lanes>{(Begin + I / Times < K ? angle[(Begin + I / Times) % K] : 0.0)...};
-  }
-  (std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
+  }(std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
 }
 
 /// Sines and cosines of the angles from one on.

@@ -12,8 +12,8 @@ namespace articula::symbolic::detail {
 /// Calls f with 0 to Count - 1. (Compilers leave arrays in memory that are filled by loops.)
 template <std::size_t Count, class Function>
 [[gnu::always_inline]] inline void for_each_index(const Function& f) noexcept {
-  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) { (f(I), ...); }
-  (std::make_index_sequence<Count>{});
+  [&]<std::size_t... I>(std::index_sequence<I...>)
+      __attribute__((always_inline)) { (f(I), ...); }(std::make_index_sequence<Count>{});
 }
 
 /// The vectors of g++ and clang++: they have the operators of numbers, lane by lane.
@@ -43,8 +43,7 @@ template <class Vector, class T>
 [[gnu::always_inline]] inline Vector alternating(T even, T odd) noexcept {
   return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     return Vector{(I % 2 == 0 ? even : odd)...};
-  }
-  (std::make_index_sequence<sizeof(Vector) / sizeof(T)>{});
+  }(std::make_index_sequence<sizeof(Vector) / sizeof(T)>{});
 }
 
 /// Lanes 0 and 1, 2 and 3, ... in each other's place.
@@ -52,8 +51,7 @@ template <int Lanes>
 [[gnu::always_inline]] inline Reals<Lanes> with_swapped_lanes(const Reals<Lanes>& x) noexcept {
   return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
     return Reals<Lanes>{x[I ^ 1U]...};
-  }
-  (std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
+  }(std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
 }
 
 /// The largest angle that is reduced right [rad].
@@ -134,9 +132,8 @@ template <int Lanes, std::size_t Count>
   using Vector = Reals<Lanes>;
   std::array<ReducedAngle<Lanes>, Count> reduced;
   std::array<Vector, Count> z, p, q;
-  const auto each = [](const auto& stage) __attribute__((always_inline)) {
-    for_each_index<Count>(stage);
-  };
+  const auto each = [](const auto& stage)
+                        __attribute__((always_inline)) { for_each_index<Count>(stage); };
   each([&](std::size_t i) __attribute__((always_inline)) { reduced[i] = reduce<Lanes>(angle[i]); });
   each([&](std::size_t i)
            __attribute__((always_inline)) { z[i] = reduced[i].rest * reduced[i].rest; });
@@ -172,10 +169,9 @@ template <int Lanes>
   using Vector = Reals<Lanes>;
   const auto [x, turns] = reduce<Lanes>(angle);
   const Vector z = x * x, z2 = z * z, z4 = z2 * z2;
-  const Vector r = polynomial<6>(
-      z, z2, z4, [](std::size_t k) __attribute__((always_inline)) {
-        return alternating<Vector>(of_sine[k], of_cosine[k]);
-      });
+  const Vector r = polynomial<6>(z, z2, z4, [](std::size_t k) __attribute__((always_inline)) {
+    return alternating<Vector>(of_sine[k], of_cosine[k]);
+  });
   const auto odd = alternating<Integers<Lanes>, std::int64_t>(0, 1);
   const Vector first = odd != 0 ? alternating<Vector>(1.0, 1.0) : x;
   const Vector values = first + (first * z) * r;
