@@ -2,8 +2,8 @@
 // The CAN bus: encoding and decoding a cycle, and the whole cycle over SocketCAN where there is a
 // vcan0 (sudo ip link add vcan0 type vcan && sudo ip link set vcan0 up), with its system calls.
 #include <articula/articula.hpp>
-#include <articula/hardware/cia402_codec.hpp>
-#include <articula/hardware/simulated_quanser_drives.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
+#include <articula/hardware/quanser/simulated_quanser_drives.hpp>
 #include <articula/robots/q2d_can.hpp>
 
 #include <benchmark/benchmark.h>

@@ -3,7 +3,7 @@
 // the instructions, without the other side's cache traffic. Beside them the usual way with a mutex.
 #include <articula/articula.hpp>
 #include <articula/loop/duration_histogram.hpp>
-#include <articula/loop/monotonic_clock.hpp>
+#include <articula/loop/realtime/monotonic_clock.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <benchmark/benchmark.h>

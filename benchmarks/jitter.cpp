@@ -4,7 +4,7 @@
 //
 //   jitter [seconds] [priority]      default: 10 s at priority 99
 #include <articula/articula.hpp>
-#include <articula/loop/run_realtime.hpp>
+#include <articula/loop/realtime/run_realtime.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <cstdint>

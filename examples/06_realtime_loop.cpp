@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Q2D in real time: 1 kHz under SCHED_FIFO, supervised, recorded, until it is there or Ctrl-C.
 #include <articula/articula.hpp>
-#include <articula/loop/csv_writer.hpp>
-#include <articula/loop/record_stream.hpp>
-#include <articula/loop/run_realtime.hpp>
-#include <articula/loop/stop_on_signal.hpp>
+#include <articula/loop/realtime/run_realtime.hpp>
+#include <articula/loop/realtime/stop_on_signal.hpp>
+#include <articula/recording/csv_writer.hpp>
+#include <articula/recording/record_stream.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <cstdio>

@@ -2,7 +2,7 @@
 // Trying out what surrounds an arm without one: mock hardware does what it is told, and fails by a
 // script. Here it goes silent for a while; the loop notices, is safe, and goes on when asked to.
 #include <articula/articula.hpp>
-#include <articula/hardware/mock_hardware.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <cstdio>

@@ -3,9 +3,9 @@
 // the motors are simulated, by the same differential turned round; on a real arm `Motors` is the
 // driver.
 #include <articula/articula.hpp>
-#include <articula/hardware/differential_transmission.hpp>
-#include <articula/hardware/reversed_transmission.hpp>
-#include <articula/hardware/transmitted_hardware.hpp>
+#include <articula/hardware/transmission/differential_transmission.hpp>
+#include <articula/hardware/transmission/reversed_transmission.hpp>
+#include <articula/hardware/transmission/transmitted_hardware.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <array>

@@ -2,7 +2,7 @@
 /// @file A robot's description as C++.
 #pragma once
 
-#include <articula/model/urdf/description.hpp>
+#include <articula/urdf/description.hpp>
 
 #include <string>
 

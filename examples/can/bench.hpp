@@ -2,7 +2,7 @@
 /// @file Plays an arm's drives on a CAN interface.
 #pragma once
 
-#include "articula/hardware/socketcan.hpp"
+#include "articula/hardware/can/socketcan.hpp"
 #include "articula/loop/stop_flag.hpp"
 #include "fault_script.hpp"
 #include "protocols.hpp"

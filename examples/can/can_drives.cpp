@@ -2,7 +2,7 @@
 /// @file Plays the Quanser arm's drives on a CAN interface, with a simulated arm behind them.
 #include "bench.hpp"
 
-#include "articula/loop/stop_on_signal.hpp"
+#include "articula/loop/realtime/stop_on_signal.hpp"
 
 #include <CLI/CLI.hpp>
 

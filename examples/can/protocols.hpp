@@ -2,9 +2,9 @@
 /// @file The two protocols that the played drives speak.
 #pragma once
 
-#include "articula/hardware/can_codec.hpp"
-#include "articula/hardware/simulated_cia402_drives.hpp"
-#include "articula/hardware/simulated_quanser_drives.hpp"
+#include "articula/hardware/can/can_codec.hpp"
+#include "articula/hardware/cia402/simulated_cia402_drives.hpp"
+#include "articula/hardware/quanser/simulated_quanser_drives.hpp"
 #include "articula/robots/q2d.hpp"
 #include "articula/robots/q2d_modules.hpp"
 

@@ -3,8 +3,8 @@
 //
 //   q2d_over_can [<interface>] [<cycles>]        for example: q2d_over_can vcan0 2000
 #include <articula/articula.hpp>
-#include <articula/loop/run_realtime.hpp>
-#include <articula/loop/stop_on_signal.hpp>
+#include <articula/loop/realtime/run_realtime.hpp>
+#include <articula/loop/realtime/stop_on_signal.hpp>
 #include <articula/robots/q2d_can.hpp>
 
 #include <cstdio>

@@ -4,11 +4,11 @@
 //   can_drives --protocol=cia402 --sync-period=0.001 &
 //   q2d_paced_by_bus [<interface>] [<cycles>]    for example: q2d_paced_by_bus vcan0 2000
 #include <articula/articula.hpp>
-#include <articula/hardware/can_hardware.hpp>
-#include <articula/hardware/cia402_codec.hpp>
-#include <articula/hardware/socketcan.hpp>
-#include <articula/loop/run_realtime.hpp>
-#include <articula/loop/stop_on_signal.hpp>
+#include <articula/hardware/can/can_hardware.hpp>
+#include <articula/hardware/can/socketcan.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
+#include <articula/loop/realtime/run_realtime.hpp>
+#include <articula/loop/realtime/stop_on_signal.hpp>
 
 #include "protocols.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/articula.hpp"
-#include "articula/control/step_metrics.hpp"
+#include "articula/tuning/step_metrics.hpp"
 #include "csv_file.hpp"
 #include "experiments.hpp"
 #include "progress.hpp"

@@ -10,7 +10,7 @@
 ///
 /// Exit status 0; 1 if the file cannot be read or is no URDF, 2 if the options are wrong.
 #include <articula/model/build_model.hpp>
-#include <articula/model/urdf/description.hpp>
+#include <articula/urdf/description.hpp>
 
 #include <CLI/CLI.hpp>
 

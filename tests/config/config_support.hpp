@@ -2,7 +2,7 @@
 /// @file What the tests of configuration files share.
 #pragma once
 
-#include <articula/config/source.hpp>
+#include <articula/config/yaml/source.hpp>
 
 #include <string>
 

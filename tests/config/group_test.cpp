@@ -2,10 +2,10 @@
 #include <articula/config/load_pid_gains.hpp>
 #include <articula/config/load_trajectory_tolerances.hpp>
 #include <articula/control/bypass.hpp>
-#include <articula/control/groups.hpp>
-#include <articula/control/on_joints.hpp>
+#include <articula/control/laws/on_joints.hpp>
+#include <articula/control/laws/pid_law.hpp>
 #include <articula/control/pid.hpp>
-#include <articula/control/pid_law.hpp>
+#include <articula/control/switching/groups.hpp>
 #include <articula/robots/gripper_arm.hpp>
 
 #include <string>

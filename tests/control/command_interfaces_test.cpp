@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Controllers for position, velocity, effort and multi-mode drives, and laws for groups of joints.
-#include <articula/control/control_toolbox_pid_law.hpp>
+#include <articula/compatibility/control_toolbox_pid_law.hpp>
 #include <articula/control/drive_impedance.hpp>
 #include <articula/control/forward_position.hpp>
 #include <articula/control/forward_velocity.hpp>
 #include <articula/control/joint_impedance.hpp>
-#include <articula/control/on_joints.hpp>
+#include <articula/control/laws/on_joints.hpp>
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/control/position_by_velocity.hpp>
 #include <articula/control/velocity_by_effort.hpp>

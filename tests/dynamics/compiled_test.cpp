@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "articula/dynamics/compiled.hpp"
+#include "articula/dynamics/engine/compiled.hpp"
 
 #include "articula/dynamics/dynamics.hpp"
 #include "articula/robots/panda.hpp"

@@ -2,7 +2,7 @@
 // The inertia of the drives' rotors, as the joints feel it, in all equations of motion.
 #include "articula/dynamics/dynamics.hpp"
 
-#include "articula/hardware/four_bar_transmission.hpp"
+#include "articula/hardware/transmission/four_bar_transmission.hpp"
 #include "articula/robots/q2d.hpp"
 #include "catch.hpp"
 #include "random_robots.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // To the PID of a computed torque controller every joint is a plant of inertia 1 without damping.
 #include <articula/control/computed_torque.hpp>
-#include <articula/control/equivalent_inertia.hpp>
-#include <articula/control/pid_design.hpp>
-#include <articula/control/step_metrics.hpp>
-#include <articula/control/step_response.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
+#include <articula/tuning/equivalent_inertia.hpp>
+#include <articula/tuning/pid_design.hpp>
+#include <articula/tuning/step_metrics.hpp>
+#include <articula/tuning/step_response.hpp>
 
 #include "catch.hpp"
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hardware that is not active is not ok: nothing winds up meanwhile, and nothing jumps afterwards.
 #include <articula/articula.hpp>
-#include <articula/hardware/can_hardware.hpp>
-#include <articula/hardware/mock_hardware.hpp>
-#include <articula/hardware/quanser_codec.hpp>
-#include <articula/hardware/simple_transmission.hpp>
-#include <articula/hardware/simulated_quanser_drives.hpp>
-#include <articula/hardware/transmitted_hardware.hpp>
+#include <articula/hardware/can/can_hardware.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
+#include <articula/hardware/quanser/quanser_codec.hpp>
+#include <articula/hardware/quanser/simulated_quanser_drives.hpp>
+#include <articula/hardware/transmission/simple_transmission.hpp>
+#include <articula/hardware/transmission/transmitted_hardware.hpp>
 #include <articula/loop/run.hpp>
 #include <articula/loop/simulated_clock.hpp>
-#include <articula/loop/supervised_loop.hpp>
+#include <articula/loop/supervision/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A reference that is not finite brakes through the limits, not around them.
 #include <articula/articula.hpp>
-#include <articula/loop/supervised_loop.hpp>
+#include <articula/loop/supervision/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"

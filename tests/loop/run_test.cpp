@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The runner on a simulated clock: what is due when, what is skipped, what is counted, how it ends.
 #include <articula/articula.hpp>
-#include <articula/hardware/mock_hardware.hpp>
-#include <articula/loop/hardware_clock.hpp>
-#include <articula/loop/monotonic_clock.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
+#include <articula/loop/realtime/hardware_clock.hpp>
+#include <articula/loop/realtime/monotonic_clock.hpp>
 #include <articula/loop/run.hpp>
 #include <articula/loop/simulated_clock.hpp>
 #include <articula/robots/q2d.hpp>

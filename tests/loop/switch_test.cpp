@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Controllers that are switched, in a loop, under supervision, within limits, and in simulation.
 #include <articula/articula.hpp>
-#include <articula/hardware/mock_hardware.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <algorithm>

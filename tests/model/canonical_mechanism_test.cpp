@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/model/canonical_mechanism.hpp"
 
-#include "articula/dynamics/body_placements.hpp"
+#include "articula/dynamics/engine/body_placements.hpp"
 #include "articula/dynamics/gravity.hpp"
 #include "articula/dynamics/inverse_dynamics.hpp"
 #include "articula/dynamics/kinetic_energy.hpp"

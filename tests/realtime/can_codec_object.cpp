@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The object code of both codecs and of a cycle with each.
 #include <articula/core/hardware.hpp>
-#include <articula/hardware/can_hardware.hpp>
-#include <articula/hardware/cia402_codec.hpp>
-#include <articula/hardware/quanser_codec.hpp>
+#include <articula/hardware/can/can_hardware.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
+#include <articula/hardware/quanser/quanser_codec.hpp>
 #include <articula/robots/q2d.hpp>
 
 using namespace articula;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Codecs, drivers and simulated drives in the loop do not touch the heap.
 #include <articula/articula.hpp>
-#include <articula/hardware/can_hardware.hpp>
-#include <articula/hardware/cia402_codec.hpp>
-#include <articula/hardware/quanser_codec.hpp>
-#include <articula/hardware/simulated_cia402_drives.hpp>
-#include <articula/hardware/simulated_quanser_drives.hpp>
+#include <articula/hardware/can/can_hardware.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
+#include <articula/hardware/cia402/simulated_cia402_drives.hpp>
+#include <articula/hardware/quanser/quanser_codec.hpp>
+#include <articula/hardware/quanser/simulated_quanser_drives.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "allocation_guard.hpp"

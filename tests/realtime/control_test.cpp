@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control laws, controllers of all command interfaces, limits and the exchange of gains under the
 // allocation guard.
+#include <articula/compatibility/control_toolbox_pid_law.hpp>
 #include <articula/control/bypass.hpp>
 #include <articula/control/computed_torque.hpp>
-#include <articula/control/control_toolbox_pid_law.hpp>
 #include <articula/control/drive_impedance.hpp>
 #include <articula/control/forward_position.hpp>
 #include <articula/control/forward_velocity.hpp>
 #include <articula/control/joint_impedance.hpp>
-#include <articula/control/limited.hpp>
-#include <articula/control/on_joints.hpp>
+#include <articula/control/laws/on_joints.hpp>
+#include <articula/control/limits/limited.hpp>
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/control/position_by_velocity.hpp>
 #include <articula/control/velocity_by_effort.hpp>
-#include <articula/loop/gains_exchange.hpp>
+#include <articula/loop/exchange/gains_exchange.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 

@@ -2,7 +2,7 @@
 // Every function whose comment says "Real-time: yes" is called here under the allocation guard: for
 // a robot known at compile time and for a model loaded at run time.
 #include <articula/articula.hpp>
-#include <articula/control/friction_compensation.hpp>
+#include <articula/control/laws/friction_compensation.hpp>
 #include <articula/core/constant_math.hpp>
 #include <articula/robots/q2d.hpp>
 

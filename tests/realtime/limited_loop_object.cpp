@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/articula.hpp>
-#include <articula/control/limited.hpp>
+#include <articula/control/limits/limited.hpp>
 #include <articula/robots/q2d.hpp>
 
 using namespace articula;

@@ -2,16 +2,16 @@
 // The runner, the exchange with other threads, the recorder and the supervision do not touch the
 // heap, whatever happens.
 #include <articula/articula.hpp>
-#include <articula/hardware/mock_hardware.hpp>
-#include <articula/loop/cycle_record.hpp>
-#include <articula/loop/event_ring.hpp>
-#include <articula/loop/latest_value.hpp>
-#include <articula/loop/monotonic_clock.hpp>
-#include <articula/loop/record_stream.hpp>
-#include <articula/loop/recorder.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
+#include <articula/loop/exchange/event_ring.hpp>
+#include <articula/loop/exchange/latest_value.hpp>
+#include <articula/loop/realtime/monotonic_clock.hpp>
 #include <articula/loop/run.hpp>
 #include <articula/loop/simulated_clock.hpp>
-#include <articula/loop/supervised_loop.hpp>
+#include <articula/loop/supervision/supervised_loop.hpp>
+#include <articula/recording/cycle_record.hpp>
+#include <articula/recording/record_stream.hpp>
+#include <articula/recording/recorder.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <chrono>

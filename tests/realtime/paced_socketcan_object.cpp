@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The object code of the wait for a cycle of the bus: the bus's system calls, the clock, and the
 // wait.
-#include <articula/hardware/can_hardware.hpp>
-#include <articula/hardware/cia402_codec.hpp>
-#include <articula/hardware/socketcan.hpp>
+#include <articula/hardware/can/can_hardware.hpp>
+#include <articula/hardware/can/socketcan.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
 #include <articula/robots/q2d.hpp>
 
 using namespace articula;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/reference/joint_signals.hpp>
 #include <articula/reference/state_to_state_profile.hpp>
-#include <articula/reference/trajectory_follower.hpp>
+#include <articula/reference/trajectory/trajectory_follower.hpp>
 #include <articula/robots/q2d.hpp>
 
 using namespace articula;

@@ -4,7 +4,7 @@
 #include <articula/reference/joint_signals.hpp>
 #include <articula/reference/set_point.hpp>
 #include <articula/reference/state_to_state_profile.hpp>
-#include <articula/reference/trajectory_follower.hpp>
+#include <articula/reference/trajectory/trajectory_follower.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "allocation_guard.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The object code of the whole cycle over SocketCAN: nothing but the bus's own system calls and the
 // clock may be reached from it.
-#include <articula/hardware/cia402_codec.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
 #include <articula/robots/q2d_can.hpp>
 
 using namespace articula;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Samples can be added to step metrics in the control loop.
-#include <articula/control/step_metrics.hpp>
+#include <articula/tuning/step_metrics.hpp>
 
 #include "allocation_guard.hpp"
 #include "catch.hpp"

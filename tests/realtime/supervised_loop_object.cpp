@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/articula.hpp>
-#include <articula/loop/cycle_record.hpp>
-#include <articula/loop/event_ring.hpp>
-#include <articula/loop/recorder.hpp>
+#include <articula/loop/exchange/event_ring.hpp>
 #include <articula/loop/run_report.hpp>
-#include <articula/loop/supervised_loop.hpp>
+#include <articula/loop/supervision/supervised_loop.hpp>
+#include <articula/recording/cycle_record.hpp>
+#include <articula/recording/recorder.hpp>
 #include <articula/robots/q2d.hpp>
 
 using namespace articula;

@@ -2,7 +2,7 @@
 // Controllers that are switched, in groups, limited, primed and failing, under the allocation
 // guard.
 #include <articula/articula.hpp>
-#include <articula/hardware/mock_hardware.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "allocation_guard.hpp"

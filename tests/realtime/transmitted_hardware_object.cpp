@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated robot behind transmissions, under all commands.
-#include <articula/hardware/differential_transmission.hpp>
-#include <articula/hardware/simple_transmission.hpp>
-#include <articula/hardware/transmitted_hardware.hpp>
+#include <articula/hardware/transmission/differential_transmission.hpp>
+#include <articula/hardware/transmission/simple_transmission.hpp>
+#include <articula/hardware/transmission/transmitted_hardware.hpp>
 #include <articula/sim/simulator.hpp>
 
 using namespace articula;

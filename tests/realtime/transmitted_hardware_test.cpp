@@ -2,11 +2,11 @@
 // No cycle touches the heap, with all that can be composed around a simulated robot: rotors, mimic
 // joints, friction, stops, servos, noise, transmissions, limits and supervision.
 #include <articula/articula.hpp>
-#include <articula/hardware/differential_transmission.hpp>
-#include <articula/hardware/four_bar_transmission.hpp>
-#include <articula/hardware/reversed_transmission.hpp>
-#include <articula/hardware/simple_transmission.hpp>
-#include <articula/hardware/transmitted_hardware.hpp>
+#include <articula/hardware/transmission/differential_transmission.hpp>
+#include <articula/hardware/transmission/four_bar_transmission.hpp>
+#include <articula/hardware/transmission/reversed_transmission.hpp>
+#include <articula/hardware/transmission/simple_transmission.hpp>
+#include <articula/hardware/transmission/transmitted_hardware.hpp>
 
 #include "allocation_guard.hpp"
 #include "blueprint.hpp"

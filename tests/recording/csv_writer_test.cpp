@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <articula/loop/csv_writer.hpp>
+#include <articula/recording/csv_writer.hpp>
 #include <articula/robots/gripper_arm.hpp>
 #include <articula/robots/q2d.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joint states over UDP, on the loopback interface.
-#include <articula/loop/joint_state_sender.hpp>
+#include <articula/recording/joint_state_sender.hpp>
 #include <articula/robots/pr2.hpp>
 #include <articula/robots/q2d.hpp>
 

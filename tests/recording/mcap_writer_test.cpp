@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // MCAP files, read back by the specification: once from the front, once through the summary.
-#include <articula/loop/mcap_record_writer.hpp>
+#include <articula/recording/mcap_record_writer.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drives that have no mode for a command.
-#include <articula/hardware/cia402_codec.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
 #include <articula/robots/q2d.hpp>
 
 using namespace articula;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot whose masses are not known has kinematics and motion, and no dynamics.
-#include <articula/control/carried_body.hpp>
 #include <articula/control/computed_torque.hpp>
-#include <articula/control/equivalent_inertia.hpp>
 #include <articula/control/forward_position.hpp>
 #include <articula/control/forward_velocity.hpp>
-#include <articula/control/groups.hpp>
-#include <articula/control/limited.hpp>
+#include <articula/control/limits/limited.hpp>
 #include <articula/control/pid.hpp>
 #include <articula/control/pid_plus_gravity.hpp>
-#include <articula/control/switch.hpp>
+#include <articula/control/switching/groups.hpp>
+#include <articula/control/switching/switch.hpp>
 #include <articula/dynamics/dynamics.hpp>
-#include <articula/hardware/mock_hardware.hpp>
-#include <articula/loop/supervised_loop.hpp>
-#include <articula/reference/trajectory_follower.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
+#include <articula/loop/supervision/supervised_loop.hpp>
+#include <articula/reference/trajectory/trajectory_follower.hpp>
 #include <articula/sim/simulator.hpp>
+#include <articula/tuning/carried_body.hpp>
+#include <articula/tuning/equivalent_inertia.hpp>
 
 #include <type_traits>
 

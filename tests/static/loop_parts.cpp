@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a loop is made of has to fit.
 #include <articula/control/forward_position.hpp>
-#include <articula/control/limited.hpp>
+#include <articula/control/limits/limited.hpp>
 #include <articula/control/pid.hpp>
 #include <articula/control/pid_plus_gravity.hpp>
-#include <articula/control/switch.hpp>
-#include <articula/hardware/mock_hardware.hpp>
-#include <articula/loop/gains_exchange.hpp>
+#include <articula/control/switching/switch.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
+#include <articula/loop/exchange/gains_exchange.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 

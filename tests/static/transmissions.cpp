@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Transmissions have to fit the robot and its actuators.
-#include <articula/hardware/differential_transmission.hpp>
-#include <articula/hardware/simple_transmission.hpp>
-#include <articula/hardware/transmitted_hardware.hpp>
+#include <articula/hardware/transmission/differential_transmission.hpp>
+#include <articula/hardware/transmission/simple_transmission.hpp>
+#include <articula/hardware/transmission/transmitted_hardware.hpp>
 #include <articula/robots/q2d.hpp>
 
 using namespace articula;

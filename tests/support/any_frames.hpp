@@ -3,12 +3,12 @@
 /// share.
 #pragma once
 
-#include <articula/hardware/can_error_frame.hpp>
-#include <articula/hardware/can_hardware.hpp>
-#include <articula/hardware/cia402_codec.hpp>
-#include <articula/hardware/quanser_codec.hpp>
-#include <articula/hardware/simulated_cia402_drives.hpp>
-#include <articula/hardware/simulated_quanser_drives.hpp>
+#include <articula/hardware/can/can_error_frame.hpp>
+#include <articula/hardware/can/can_hardware.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
+#include <articula/hardware/cia402/simulated_cia402_drives.hpp>
+#include <articula/hardware/quanser/quanser_codec.hpp>
+#include <articula/hardware/quanser/simulated_quanser_drives.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 /// @file A CAN bus in memory, with simulated drives at its other end and a test in between.
 #pragma once
 
-#include <articula/hardware/can_transport.hpp>
-#include <articula/hardware/canopen.hpp>
+#include <articula/hardware/can/can_transport.hpp>
+#include <articula/hardware/canopen/canopen.hpp>
 
 #include <algorithm>
 #include <chrono>

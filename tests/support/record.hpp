@@ -3,7 +3,7 @@
 #pragma once
 
 #include <articula/core/joint_command.hpp>
-#include <articula/loop/cycle_record.hpp>
+#include <articula/recording/cycle_record.hpp>
 
 namespace support {
 

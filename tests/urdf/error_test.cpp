@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file What is wrong with a URDF is said in one line with file, element, reason and figures.
-#include <articula/model/urdf.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include <console_bridge/console.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Feeds the URDF loader with anything. It must answer with a robot or a UrdfError, and with
 /// nothing else.
-#include <articula/model/urdf.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include <cstddef>
 #include <cstdint>

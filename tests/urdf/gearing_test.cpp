@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file What a URDF tells of drives: transmissions, and where a simulation starts.
-#include <articula/hardware/urdf_gearing.hpp>
-#include <articula/model/urdf.hpp>
-#include <articula/model/urdf/initial_values.hpp>
+#include <articula/hardware/transmission/urdf_gearing.hpp>
+#include <articula/urdf/initial_values.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include "catch.hpp"
 #include "urdf_text.hpp"

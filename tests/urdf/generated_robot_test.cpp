@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file What articula_add_robot makes of a URDF at build time is what load_urdf makes at run time.
 #include <articula/dynamics/dynamics.hpp>
-#include <articula/model/urdf.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include <arm.hpp>
 #include <arm_as_written.hpp>

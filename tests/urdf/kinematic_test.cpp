@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Robots without masses are loaded for what needs none.
 #include <articula/control/forward_position.hpp>
-#include <articula/control/limited.hpp>
+#include <articula/control/limits/limited.hpp>
 #include <articula/dynamics/dynamics.hpp>
-#include <articula/hardware/mock_hardware.hpp>
+#include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/loop/loop.hpp>
-#include <articula/model/urdf.hpp>
-#include <articula/model/urdf/initial_values.hpp>
+#include <articula/urdf/initial_values.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include <drawn.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file What a URDF says is what the model does.
 #include <articula/dynamics/dynamics.hpp>
-#include <articula/model/urdf.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include <Eigen/Geometry>
 

@@ -2,8 +2,8 @@
 /// @file A robot with mimic joints against the same robot with these joints free and constrained by
 /// hand: q_free = G q + c.
 #include <articula/dynamics/dynamics.hpp>
-#include <articula/model/urdf.hpp>
 #include <articula/sim/simulator.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include "catch.hpp"
 #include "energy.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files that are odd, but sane: as programs and people write them.
-#include <articula/control/command_limits.hpp>
+#include <articula/control/limits/command_limits.hpp>
 #include <articula/dynamics/dynamics.hpp>
-#include <articula/model/urdf.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include "catch.hpp"
 #include "urdf_text.hpp"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file examples/robots/*.urdf, read at run time, and the robots of articula/robots: the same
 /// models.
-#include <articula/model/urdf.hpp>
 #include <articula/robots/gripper_arm.hpp>
 #include <articula/robots/panda.hpp>
 #include <articula/robots/pr2.hpp>
 #include <articula/robots/two_arm_torso.hpp>
 #include <articula/robots/ur10.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include "catch.hpp"
 

@@ -2,7 +2,7 @@
 /// @file Whether descriptions are the same, bit for bit.
 #pragma once
 
-#include <articula/model/urdf/description.hpp>
+#include <articula/urdf/description.hpp>
 
 #include <bit>
 #include <cstdint>

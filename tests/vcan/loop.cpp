@@ -3,9 +3,9 @@
 // back. Cycles follow each other as the drives answer, since no clock of a virtual machine keeps 1
 // kHz; where the bus paces the loop by a clock, it is a slow one.
 #include <articula/articula.hpp>
-#include <articula/hardware/cia402_codec.hpp>
-#include <articula/loop/hardware_clock.hpp>
-#include <articula/loop/monotonic_clock.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
+#include <articula/loop/realtime/hardware_clock.hpp>
+#include <articula/loop/realtime/monotonic_clock.hpp>
 #include <articula/loop/run.hpp>
 #include <articula/robots/q2d_can.hpp>
 

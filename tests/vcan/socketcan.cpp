@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The SocketCAN transport on a kernel's vcan0, with echo; `ip` and `tc` make the trouble.
-#include <articula/hardware/socketcan.hpp>
+#include <articula/hardware/can/socketcan.hpp>
 
 #include "catch.hpp"
 #include "raw_peer.hpp"

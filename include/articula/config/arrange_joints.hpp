@@ -2,9 +2,9 @@
 /// @file Whether a configuration fits a robot.
 #pragma once
 
-#include "articula/config/controller_config.hpp"
-#include "articula/config/robot_joints.hpp"
-#include "articula/config/scalar.hpp"
+#include "articula/config/read/controller_config.hpp"
+#include "articula/config/read/robot_joints.hpp"
+#include "articula/config/yaml/scalar.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>

@@ -3,13 +3,13 @@
 /// target articula::config (yaml-cpp).
 #pragma once
 
-#include "articula/config/chosen_sections.hpp"
-#include "articula/config/controller_config.hpp"
-#include "articula/config/find_sections.hpp"
-#include "articula/config/read_controller.hpp"
-#include "articula/config/robot_joints.hpp"
-#include "articula/config/section.hpp"
-#include "articula/config/source.hpp"
+#include "articula/config/read/chosen_sections.hpp"
+#include "articula/config/read/controller_config.hpp"
+#include "articula/config/read/find_sections.hpp"
+#include "articula/config/read/read_controller.hpp"
+#include "articula/config/read/robot_joints.hpp"
+#include "articula/config/read/section.hpp"
+#include "articula/config/yaml/source.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,11 +3,11 @@
 /// articula::config (yaml-cpp).
 #pragma once
 
-#include "articula/config/find_sections.hpp"
-#include "articula/config/reader.hpp"
-#include "articula/config/section.hpp"
-#include "articula/config/source.hpp"
-#include "articula/config/unused_parameters.hpp"
+#include "articula/config/read/find_sections.hpp"
+#include "articula/config/read/section.hpp"
+#include "articula/config/read/unused_parameters.hpp"
+#include "articula/config/yaml/reader.hpp"
+#include "articula/config/yaml/source.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -3,12 +3,12 @@
 /// (yaml-cpp).
 #pragma once
 
-#include "articula/config/chosen_sections.hpp"
-#include "articula/config/find_sections.hpp"
-#include "articula/config/read_signals.hpp"
-#include "articula/config/robot_joints.hpp"
-#include "articula/config/signal_config.hpp"
-#include "articula/config/source.hpp"
+#include "articula/config/read/chosen_sections.hpp"
+#include "articula/config/read/find_sections.hpp"
+#include "articula/config/read/read_signals.hpp"
+#include "articula/config/read/robot_joints.hpp"
+#include "articula/config/read/signal_config.hpp"
+#include "articula/config/yaml/source.hpp"
 
 #include <string_view>
 

@@ -5,7 +5,7 @@
 
 #include "articula/config/arrange_joints.hpp"
 #include "articula/config/load_controller.hpp"
-#include "articula/reference/trajectory_tolerances.hpp"
+#include "articula/reference/trajectory/trajectory_tolerances.hpp"
 
 #include <cstddef>
 #include <string>

@@ -2,8 +2,8 @@
 /// @file Open-loop control: the reference's effort goes straight to the joints.
 #pragma once
 
-#include "articula/control/feedforward.hpp"
-#include "articula/control/sum_controller.hpp"
+#include "articula/control/laws/feedforward.hpp"
+#include "articula/control/laws/sum_controller.hpp"
 
 #include <string_view>
 

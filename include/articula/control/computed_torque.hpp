@@ -2,11 +2,11 @@
 /// @file Computed torque control: the model does the work, feedback corrects the rest.
 #pragma once
 
-#include "articula/control/feedforward.hpp"
-#include "articula/control/friction_compensation.hpp"
-#include "articula/control/part_scope.hpp"
-#include "articula/control/pid_law.hpp"
-#include "articula/control/sum_controller.hpp"
+#include "articula/control/laws/feedforward.hpp"
+#include "articula/control/laws/friction_compensation.hpp"
+#include "articula/control/laws/part_scope.hpp"
+#include "articula/control/laws/pid_law.hpp"
+#include "articula/control/laws/sum_controller.hpp"
 #include "articula/dynamics/forward_dynamics.hpp"
 #include "articula/dynamics/gravity.hpp"
 #include "articula/dynamics/inverse_dynamics.hpp"

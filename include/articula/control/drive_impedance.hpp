@@ -2,10 +2,10 @@
 /// @file Drives that are springs and dampers themselves.
 #pragma once
 
-#include "articula/control/feedforward.hpp"
-#include "articula/control/gravity_compensation.hpp"
-#include "articula/control/impedance_gains.hpp"
-#include "articula/control/sum_controller.hpp"
+#include "articula/control/laws/feedforward.hpp"
+#include "articula/control/laws/gravity_compensation.hpp"
+#include "articula/control/laws/impedance_gains.hpp"
+#include "articula/control/laws/sum_controller.hpp"
 
 #include <string_view>
 

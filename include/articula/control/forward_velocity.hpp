@@ -2,8 +2,8 @@
 /// @file Velocity drives go as fast as the reference says.
 #pragma once
 
-#include "articula/control/feedforward.hpp"
-#include "articula/control/sum_controller.hpp"
+#include "articula/control/laws/feedforward.hpp"
+#include "articula/control/laws/sum_controller.hpp"
 
 #include <string_view>
 

@@ -2,11 +2,11 @@
 /// @file Joints that give way like springs and dampers.
 #pragma once
 
-#include "articula/control/feedforward.hpp"
-#include "articula/control/gravity_compensation.hpp"
-#include "articula/control/impedance_gains.hpp"
-#include "articula/control/sampled_feedback.hpp"
-#include "articula/control/sum_controller.hpp"
+#include "articula/control/laws/feedforward.hpp"
+#include "articula/control/laws/gravity_compensation.hpp"
+#include "articula/control/laws/impedance_gains.hpp"
+#include "articula/control/laws/sampled_feedback.hpp"
+#include "articula/control/laws/sum_controller.hpp"
 
 #include <string_view>
 

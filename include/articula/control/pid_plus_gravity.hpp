@@ -2,10 +2,10 @@
 /// @file PID control of each joint, relieved of the robot's weight.
 #pragma once
 
-#include "articula/control/feedforward.hpp"
-#include "articula/control/gravity_compensation.hpp"
-#include "articula/control/pid_law.hpp"
-#include "articula/control/sum_controller.hpp"
+#include "articula/control/laws/feedforward.hpp"
+#include "articula/control/laws/gravity_compensation.hpp"
+#include "articula/control/laws/pid_law.hpp"
+#include "articula/control/laws/sum_controller.hpp"
 
 #include <concepts>
 #include <initializer_list>

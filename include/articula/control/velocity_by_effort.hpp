@@ -2,9 +2,9 @@
 /// @file Velocity control of each joint through its effort.
 #pragma once
 
-#include "articula/control/feedforward.hpp"
-#include "articula/control/pid_law.hpp"
-#include "articula/control/sum_controller.hpp"
+#include "articula/control/laws/feedforward.hpp"
+#include "articula/control/laws/pid_law.hpp"
+#include "articula/control/laws/sum_controller.hpp"
 
 #include <string_view>
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "articula/dynamics/articulated_bodies.hpp"
+#include "articula/dynamics/engine/tree_factors.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/nonlinear_effects.hpp"
-#include "articula/dynamics/tree_factors.hpp"
 
 namespace articula {
 

@@ -2,10 +2,10 @@
 /// @file Forward kinematics: where the links stand.
 #pragma once
 
-#include "articula/dynamics/body_placements.hpp"
-#include "articula/dynamics/evaluate.hpp"
-#include "articula/dynamics/link_chain.hpp"
-#include "articula/dynamics/link_check.hpp"
+#include "articula/dynamics/engine/body_placements.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/link_chain.hpp"
+#include "articula/dynamics/engine/link_check.hpp"
 
 #include <Eigen/Geometry>
 

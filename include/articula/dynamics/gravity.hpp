@@ -2,8 +2,8 @@
 /// @file The efforts that hold a robot against gravity.
 #pragma once
 
-#include "articula/dynamics/evaluate.hpp"
-#include "articula/dynamics/gravity_efforts.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/gravity_efforts.hpp"
 
 namespace articula {
 

@@ -2,8 +2,8 @@
 /// @file Inverse dynamics: from motion to effort.
 #pragma once
 
-#include "articula/dynamics/evaluate.hpp"
-#include "articula/dynamics/newton_euler.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/newton_euler.hpp"
 
 namespace articula {
 

@@ -2,7 +2,7 @@
 /// @file The energy of motion.
 #pragma once
 
-#include "articula/dynamics/evaluate.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
 
 namespace articula {
 

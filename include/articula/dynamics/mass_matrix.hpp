@@ -2,9 +2,9 @@
 /// @file The mass matrix.
 #pragma once
 
-#include "articula/dynamics/evaluate.hpp"
-#include "articula/dynamics/unset_array.hpp"
-#include "articula/dynamics/wrench.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/unset_array.hpp"
+#include "articula/dynamics/engine/wrench.hpp"
 
 namespace articula {
 

@@ -2,8 +2,8 @@
 /// @file All joints that move: those that can be commanded and those that mimic them.
 #pragma once
 
-#include "articula/dynamics/coupling.hpp"
-#include "articula/dynamics/evaluate.hpp"
+#include "articula/dynamics/engine/coupling.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
 
 #include <array>
 #include <string_view>

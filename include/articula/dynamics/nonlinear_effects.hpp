@@ -2,8 +2,8 @@
 /// @file The efforts that velocity and gravity alone ask for.
 #pragma once
 
-#include "articula/dynamics/evaluate.hpp"
-#include "articula/dynamics/newton_euler.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/newton_euler.hpp"
 
 namespace articula {
 

@@ -2,8 +2,8 @@
 /// @file The energy of height.
 #pragma once
 
-#include "articula/dynamics/body_placements.hpp"
-#include "articula/dynamics/evaluate.hpp"
+#include "articula/dynamics/engine/body_placements.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
 
 namespace articula {
 

@@ -2,18 +2,18 @@
 /// @file The control loop: one hardware, one controller, one cycle at a time.
 #pragma once
 
-#include "articula/control/command_numbers.hpp"
-#include "articula/control/effort_law.hpp"
-#include "articula/control/gain_notices.hpp"
-#include "articula/control/resume.hpp"
-#include "articula/control/safe_command.hpp"
-#include "articula/control/tells_failure.hpp"
+#include "articula/control/laws/command_numbers.hpp"
+#include "articula/control/laws/effort_law.hpp"
+#include "articula/control/safety/resume.hpp"
+#include "articula/control/safety/safe_command.hpp"
+#include "articula/control/safety/tells_failure.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/loop/controller_check.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/tuning/gain_notices.hpp"
 
 #include <concepts>
 #include <cstdint>

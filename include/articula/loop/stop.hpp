@@ -2,7 +2,7 @@
 /// @file How a loop ends.
 #pragma once
 
-#include "articula/control/safe_command.hpp"
+#include "articula/control/safety/safe_command.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/status.hpp"
 

@@ -6,10 +6,10 @@
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/motion/jerk_motion.hpp"
+#include "articula/motion/motion_limits.hpp"
+#include "articula/motion/stop_within.hpp"
 #include "articula/reference/checks.hpp"
-#include "articula/reference/jerk_motion.hpp"
-#include "articula/reference/motion_limits.hpp"
-#include "articula/reference/stop_within.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,10 +6,10 @@
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/motion/motion_bounds.hpp"
+#include "articula/motion/state_to_state_motion.hpp"
+#include "articula/motion/timed_motion.hpp"
 #include "articula/reference/checks.hpp"
-#include "articula/reference/motion_bounds.hpp"
-#include "articula/reference/state_to_state_motion.hpp"
-#include "articula/reference/timed_motion.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,8 +5,8 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_reference.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/motion/motion_limits.hpp"
 #include "articula/reference/jerk_limited_profile.hpp"
-#include "articula/reference/motion_limits.hpp"
 
 #include <limits>
 #include <optional>

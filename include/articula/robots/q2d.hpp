@@ -2,7 +2,7 @@
 /// @file The Quanser 2-DOF serial flexible-joint arm with its flexible joints locked.
 #pragma once
 
-#include "articula/control/pid_gains.hpp"
+#include "articula/control/laws/pid_gains.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/sim/simulator.hpp"
 

@@ -2,9 +2,9 @@
 /// @file The Quanser arm on a CAN bus. CMake target: articula::socketcan.
 #pragma once
 
-#include "articula/hardware/can_hardware.hpp"
-#include "articula/hardware/quanser_codec.hpp"
-#include "articula/hardware/socketcan.hpp"
+#include "articula/hardware/can/can_hardware.hpp"
+#include "articula/hardware/can/socketcan.hpp"
+#include "articula/hardware/quanser/quanser_codec.hpp"
 #include "articula/robots/q2d.hpp"
 #include "articula/robots/q2d_modules.hpp"
 

@@ -2,7 +2,7 @@
 /// @file The joint modules of the Quanser arm.
 #pragma once
 
-#include "articula/hardware/quanser_module.hpp"
+#include "articula/hardware/quanser/quanser_module.hpp"
 
 namespace articula {
 

@@ -2,8 +2,8 @@
 /// @file Constraint efforts with bounds: what stops and dry friction do to a robot.
 #pragma once
 
-#include "articula/dynamics/evaluate.hpp"
-#include "articula/dynamics/tree_factors.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/tree_factors.hpp"
 
 #include <array>
 #include <cstddef>

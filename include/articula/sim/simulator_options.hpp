@@ -4,8 +4,8 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/dynamics/engine/tree_factors.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
-#include "articula/dynamics/tree_factors.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/articula.hpp>
-#include <articula/loop/mcap_record_writer.hpp>
-#include <articula/loop/record_stream.hpp>
+#include <articula/recording/mcap_record_writer.hpp>
+#include <articula/recording/record_stream.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <cstdio>

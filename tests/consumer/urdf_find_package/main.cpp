@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/articula.hpp>
-#include <articula/model/urdf.hpp>
+#include <articula/urdf/urdf.hpp>
 
 #include <cmath>
 #include <cstdio>

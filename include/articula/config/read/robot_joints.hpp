@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The joints of a robot by name, whichever type it has.
+#pragma once
+
+#include "articula/config/yaml/error.hpp"
+#include "articula/config/yaml/scalar.hpp"
+#include "articula/model/joint.hpp"
+#include "articula/model/robot.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace articula::detail {
+
+template <Robot R>
+[[nodiscard]] std::string robot_text(const R& robot) {
+  return "robot '" + std::string(model_of(robot).name.view()) + "'";
+}
+
+/// What a file may say about a robot's joints.
+struct RobotJoints {
+  std::string robot{};                          ///< for messages
+  std::vector<std::string> names{};             ///< of joints that can be commanded, in their order
+  std::map<std::string, std::string> others{};  ///< joints that cannot, and why
+
+  [[nodiscard]] bool has(std::string_view name) const {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+  /// The index of a joint.
+  /// @throws ConfigError if it cannot be commanded, saying why
+  [[nodiscard]] std::size_t index(const std::string& name, const ConfigPlace& place) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+    const auto other = others.find(name);
+    throw ConfigError(place,
+                      other == others.end()
+                          ? robot + " has no joint '" + shown(name) + "'" +
+                                (has_placeholder(name) ? ", a placeholder" : "")
+                          : "joint '" + shown(name) + "' of " + robot + " " + other->second,
+                      choice_text(names, name) + value_hint(name));
+  }
+};
+
+template <Robot R>
+[[nodiscard]] RobotJoints joints_of(const R& robot) {
+  RobotJoints joints{.robot = robot_text(robot)};
+  const auto& model = model_of(robot);
+  for (const auto& joint : model.joints) joints.names.emplace_back(joint.name.view());
+  for (const LinkFrame& link : model.links) {
+    if (!link.carrier.empty()) joints.others.emplace(link.carrier.view(), "is fixed");
+  }
+  for (std::size_t body = 0; body < model.moving_joints.size(); ++body) {
+    if (joints.has(model.moving_joints[body].view())) continue;
+    const auto followed = static_cast<std::size_t>(model.mechanism.couplings[body].joint);
+    joints.others[std::string(model.moving_joints[body].view())] =
+        "mimics '" + joints.names[followed] + "'";
+  }
+  return joints;
+}
+
+}  // namespace articula::detail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What counts of a command when another goes on from it.
+#pragma once
+
+#include "articula/control/laws/drive_spring.hpp"
+#include "articula/core/joint_command.hpp"
+#include "articula/core/joint_state.hpp"
+
+namespace articula {
+
+/// The numbers that must not jump when one command follows another: efforts, velocities or
+/// positions; of a MultiModeCommand the whole effort that it makes at the measured state. N x 1.
+/// Real-time: yes.
+template <int N, JointCommand<N> Command>
+[[nodiscard]] JointVector<N> numbers_of(const Command& command,
+                                        const JointState<N>& state) noexcept {
+  if constexpr (requires { command.stiffness; }) {
+    return spring_pull(command, state) + command.effort;
+  } else {
+    return values_of(command);
+  }
+}
+
+}  // namespace articula

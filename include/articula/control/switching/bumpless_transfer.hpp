@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Commands that go on where the last one left off.
+#pragma once
+
+#include "articula/control/laws/command_numbers.hpp"
+#include "articula/control/laws/sum_controller.hpp"
+#include "articula/core/finite.hpp"
+#include "articula/core/joint_command.hpp"
+#include "articula/core/joint_state.hpp"
+#include "articula/core/refuse.hpp"
+#include "articula/model/robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+
+namespace articula {
+
+/// Lets the commands of one controller go on where those of another left off. With u_k the
+/// controller's own command of cycle k, y_k what is given, dt the period and r the slew:
+///
+///     when it takes over   y_k = y_k-1,             c_k = y_k - u_k
+///     from then on         y_k = clamp(u_k + c_k),  c_k = c_k-1 moved towards 0 by at most r dt
+///
+/// So whatever controllers follow each other, and however fast, each joint's command changes by
+///
+///     |y_k - y_k-1| <= |u_k - u_k-1| + r dt,   and where another takes over by 0.
+///
+/// All within what the robot's description allows. A clamp takes from c alone, never from u; a
+/// command without a difference to carry passes unchanged.
+///
+/// The number that counts is the effort, velocity or position; of a MultiModeCommand the whole
+/// effort that it makes at the measured state, and the difference is added to its effort. Beyond
+/// the drives' limit, the drive's references are drawn towards the state as far as needed.
+/// @tparam R  the robot
+/// @tparam C  the command
+template <Robot R, JointCommand<joint_count<R>> C>
+class BumplessTransfer {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Vector = JointVector<joint_count>;
+  using State = JointState<joint_count>;
+
+  /// @param robot  within whose limits commands are kept
+  /// @param slew   r, how fast differences decay [unit of the command per s], N x 1
+  /// @throws std::invalid_argument naming the joint whose slew is not a number > 0
+  BumplessTransfer(const R& robot, const Vector& slew) : slew_(slew) {
+    for (int j = 0; j < joint_count; ++j) {
+      if (is_finite(slew[j]) && slew[j] > 0) continue;
+      detail::refuse({"switch: slew ", slew[j], " of joint '",
+                      joint_names(robot)[static_cast<std::size_t>(j)], "' is not a number > 0"});
+    }
+    // Infinite limits are taken for huge ones, so that no sum or difference overflows.
+    const auto range = detail::command_range<C>(robot);
+    lowest_ = range.lowest.cwiseMax(-huge);
+    highest_ = range.highest.cwiseMin(huge);
+  }
+
+  /// The default slew: from 0 to the drive's limit within 0.1 s, for efforts and velocities; a
+  /// quarter of the velocity limit for positions. It is infinite for a joint without such a limit,
+  /// whose slew must be given.
+  /// Real-time: yes.
+  [[nodiscard]] static Vector default_slew(const R& robot) noexcept {
+    if constexpr (std::same_as<C, PositionCommand<joint_count>>) {
+      return joint_values(robot, [](const JointProperties& j) { return j.limits.velocity / 4; });
+    } else {
+      return detail::command_range<C>(robot).highest.unaryExpr(
+          [](double limit) { return limit > 0 ? limit / 0.1 : 1; });
+    }
+  }
+
+  /// Forgets all differences: the next command passes as it is. Real-time: yes.
+  void start() noexcept {
+    carried_.setZero();
+    takes_over_ = false;
+  }
+
+  /// Lets the next command go on from the last one. Real-time: yes.
+  void take_over() noexcept { takes_over_ = true; }
+
+  /// Hears what was given in the end in place of the last command, or by others, N x 1; not what is
+  /// not finite. Real-time: yes.
+  void set_given(const Vector& given) noexcept {
+    if (is_finite(given)) given_ = bounded(given);
+  }
+
+  /// Whether a command can be passed on: whether its numbers are finite. Real-time: yes.
+  [[nodiscard]] static bool passable(const C& command, const State& state) noexcept {
+    return is_finite(command) && is_finite(numbers_of(command, state));
+  }
+
+  /// The command that is given.
+  /// @param command  the controller's own, passable
+  /// @param state    measured joints
+  /// @param period   dt [s]; one that is no time lets nothing decay
+  /// Real-time: yes.
+  [[nodiscard]] C pass(const C& command, const State& state, double period) noexcept {
+    const Vector own = bounded(numbers_of(command, state));
+    if (takes_over_) {
+      carried_ = given_ - own;
+    } else {
+      const Vector step = slew_ * (is_finite(period) && period > 0 ? period : 0);
+      carried_ -= carried_.cwiseMax(-step).cwiseMin(step);
+    }
+    takes_over_ = false;
+    given_ = bounded(own + carried_);
+    carried_ = given_ - own;
+    return with_total(command, own, state);
+  }
+
+  /// Hears what was cut off from the last command afterwards. Real-time: yes.
+  void limited(const Vector& excess) noexcept { set_given(given_ - excess); }
+
+  /// What was given last, N x 1. Real-time: yes.
+  [[nodiscard]] const Vector& given() const noexcept { return given_; }
+  /// c, what is still carried, N x 1. Real-time: yes.
+  [[nodiscard]] const Vector& carried() const noexcept { return carried_; }
+  /// r, N x 1. Real-time: yes.
+  [[nodiscard]] const Vector& slew() const noexcept { return slew_; }
+  /// The controller's own command that is cut off by the robot's limits, N x 1. Real-time: yes.
+  [[nodiscard]] Vector excess(const C& command, const State& state) const noexcept {
+    const Vector own = numbers_of(command, state);
+    return own - bounded(own);
+  }
+
+ private:
+  static constexpr double huge = 1e300;
+
+  [[nodiscard]] Vector bounded(const Vector& values) const noexcept {
+    return values.cwiseMax(lowest_).cwiseMin(highest_);
+  }
+
+  /// The command with what is given in place of its own number.
+  [[nodiscard]] C with_total(const C& command, const Vector& own,
+                             const State& state) const noexcept {
+    if constexpr (requires { command.stiffness; }) {
+      C given = command;
+      const Vector springs = spring_pull(command, state);
+      for (int j = 0; j < joint_count; ++j) {
+        if (given_[j] == own[j]) continue;
+        given.effort[j] = std::clamp(given_[j] - springs[j], lowest_[j], highest_[j]);
+        const double share = springs[j] != 0 ? (given_[j] - given.effort[j]) / springs[j] : 1;
+        given.position[j] = state.position[j] + share * (command.position[j] - state.position[j]);
+        given.velocity[j] = state.velocity[j] + share * (command.velocity[j] - state.velocity[j]);
+      }
+      return given;
+    } else {
+      return {given_};
+    }
+  }
+
+  Vector slew_, lowest_, highest_;
+  Vector given_ = Vector::Zero();    ///< y
+  Vector carried_ = Vector::Zero();  ///< c
+  bool takes_over_ = false;
+};
+
+}  // namespace articula

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Who shall be active of a set of controllers.
+#pragma once
+
+#include "articula/control/switching/switch_request.hpp"
+#include "articula/core/refuse.hpp"
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace articula {
+
+/// Who shall be active of a set of controllers, and what a request makes of that. Controllers for
+/// the same joints have the same place; at most one of a place is active.
+/// @tparam Count  number of controllers
+template <std::size_t Count>
+class SwitchBoard {
+ public:
+  struct Entry {
+    Name name{};
+    int place = 0;
+    bool active = false;  ///< shall be, from the next cycle on
+    bool anew = false;    ///< shall begin anew, even if it is active already
+  };
+
+  std::array<Entry, Count> entries{};
+
+  /// Names all controllers.
+  /// @param names     of all; if empty, they have their own
+  /// @param defaults  their own; where one is there before, a number is added
+  /// @throws std::invalid_argument if there are not as many, or one is empty or there twice
+  void set_names(const std::vector<Name>& names, const std::array<Name, Count>& defaults) {
+    if (!names.empty() && names.size() != Count) {
+      detail::refuse({"switch: ", names.size(), " names for ", Count, " controllers"});
+    }
+    for (std::size_t i = 0; i < Count; ++i) {
+      Name name = names.empty() ? defaults[i] : names[i];
+      for (int number = 2; names.empty() && find(name) < i; ++number) {
+        name = with_suffix(defaults[i], number);
+      }
+      entries[i].name = name;
+    }
+    validate();
+  }
+
+  /// @throws std::invalid_argument if a name is empty or there twice
+  void validate() const {
+    for (std::size_t i = 0; i < Count; ++i) {
+      if (entries[i].name.empty()) {
+        detail::refuse({"switch: controller ", i + 1, " has no name"});
+      }
+      if (find(entries[i].name) != i) refuse("two controllers are named ", entries[i].name);
+    }
+  }
+
+  /// @throws std::invalid_argument with this message and the name
+  [[noreturn]] static void refuse(std::string_view what, const Name& name) {
+    detail::refuse({"switch: ", what, "'", name.view(), "'"});
+  }
+
+  /// The index of a controller.
+  /// @throws std::invalid_argument if none has this name
+  [[nodiscard]] std::size_t known(const Name& name) const {
+    const std::size_t i = find(name);
+    if (i == Count) refuse("there is no controller ", name);
+    return i;
+  }
+
+  /// The index of a controller, or Count if none has this name. Real-time: yes.
+  [[nodiscard]] std::size_t find(const Name& name) const noexcept {
+    std::size_t i = 0;
+    while (i < Count && !(entries[i].name == name)) ++i;
+    return i;
+  }
+
+  /// The index of a place's active controller, or Count. Real-time: yes.
+  [[nodiscard]] std::size_t active_at(int place) const noexcept {
+    std::size_t i = 0;
+    while (i < Count && !(entries[i].active && entries[i].place == place)) ++i;
+    return i;
+  }
+
+  /// Plans what is asked for, as far as it can be done, or, if it is strict and cannot, nothing.
+  /// Real-time: yes.
+  [[nodiscard]] SwitchOutcome plan(const SwitchRequest& request) noexcept {
+    SwitchBoard planned = *this;
+    SwitchOutcome outcome;
+    const auto object = [&](SwitchAnswer answer, const Name& name) {
+      if (outcome.answer != SwitchAnswer::done) return;
+      outcome.answer = answer;
+      outcome.controller = name;
+    };
+    for (const Name& name : request.stop) {
+      const std::size_t i = find(name);
+      if (i == Count) {
+        object(SwitchAnswer::unknown_name, name);
+      } else if (!planned.entries[i].active) {
+        object(SwitchAnswer::not_active, name);
+      } else {
+        planned.entries[i].active = false;
+        ++outcome.stopped;
+      }
+    }
+    std::array<bool, Count> starts{};
+    for (const Name& name : request.start) {
+      const std::size_t i = find(name);
+      if (i == Count) {
+        object(SwitchAnswer::unknown_name, name);
+        continue;
+      }
+      if (planned.entries[i].active) {
+        object(SwitchAnswer::already_active, name);
+        continue;
+      }
+      const std::size_t other = planned.active_at(entries[i].place);
+      if (other != Count && (!request.replace || starts[other])) {
+        object(SwitchAnswer::occupied, name);
+        continue;
+      }
+      if (other != Count) {
+        planned.entries[other].active = false;
+        ++outcome.stopped;
+      }
+      planned.entries[i].active = planned.entries[i].anew = starts[i] = true;
+      ++outcome.started;
+    }
+    const bool refused =
+        request.strictness == Strictness::strict && outcome.answer != SwitchAnswer::done;
+    if (refused) {
+      outcome.started = outcome.stopped = 0;
+    } else {
+      *this = planned;
+    }
+    return outcome;
+  }
+
+ private:
+  [[nodiscard]] static Name with_suffix(const Name& name, int number) {
+    return detail::message_of({name.view(), "_", number});
+  }
+};
+
+/// A controller that holds several and can be asked to switch: a Switch or Groups.
+template <class C>
+concept Switching = requires(C controller, const SwitchRequest& request) {
+  { controller.request(request) } noexcept -> std::same_as<SwitchOutcome>;
+  { controller.list() } noexcept -> std::same_as<std::array<ControllerInfo, C::controller_count>>;
+};
+
+/// The Switch or Groups in a controller: itself, or what a Limited one limits. Real-time: yes.
+template <class C>
+[[nodiscard]] auto& switch_in(C& controller) noexcept {
+  if constexpr (Switching<std::remove_const_t<C>>) {
+    return controller;
+  } else {
+    return switch_in(controller.controller());
+  }
+}
+
+namespace detail {
+
+/// A controller's own name, or one by its place in a list.
+template <class C>
+[[nodiscard]] Name own_name(std::size_t place) {
+  if constexpr (requires { C::name; }) {
+    return C::name;
+  } else if constexpr (requires { typename C::ControllerType; }) {  // of a Limited one
+    return own_name<typename C::ControllerType>(place);
+  } else {
+    return message_of({"controller_", place + 1});
+  }
+}
+
+/// How many controllers can be switched in a controller.
+template <class C>
+[[nodiscard]] consteval std::size_t count_switched() {
+  if constexpr (Switching<C>) {
+    return C::controller_count;
+  } else if constexpr (requires { typename C::ControllerType; }) {
+    return count_switched<typename C::ControllerType>();
+  } else {
+    return 0;
+  }
+}
+
+template <class C>
+inline constexpr std::size_t switch_size = count_switched<C>();
+
+}  // namespace detail
+
+}  // namespace articula

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Where the bodies of a mechanism stand in the base frame.
+#pragma once
+
+#include "articula/dynamics/engine/configuration.hpp"
+
+namespace articula {
+
+/// Where every body stands in the base frame: X_0i = X_0p X_pi, from the base outwards.
+struct BodyPlacements {
+  static constexpr bool needs_own_frames = true;
+  static constexpr bool needs_no_masses = true;
+
+  template <class S, int N, int B>
+  [[nodiscard]] static constexpr JointArray<Placement<S>, B> evaluate(
+      const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
+    JointArray<Placement<S>, B> placements;
+    for (std::size_t i = 0; i < placements.size(); ++i) {
+      const Placement<S> in_parent{configuration[i].matrix(), configuration[i].translation};
+      const Body& body = mechanism.bodies[i];
+      placements[i] =
+          body.parent < 0 ? in_parent : placements[detail::parent_of(body, i)] * in_parent;
+    }
+    return placements;
+  }
+};
+
+}  // namespace articula

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Straight-line programs for the algorithms of described robots.
+#pragma once
+
+#include "articula/dynamics/engine/configuration.hpp"
+#include "articula/dynamics/engine/gravity_efforts.hpp"
+#include "articula/model/dynamic_robot.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/symbolic/assembler.hpp"
+#include "articula/symbolic/run_program.hpp"
+#include "articula/symbolic/scalars.hpp"
+#include "articula/symbolic/symbol.hpp"
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace articula::compiled {
+
+/// True for algorithms whose result depends on the frames of the bodies or on how the inertia is
+/// shared among them. They are run on the mechanism as it is described and say so by a member
+/// `needs_own_frames`; the others on its canonical form.
+template <class Algorithm>
+inline constexpr bool needs_own_frames = requires { requires Algorithm::needs_own_frames; };
+
+/// True for algorithms of kinematics: robots have them whose masses are not known, too. They say so
+/// by a member `needs_no_masses`.
+template <class Algorithm>
+inline constexpr bool needs_no_masses = requires { requires Algorithm::needs_no_masses; };
+
+/// Refuses, in the compiler, an algorithm of dynamics for a robot whose masses are not known.
+template <class Algorithm, Robot R>
+consteval void check_masses() {
+  if constexpr (!needs_no_masses<Algorithm>) {
+    static_assert(articula::detail::has_masses<R, Algorithm>);
+  }
+}
+
+/// True for algorithms about one link, named at compile time. They take the robot's model and the
+/// joint positions: `evaluate<frames, S>(model, q)`.
+template <class Algorithm>
+concept OfALink = requires { Algorithm::link; };
+
+/// The mechanism of a robot on which an algorithm is run. Real-time: yes.
+template <class Algorithm, Robot R>
+[[nodiscard]] constexpr const auto& mechanism_for(const R& robot) noexcept {
+  if constexpr (needs_own_frames<Algorithm>) {
+    return model_of(robot).mechanism;
+  } else {
+    return model_of(robot).canonical;
+  }
+}
+
+namespace detail {
+
+template <DescribedRobot R>
+using ModelOf = std::remove_cvref_t<decltype(model_of(R{}))>;
+
+/// The inputs of an algorithm after the configuration: how many arrays of N numbers it takes.
+template <class Algorithm, class S, int N, int B, std::size_t Arrays = 0>
+consteval std::size_t input_arrays() {
+  constexpr bool fits = []<std::size_t... I>(std::index_sequence<I...>) {
+    return requires(const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration,
+                    const std::array<JointArray<S, N>, Arrays>& inputs) {
+      Algorithm::template evaluate<S, N, B>(mechanism, configuration, inputs[I]...);
+    };
+  }(std::make_index_sequence<Arrays>{});
+  if constexpr (fits || OfALink<Algorithm>) {
+    return Arrays;
+  } else {
+    static_assert(Arrays < 8, "articula: this is not an algorithm of a configuration and arrays");
+    return input_arrays<Algorithm, S, N, B, Arrays + 1>();
+  }
+}
+
+/// Runs an algorithm on symbols and assembles what it leaves in the graph. Inputs are numbered
+/// through the positions, then through the algorithm's other arrays: see OneAfterTheOther.
+/// @tparam Room  for how long a program
+template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSize Room>
+[[nodiscard]] constexpr symbolic::Program<Room> trace() {
+  using symbolic::Symbol;
+  constexpr int n = ModelOf<R>::joint_count, b = ModelOf<R>::body_count;
+  constexpr std::size_t arrays = input_arrays<Algorithm, Symbol, n, b>();
+
+  symbolic::Graph graph;
+  std::array<JointArray<Symbol, n>, 1 + arrays> inputs;
+  int next = 0;
+  symbolic::for_each_scalar<Symbol>(
+      inputs, [&](Symbol& symbol) { symbol = Symbol(graph, graph.input(next++)); });
+  auto result = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    if constexpr (OfALink<Algorithm>) {
+      return Algorithm::template evaluate<frames, Symbol>(model_of(R{}), inputs[0]);
+    } else {
+      const auto& mechanism = mechanism_for<Algorithm>(R{});
+      const auto configuration = configuration_of<Symbol, n, b, frames>(mechanism, inputs[0]);
+      return Algorithm::template evaluate<Symbol, n, b>(mechanism, configuration, inputs[1 + I]...);
+    }
+  }(std::make_index_sequence<arrays>{});
+
+  symbolic::GrowingArray<symbolic::Term> outputs(128);
+  symbolic::for_each_scalar<Symbol>(result, [&](Symbol& symbol) { outputs.append(symbol.term()); });
+  return symbolic::Assembler<Room>::assemble(graph, outputs);
+}
+
+/// Room for the programs of most algorithms: at least twice what those of this library take.
+template <DescribedRobot R>
+[[nodiscard]] consteval symbolic::ProgramSize usual_room() {
+  constexpr auto bodies = static_cast<std::size_t>(ModelOf<R>::body_count);
+  return {
+      .instructions = 384 * bodies, .constants = 32 * bodies, .outputs = (12 + bodies) * bodies};
+}
+
+/// The algorithm is run a second time only if there was not room enough.
+template <class Algorithm, DescribedRobot R, Frames frames>
+[[nodiscard]] consteval auto compile() {
+  constexpr auto program = trace<Algorithm, R, frames, usual_room<R>()>();
+  if constexpr (program.is_whole()) {
+    return program;
+  } else {
+    return trace<Algorithm, R, frames, program.size>();
+  }
+}
+
+/// The program of an algorithm in given frames.
+template <class Algorithm, DescribedRobot R, Frames frames>
+inline constexpr auto program_in = compile<Algorithm, R, frames>();
+
+/// By how many operations an algorithm's program is cheaper in resting frames.
+template <class Algorithm, DescribedRobot R>
+inline constexpr int gain_of_resting =
+    program_in<Algorithm, R, Frames::moving>.operations().cost() -
+    program_in<Algorithm, R, Frames::resting>.operations().cost();
+
+/// The frames that make the cheaper program. Trying them on each algorithm would take the compiler
+/// longer than all the rest. The gravity efforts are tried, for all algorithms: their program is
+/// short and consists of what the frames make cheaper or dearer, the way of vectors to the leaves
+/// and back. Only where they make no difference, as where axes are vertical or nothing falls, the
+/// algorithm itself is tried. So are algorithms of a link: what gravity costs says nothing about
+/// them.
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval Frames frames_for() {
+  if constexpr (needs_own_frames<Algorithm>) {
+    return Frames::moving;
+  } else if constexpr (OfALink<Algorithm>) {
+    return gain_of_resting<Algorithm, R> > 0 ? Frames::resting : Frames::moving;
+  } else if constexpr (gain_of_resting<Gravity, R> != 0) {
+    return gain_of_resting<Gravity, R> > 0 ? Frames::resting : Frames::moving;
+  } else {
+    return gain_of_resting<Algorithm, R> > 0 ? Frames::resting : Frames::moving;
+  }
+}
+
+/// The program of an algorithm in the better frames.
+template <class Algorithm, DescribedRobot R>
+inline constexpr const auto& best_program = program_in<Algorithm, R, frames_for<Algorithm, R>()>;
+
+/// Whether an algorithm has an `Alternative`, another one with the same inputs and results, that
+/// makes the cheaper program. It is tried only where it says that it `may_pay`.
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval bool has_cheaper_alternative() {
+  if constexpr (requires { typename Algorithm::Alternative; }) {
+    using Other = typename Algorithm::Alternative;
+    if constexpr (Other::may_pay(mechanism_for<Algorithm>(R{}))) {
+      return best_program<Other, R>.operations().cost() <
+             best_program<Algorithm, R>.operations().cost();
+    }
+  }
+  return false;
+}
+
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval const auto& cheapest_program() {
+  check_masses<Algorithm, R>();
+  if constexpr (has_cheaper_alternative<Algorithm, R>()) {
+    return best_program<typename Algorithm::Alternative, R>;
+  } else {
+    return best_program<Algorithm, R>;
+  }
+}
+
+/// Arrays of N numbers as one, in which inputs are numbered as in `trace`.
+template <class Array, std::size_t N, std::size_t Arrays>
+struct OneAfterTheOther {
+  const Array* arrays[Arrays];  // NOLINT
+
+  [[gnu::always_inline]] auto operator[](std::size_t i) const noexcept {
+    return (*arrays[i / N])[i % N];
+  }
+};
+
+/// An array of S for each of the inputs, whatever type they have: an algorithm takes arrays.
+template <class S, int N, class Input>
+using ArrayOf = JointArray<S, N>;
+
+/// What an algorithm returns for the scalar S.
+template <class Algorithm, DescribedRobot R, class S, class... Inputs>
+struct Result {
+  static constexpr int n = ModelOf<R>::joint_count, b = ModelOf<R>::body_count;
+  using Type = decltype(Algorithm::template evaluate<S, n, b>(
+      std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(),
+      std::declval<ArrayOf<S, n, Inputs>>()...));
+};
+template <OfALink Algorithm, DescribedRobot R, class S>
+struct Result<Algorithm, R, S> {
+  using Type = decltype(Algorithm::template evaluate<Frames::moving, S>(
+      model_of(R{}), std::declval<JointArray<S, ModelOf<R>::joint_count>>()));
+};
+
+}  // namespace detail
+
+/// The program that an algorithm becomes for a robot.
+template <class Algorithm, DescribedRobot R>
+inline constexpr const auto& program = detail::cheapest_program<Algorithm, R>();
+
+/// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
+/// but for rounding. Where angles of parallel axes are added, that is as if one of them were off by
+/// some units in its last place (2e-9 rad each at 1e7 rad). What the result does not depend on is
+/// not read: a NaN there leaves no trace.
+/// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack; an
+///                array, or what else can be read so, as a pointer to N numbers
+/// @param inputs  the algorithm's other inputs, of the same type
+/// Real-time: yes.
+template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto run(const Input& q,
+                                                  const Inputs&... inputs) noexcept {
+  using S = std::remove_cvref_t<decltype(q[0])>;
+  constexpr int n = detail::ModelOf<R>::joint_count;
+  if constexpr (requires { std::tuple_size<Input>::value; }) {
+    static_assert(std::tuple_size_v<Input> == n, "articula: there are as many numbers as joints");
+  }
+  const detail::OneAfterTheOther<Input, std::size_t{n}, 1 + sizeof...(Inputs)> input{
+      {&q, &inputs...}};
+  const auto output = symbolic::run_program<program<Algorithm, R>>(input);
+
+  typename detail::Result<Algorithm, R, S, Inputs...>::Type result;
+  std::size_t next = 0;
+  symbolic::for_each_scalar<S>(
+      result, [&](S& value) __attribute__((always_inline)) { value = output[next++]; });
+  return result;
+}
+
+}  // namespace articula::compiled
+
+namespace articula {
+
+/// How many operations the program of an algorithm takes, once per call; sines counts pairs of sine
+/// and cosine. For example `operations<InverseDynamics, Q2d>().multiplications`.
+template <class Algorithm, DescribedRobot R>
+[[nodiscard]] consteval symbolic::OperationCounts operations() {
+  return compiled::program<Algorithm, R>.operations();
+}
+
+}  // namespace articula

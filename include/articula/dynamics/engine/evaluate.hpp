@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The way from Eigen vectors to an algorithm's text and back.
+#pragma once
+
+#include "articula/core/joint_vector.hpp"
+#include "articula/dynamics/engine/compiled.hpp"
+#include "articula/dynamics/engine/configuration.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/symbolic/pack.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace articula::detail {
+
+// By folds and not by loops: compilers leave arrays in memory that are filled by loops.
+
+template <int N>
+[[nodiscard, gnu::always_inline]] inline JointArray<double, N> to_array(
+    const JointVector<N>& vector) noexcept {
+  return [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+    return JointArray<double, N>{vector.coeff(I)...};
+  }(std::make_integer_sequence<int, N>{});
+}
+
+template <std::size_t N>
+[[nodiscard, gnu::always_inline]] inline JointVector<static_cast<int>(N)> to_vector(
+    const std::array<double, N>& array) noexcept {
+  JointVector<static_cast<int>(N)> vector;
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    ((vector.coeffRef(static_cast<Eigen::Index>(I)) = array[I]), ...);
+  }(std::make_index_sequence<N>{});
+  return vector;
+}
+
+template <int N>
+[[nodiscard]] JointRows<double, N> to_rows(const JointMatrix<N>& matrix) noexcept {
+  JointRows<double, N> rows;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < rows.size(); ++j) {
+      rows[i][j] = matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+  return rows;
+}
+
+template <std::size_t N>
+[[nodiscard, gnu::always_inline]] inline JointMatrix<static_cast<int>(N)> to_matrix(
+    const std::array<std::array<double, N>, N>& rows) noexcept {
+  JointMatrix<static_cast<int>(N)> matrix;
+  // Row by row: clang refuses folds over more than 256 elements.
+  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+    const auto copy_row = [&](std::size_t i) __attribute__((always_inline)) {
+      ((matrix.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(I)) = rows[i][I]),
+       ...);
+    };
+    (copy_row(I), ...);
+  }(std::make_index_sequence<N>{});
+  return matrix;
+}
+
+/// Whether an algorithm has an `Alternative` that can pay for models of this size. The model itself
+/// says whether it does.
+template <class Algorithm, int N, int B>
+inline constexpr bool has_alternative_for_numbers = [] {
+  if constexpr (requires { Algorithm::Alternative::smallest_model; }) {
+    return N == B && N >= Algorithm::Alternative::smallest_model;
+  } else {
+    return false;
+  }
+}();
+
+/// Runs an algorithm on a robot at positions q: the one place that knows how. For a described robot
+/// that is the program which the compiler made of `Algorithm::evaluate`; for a model the function
+/// itself is called with the mechanism, the configuration at q and the other inputs as arrays, or
+/// that of the algorithm's alternative where it takes less time.
+/// @param inputs  input[i] is a number, or a pack of those of several robots
+template <class Algorithm, Robot R, class Input, class... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto evaluate_numbers(const R& robot, const Input& q,
+                                                               const Inputs&... inputs) noexcept {
+  if constexpr (DescribedRobot<R>) {
+    return compiled::run<Algorithm, R>(q, inputs...);
+  } else {
+    compiled::check_masses<Algorithm, R>();
+    using S = std::remove_cvref_t<decltype(q[0])>;
+    constexpr int n = R::joint_count, b = R::body_count;
+    const Mechanism<n, b>& mechanism = compiled::mechanism_for<Algorithm>(robot);
+    const auto array = [](const Input& numbers) __attribute__((always_inline)) {
+      return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
+        return JointArray<S, n>{numbers[I]...};
+      }(std::make_index_sequence<std::size_t{n}>{});
+    };
+    const auto configuration = configuration_of<S, n, b>(mechanism, array(q));
+    if constexpr (has_alternative_for_numbers<Algorithm, n, b>) {
+      using Other = typename Algorithm::Alternative;
+      if (Other::pays_for_numbers(mechanism)) {
+        return Other::template evaluate<S, n, b>(mechanism, configuration, array(inputs)...);
+      }
+    }
+    return Algorithm::template evaluate<S, n, b>(mechanism, configuration, array(inputs)...);
+  }
+}
+
+/// The same for Eigen's vectors.
+template <class Algorithm, Robot R, std::same_as<JointVector<joint_count<R>>>... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto evaluate(const R& robot,
+                                                       const JointVector<joint_count<R>>& q,
+                                                       const Inputs&... inputs) noexcept {
+  return evaluate_numbers<Algorithm>(robot, q.data(), inputs.data()...);
+}
+
+/// Numbers of as many robots as a pack has lanes, out of rows of K.
+template <int Lanes, int K>
+struct Columns {
+  const double* first;
+
+  [[gnu::always_inline]] symbolic::Pack<Lanes> operator[](std::size_t row) const noexcept {
+    return symbolic::Pack<Lanes>::load(first + row * K);
+  }
+};
+
+/// The same for K robots at once, as many as fit into a register at a time. If K is no multiple of
+/// that, the last ones are those that end at column K: some are computed twice.
+template <class Algorithm, Robot R, int K, std::same_as<JointVectors<joint_count<R>, K>>... Inputs>
+[[nodiscard]] JointVectors<joint_count<R>, K> evaluate_columns(
+    const R& robot, const JointVectors<joint_count<R>, K>& q, const Inputs&... inputs) noexcept {
+  static_assert(K >= 2, "articula: a single robot has a JointVector");
+  constexpr int n = joint_count<R>;
+  constexpr int lanes = K < 4   ? 2
+                        : K < 8 ? std::min(4, symbolic::lanes_of_a_register)
+                                : symbolic::lanes_of_a_register;
+  using Pack = symbolic::Pack<lanes>;
+  JointVectors<n, K> result;
+  for (int column = 0; column < K; column += lanes) {
+    const int first = std::min(column, K - lanes);
+    const auto columns = [&](const JointVectors<n, K>& vectors) __attribute__((always_inline)) {
+      return Columns<lanes, K>{vectors.data() + first};
+    };
+    const JointArray<Pack, n> packed =
+        evaluate_numbers<Algorithm>(robot, columns(q), columns(inputs)...);
+    symbolic::detail::for_each_index<std::size_t{n}>(
+        [&](std::size_t i)
+            __attribute__((always_inline)) { packed[i].store(result.data() + i * K + first); });
+  }
+  return result;
+}
+
+}  // namespace articula::detail

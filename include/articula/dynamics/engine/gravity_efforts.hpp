@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The algorithm behind gravity. It stands apart because the frames in which a robot's
+/// programs calculate are chosen by it, see compiled.hpp.
+#pragma once
+
+#include "articula/dynamics/engine/unset_array.hpp"
+#include "articula/dynamics/engine/wrench.hpp"
+
+namespace articula {
+
+/// Newton-Euler for a robot at rest, where only weights are left.
+struct Gravity {
+  template <class S, int N, int B>
+  [[nodiscard]] static constexpr JointArray<S, N> evaluate(
+      const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
+    detail::UnsetArray<Vector3<S>, B> upward;  // minus gravity, in each body's frame
+    detail::UnsetArray<Wrench<S>, B> wrenches;
+    for (std::size_t i = 0; i < configuration.size(); ++i) {
+      const Body& body = mechanism.bodies[i];
+      const Vector3<S> own = configuration[i].from_parent(
+          body.parent < 0 ? constant<S>(-mechanism.gravity) : upward[detail::parent_of(body, i)]);
+      const MassMoments<S>& moments = configuration[i].moments;
+      upward.set(i, own);
+      wrenches.set(i, {moments.mass * own, cross(moments.first, own)});
+    }
+    return joint_efforts<S, N, B>(mechanism,
+                                  detail::efforts_for<S, N, B>(mechanism, configuration, wrenches));
+  }
+};
+
+}  // namespace articula

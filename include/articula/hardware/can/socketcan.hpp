@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The way to a CAN bus through Linux. CMake target: articula::socketcan.
+#pragma once
+
+#include "articula/core/refuse.hpp"
+#include "articula/hardware/can/can_error_frame.hpp"
+#include "articula/hardware/can/can_socket.hpp"
+#include "articula/hardware/can/can_transport.hpp"
+#include "articula/hardware/can/socketcan_statistics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace articula {
+
+/// A raw CAN socket of Linux that never waits and never sends late.
+///
+/// The kernel's queue may hold frames back for long: behind other traffic, or on a bus where nobody
+/// answers. So `receive` gets the frame that ends a cycle's output back when it has been on the
+/// bus, and until then nothing new is sent: `send` answers CanSending::backlog. If there is no such
+/// sign for the confirmation time, the frame counts as lost and the next cycle is sent, with
+/// CanSending::unconfirmed as answer. So at most one cycle per confirmation time waits in a queue.
+///
+/// Errors show in the answers and in `link()`. After the interface has been down, sending works
+/// again by itself. After bus-off, or when the interface was deleted and made again, it takes
+/// `open`.
+class SocketCan {
+ public:
+  /// @param interface          name of the interface, such as "can0"
+  /// @param confirmation_time  longest time that a cycle may take to get onto the bus before it
+  ///                           counts as lost; a few periods of the loop
+  /// @throws std::invalid_argument if there can be no interface of that name, or the time is not
+  ///         positive
+  /// @throws std::runtime_error if there is none now, or the kernel has no CAN
+  /// Real-time: no (system calls, allocates).
+  explicit SocketCan(std::string interface,
+                     std::chrono::nanoseconds confirmation_time = std::chrono::milliseconds(3))
+      : interface_(std::move(interface)), confirmation_time_(confirmation_time) {
+    if (confirmation_time.count() <= 0) {
+      detail::refuse(
+          {"socketcan: confirmation_time ", confirmation_time.count(), " ns is not positive"});
+    }
+    if (interface_.empty() || interface_.size() >= IF_NAMESIZE) {
+      detail::refuse({"socketcan: '", interface_, "' is no name of an interface"});
+    }
+    if (open({}) != Status::ok) {
+      throw std::runtime_error("socketcan: interface '" + interface_ + "': " + error_);
+    }
+  }
+
+  /// Opens the socket anew, so that nothing of the past is left in it: binds it to the interface as
+  /// it is now and asks the kernel for the subscribed frames, the end of each own cycle, and
+  /// reports of errors.
+  /// @return Status::hardware_fault if that fails, and error() tells what
+  /// Real-time: no (system calls, allocates).
+  [[nodiscard]] Status open(const CanSubscription& subscription) noexcept {
+    const char* failure = "out of memory";
+    try {
+      failure = socket_.open(interface_, subscription);
+    } catch (...) {  // which is that
+    }
+    if (failure != nullptr) {
+      error_ = failure;
+      link_ = CanLink::gone;
+      socket_.close();
+      return Status::hardware_fault;
+    }
+    link_ = CanLink::up;
+    last_of_cycle_ = subscription.last_of_cycle;
+    tracked_ = subscription.frames_per_cycle > 0;
+    awaiting_ = false;
+    lost_before_ = 0;
+    return Status::ok;
+  }
+
+  /// Fetches frames that have arrived, by one system call, or a few where there are many. Reports
+  /// of the controller and own frames are dealt with here. Real-time: yes, but for the bus.
+  [[nodiscard]] std::size_t receive(std::span<ReceivedCanFrame> frames) noexcept {
+    std::array<detail::RawCanMessage, detail::CanSocket::most> messages;
+    std::size_t count = 0;
+    constexpr int most_calls = 4;  // own frames and reports do not count, and may be many
+    for (int call = 0; call < most_calls && count < frames.size(); ++call) {
+      const std::size_t wanted = std::min(messages.size(), frames.size() - count);
+      const int got = socket_.receive(std::span(messages).first(wanted));
+      if (got < 0) {
+        note_error(errno);
+        // An error of the interface is told once, before the frames that came earlier.
+        if (errno == ENETDOWN) continue;
+        return count;
+      }
+      for (int i = 0; i < got; ++i) {
+        if (take(messages[static_cast<std::size_t>(i)], frames[count])) ++count;
+      }
+      if (static_cast<std::size_t>(got) < wanted) return count;
+    }
+    return count;
+  }
+
+  /// Sends the frames of a cycle, by one system call. Real-time: yes, but for the bus.
+  [[nodiscard]] CanSending send(const CanBatch& batch) noexcept {
+    const auto now = this->now();
+    const bool late = awaiting_ && now - sent_at_ >= confirmation_time_;
+    if (awaiting_ && !late) {
+      return link_ == CanLink::up ? CanSending::backlog : CanSending::failed;
+    }
+    if (batch.empty()) return CanSending::sent;
+    const int result = socket_.send(batch);
+    const std::size_t taken = result > 0 ? static_cast<std::size_t>(result) : 0;
+    statistics_.sent += taken;
+    statistics_.not_taken += batch.size() - taken;
+    if (taken == batch.size()) {
+      if (link_ == CanLink::down) link_ = CanLink::up;
+      const CanFrame& last = batch[batch.size() - 1];
+      awaiting_ = tracked_ && !last.extended && last.identifier == last_of_cycle_;
+      sent_at_ = now;
+      return late ? CanSending::unconfirmed : CanSending::sent;
+    }
+    // Once a frame is taken, the kernel does not tell why the next one was not.
+    if (taken > 0 || errno == ENOBUFS || errno == EAGAIN) return CanSending::congested;
+    note_error(errno);
+    return CanSending::failed;
+  }
+
+  /// Waits for a frame, or a signal. Real-time: no (waits).
+  void wait(std::chrono::nanoseconds time) noexcept { socket_.wait(time); }
+
+  /// Real-time: yes (reads the clock).
+  [[nodiscard]] std::chrono::nanoseconds now() const noexcept {
+    return std::chrono::steady_clock::now().time_since_epoch();
+  }
+  /// Real-time: yes.
+  [[nodiscard]] CanLink link() const noexcept { return link_; }
+  /// What `open` failed at. Real-time: yes.
+  [[nodiscard]] const char* error() const noexcept { return error_; }
+  [[nodiscard]] const std::string& interface() const noexcept { return interface_; }
+  [[nodiscard]] const SocketCanStatistics& statistics() const noexcept { return statistics_; }
+
+ private:
+  void note_error(int error) noexcept {
+    if (error == ENETDOWN && link_ == CanLink::up) link_ = CanLink::down;
+    if (error == ENODEV || error == ENXIO || error == EBADF) link_ = CanLink::gone;
+  }
+
+  /// Takes in a message of the kernel.
+  /// @return true if it is a frame of another participant, which is in `received` then
+  [[nodiscard]] bool take(const detail::RawCanMessage& message,
+                          ReceivedCanFrame& received) noexcept {
+    const can_frame& raw = message.frame;
+    if (!message.whole) return false;
+    if (message.tells_lost) {
+      statistics_.lost += message.lost - lost_before_;
+      lost_before_ = message.lost;
+    }
+    if ((raw.can_id & CAN_ERR_FLAG) != 0) {
+      take_error(raw);
+      return false;
+    }
+    if (message.own) {
+      awaiting_ = false;
+      return false;
+    }
+    if ((raw.can_id & CAN_RTR_FLAG) != 0 || raw.can_dlc > 8) return false;
+    ++statistics_.received;
+    received = {.time = message.time};
+    received.frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+    received.frame.identifier =
+        raw.can_id & (received.frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
+    received.frame.length = raw.can_dlc;
+    std::memcpy(received.frame.data.data(), raw.data, raw.can_dlc);
+    return true;
+  }
+
+  void take_error(const can_frame& raw) noexcept {
+    std::array<std::uint8_t, 8> data;
+    std::memcpy(data.data(), raw.data, data.size());
+    const CanErrorReport report = decode_error_frame(raw.can_id & CAN_ERR_MASK, data);
+    ++statistics_.error_frames;
+    if (report.overflow) ++statistics_.overflows;
+    if (report.no_answer) ++statistics_.no_answers;
+    if (report.passive) ++statistics_.error_passives;
+    if (report.restarted) ++statistics_.restarts;
+    if (report.bus_off) {
+      ++statistics_.bus_offs;
+      link_ = CanLink::bus_off;  // until `open`: a restart may come before anybody looks
+    }
+  }
+
+  std::string interface_;
+  std::chrono::nanoseconds confirmation_time_{};
+  const char* error_ = "";
+  detail::CanSocket socket_{};
+  CanLink link_ = CanLink::gone;
+  bool tracked_ = false;  ///< own cycles are followed
+  std::uint32_t last_of_cycle_ = 0;
+  bool awaiting_ = false;  ///< the end of the last cycle sent has not been on the bus yet
+  std::chrono::nanoseconds sent_at_{};
+  std::uint32_t lost_before_ = 0;
+  SocketCanStatistics statistics_{};
+};
+
+}  // namespace articula

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Values for objects of a CANopen node, as its configuration lists them.
+#pragma once
+
+#include "articula/core/refuse.hpp"
+#include "articula/hardware/can/object_address.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+
+namespace articula::canopen {
+
+/// A value for an object: `{{0x6072, 0}, 1500, 2}` sets object 6072h,0, of two bytes, to 1500.
+struct ObjectValue {
+  ObjectAddress address{};
+  std::uint32_t value = 0;  ///< of negative numbers, the bits of two's complement
+  std::uint8_t size = 0;    ///< [bytes], 1 .. 4, as the node's manual has it
+};
+
+/// Up to 24 values, in the order in which they are to be written.
+class ObjectValues {
+ public:
+  static constexpr std::size_t capacity = 24;
+
+  constexpr ObjectValues() = default;
+  /// @throws std::invalid_argument if there are more than 24, or a size is not 1 .. 4; in a constant
+  ///         expression that does not compile
+  /// Real-time: no (throws).
+  constexpr ObjectValues(std::initializer_list<ObjectValue> values) {
+    if (values.size() > capacity) {
+      articula::detail::refuse({"CANopen: ", values.size(), " objects are more than the ", capacity,
+                                " that a node can be given"});
+    }
+    for (const ObjectValue& value : values) {
+      if (value.size < 1 || value.size > 4) {
+        articula::detail::refuse({"CANopen: object ", to_string(value.address), ": size ",
+                                  int{value.size}, " is not within 1 .. 4 bytes"});
+      }
+      values_[size_++] = value;
+    }
+  }
+
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] constexpr const ObjectValue* begin() const noexcept { return values_.data(); }
+  [[nodiscard]] constexpr const ObjectValue* end() const noexcept { return values_.data() + size_; }
+
+ private:
+  std::array<ObjectValue, capacity> values_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace articula::canopen

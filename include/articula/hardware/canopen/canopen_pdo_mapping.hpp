@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Which objects a process data object is made of.
+#pragma once
+
+#include "articula/hardware/canopen/canopen.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace articula::canopen {
+
+/// One object in a process data object.
+struct MappedObject {
+  ObjectAddress address{};
+  std::uint8_t bits = 0;
+
+  /// As in a mapping object: index, subindex, bits. [CiA 301, 7.5.2.36]
+  [[nodiscard]] constexpr std::uint32_t entry() const noexcept {
+    return std::uint32_t{address.index} << 16 | std::uint32_t{address.subindex} << 8 | bits;
+  }
+  [[nodiscard]] static constexpr MappedObject of_entry(std::uint32_t entry) noexcept {
+    return {{static_cast<std::uint16_t>(entry >> 16), static_cast<std::uint8_t>(entry >> 8 & 0xff)},
+            static_cast<std::uint8_t>(entry & 0xff)};
+  }
+  friend constexpr bool operator==(const MappedObject&, const MappedObject&) = default;
+};
+
+/// The objects of a process data object, in their order: up to eight of whole bytes.
+class PdoMapping {
+ public:
+  static constexpr std::size_t capacity = 8;
+  static constexpr std::uint8_t absent = 0xff;
+
+  /// Adds an object at the end. Real-time: yes.
+  /// @return false if there is no room for it, or its bits are not whole bytes
+  constexpr bool push_back(const MappedObject& object) noexcept {
+    const bool fits = object.bits != 0 && object.bits % 8 == 0 && length() + object.bits / 8U <= 8;
+    if (size_ == capacity || !fits) return false;
+    objects_[size_++] = object;
+    return true;
+  }
+  constexpr void clear() noexcept { size_ = 0; }
+
+  /// Bytes of its frame. Real-time: yes.
+  [[nodiscard]] constexpr std::uint8_t length() const noexcept {
+    unsigned bits = 0;
+    for (const MappedObject& object : *this) bits += object.bits;
+    return static_cast<std::uint8_t>(bits / 8);
+  }
+  /// First byte of an object in the frame; `absent` if it is not there with that size. Real-time:
+  /// yes.
+  [[nodiscard]] constexpr std::uint8_t offset_of(const MappedObject& wanted) const noexcept {
+    unsigned bits = 0;
+    for (const MappedObject& object : *this) {
+      if (object == wanted) return static_cast<std::uint8_t>(bits / 8);
+      bits += object.bits;
+    }
+    return absent;
+  }
+  [[nodiscard]] constexpr bool contains(const MappedObject& wanted) const noexcept {
+    return offset_of(wanted) != absent;
+  }
+  [[nodiscard]] constexpr bool empty() const noexcept { return size_ == 0; }
+  [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] constexpr const MappedObject* begin() const noexcept { return objects_.data(); }
+  [[nodiscard]] constexpr const MappedObject* end() const noexcept {
+    return objects_.data() + size_;
+  }
+
+ private:
+  std::array<MappedObject, capacity> objects_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace articula::canopen

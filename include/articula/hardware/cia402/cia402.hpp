@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The drive profile CiA 402: its objects, modes and state machine.
+#pragma once
+
+#include "articula/core/joint_command.hpp"
+#include "articula/hardware/canopen/canopen.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <optional>
+
+namespace articula::cia402 {
+
+// Objects of the profile [CiA 402-2, CiA 402-3].
+inline constexpr canopen::ObjectAddress abort_connection{0x6007, 0};
+inline constexpr canopen::ObjectAddress error_code{0x603f, 0};
+inline constexpr canopen::ObjectAddress controlword{0x6040, 0};
+inline constexpr canopen::ObjectAddress statusword{0x6041, 0};
+inline constexpr canopen::ObjectAddress mode_of_operation{0x6060, 0};
+inline constexpr canopen::ObjectAddress mode_display{0x6061, 0};
+inline constexpr canopen::ObjectAddress position_actual{0x6064, 0};
+inline constexpr canopen::ObjectAddress velocity_actual{0x606c, 0};
+inline constexpr canopen::ObjectAddress target_torque{0x6071, 0};
+inline constexpr canopen::ObjectAddress torque_actual{0x6077, 0};
+inline constexpr canopen::ObjectAddress target_position{0x607a, 0};
+inline constexpr canopen::ObjectAddress velocity_offset{0x60b1, 0};
+inline constexpr canopen::ObjectAddress torque_offset{0x60b2, 0};
+inline constexpr canopen::ObjectAddress interpolation_period{0x60c2, 1};
+inline constexpr canopen::ObjectAddress interpolation_exponent{0x60c2, 2};
+inline constexpr canopen::ObjectAddress target_velocity{0x60ff, 0};
+
+/// A cyclic mode of operation, as in object 6060h.
+enum class Mode : std::uint8_t {
+  cyclic_synchronous_position = 8,
+  cyclic_synchronous_velocity = 9,
+  cyclic_synchronous_torque = 10,
+};
+
+/// The mode that follows a kind of command.
+template <class Command>
+inline constexpr Mode mode_of =
+    std::same_as<Command, PositionCommand<Command::joint_count>> ? Mode::cyclic_synchronous_position
+    : std::same_as<Command, VelocityCommand<Command::joint_count>>
+        ? Mode::cyclic_synchronous_velocity
+        : Mode::cyclic_synchronous_torque;
+
+/// The object that the commands of a mode go to.
+struct Target {
+  canopen::ObjectAddress address{};
+  std::uint8_t size = 0;  ///< [bytes]
+};
+[[nodiscard]] constexpr Target target_of(Mode mode) noexcept {
+  if (mode == Mode::cyclic_synchronous_position) return {target_position, 4};
+  if (mode == Mode::cyclic_synchronous_velocity) return {target_velocity, 4};
+  return {target_torque, 2};
+}
+
+/// States of a drive [CiA 402-2, state machine].
+enum class State : std::uint8_t {
+  not_ready_to_switch_on,
+  switch_on_disabled,
+  ready_to_switch_on,
+  switched_on,
+  operation_enabled,
+  quick_stop_active,
+  fault_reaction_active,
+  fault,
+};
+
+/// The state that a statusword tells; nothing if its bits are none of the profile's.
+/// @param bits  of the statusword
+/// Real-time: yes.
+[[nodiscard]] constexpr std::optional<State> state_of(std::uint16_t bits) noexcept {
+  switch (bits & 0x4f) {
+    case 0x00:
+      return State::not_ready_to_switch_on;
+    case 0x40:
+      return State::switch_on_disabled;
+    case 0x0f:
+      return State::fault_reaction_active;
+    case 0x08:
+      return State::fault;
+    default:
+      break;
+  }
+  switch (bits & 0x6f) {
+    case 0x21:
+      return State::ready_to_switch_on;
+    case 0x23:
+      return State::switched_on;
+    case 0x27:
+      return State::operation_enabled;
+    case 0x07:
+      return State::quick_stop_active;
+    default:
+      return {};
+  }
+}
+
+/// Whether a statusword tells State::operation_enabled. Real-time: yes.
+[[nodiscard]] constexpr bool in_operation(std::uint16_t bits) noexcept {
+  return (bits & 0x6f) == 0x27;
+}
+
+/// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
+/// Real-time: yes.
+[[nodiscard]] constexpr bool may_exert(State state) noexcept {
+  return state == State::operation_enabled || state == State::quick_stop_active ||
+         state == State::fault_reaction_active;
+}
+
+/// In the cyclic modes this bit of the statusword says that the drive follows the target
+/// [CiA 402-2, cyclic synchronous modes]. Some drives never set it.
+inline constexpr std::uint16_t follows_target = 0x1000;
+
+// Values of the controlword.
+inline constexpr std::uint16_t disable_voltage = 0x00;
+inline constexpr std::uint16_t shutdown = 0x06;
+inline constexpr std::uint16_t switch_on = 0x07;
+inline constexpr std::uint16_t enable_operation = 0x0f;
+inline constexpr std::uint16_t fault_reset = 0x80;
+
+/// The controlword that leads from a state towards operation enabled; from a state that the drive
+/// leaves by itself it is the one that asks for nothing.
+/// Real-time: yes.
+[[nodiscard]] constexpr std::uint16_t towards_operation(State state) noexcept {
+  switch (state) {
+    case State::switch_on_disabled:
+      return shutdown;
+    case State::ready_to_switch_on:
+      return switch_on;
+    case State::switched_on:
+    case State::operation_enabled:
+      return enable_operation;
+    case State::fault:
+      return fault_reset;
+    case State::not_ready_to_switch_on:
+    case State::quick_stop_active:
+    case State::fault_reaction_active:
+      break;
+  }
+  return disable_voltage;
+}
+
+}  // namespace articula::cia402

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The frames of the arm's joint modules, see docs/quanser_protocol.md.
+#pragma once
+
+#include "articula/hardware/can/can_frame.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+
+/// The frames that host and joint modules exchange, in the units of the wire. Encoding gives the
+/// frame; decoding takes any frame and gives a value, or nothing if it is not such a frame.
+/// All functions are real-time.
+namespace articula::quanser {
+
+// Identifiers; those of a module n = 1 .. 31 are the base plus n. Efforts stand before SYNC in
+// priority too, so that a controller that sends by priority keeps the order.
+inline constexpr std::uint32_t control_base = 0x040;
+inline constexpr std::uint32_t effort_base = 0x080;
+inline constexpr std::uint32_t sync_identifier = 0x100;
+inline constexpr std::uint32_t position_base = 0x180;
+inline constexpr std::uint32_t motion_base = 0x200;
+inline constexpr std::uint32_t heartbeat_base = 0x280;
+inline constexpr std::uint8_t last_node = 31;
+
+/// Bits of a module's status.
+enum StatusBit : std::uint8_t {
+  enabled = 1 << 0,  ///< follows efforts
+  faulty = 1 << 1,   ///< a fault is latched
+  limited = 1 << 2,  ///< the effort is held at the module's limit
+};
+
+/// Bits of a module's faults; they stay until they are cleared.
+enum FaultBit : std::uint8_t {
+  command_timeout = 1 << 0,   ///< efforts stopped coming
+  over_current = 1 << 1,      ///< motor current too high
+  over_temperature = 1 << 2,  ///< module too hot
+  encoder = 1 << 3,           ///< an encoder signal is missing, or a count is out of range
+  supply = 1 << 4,            ///< supply voltage out of range
+  over_speed = 1 << 5,        ///< motor too fast
+  internal = 1 << 6,          ///< anything else
+};
+
+/// Host to one module: what its power stage is to do.
+enum class Control : std::uint8_t {
+  enable = 1,        ///< follow efforts from now on, beginning with none; refused while faulty
+  disable = 2,       ///< let go
+  clear_faults = 3,  ///< let go and forget latched faults whose cause is gone
+};
+
+/// Host to one module: the effort to exert from the SYNC with the same counter on.
+struct Effort {
+  std::int16_t millinewton_metres = 0;  ///< [1e-3 N m]
+  std::uint8_t counter = 0;             ///< of the SYNC that puts it into force
+};
+
+/// Module to host, answering SYNC: where motor and load are.
+struct Position {
+  std::int32_t motor_counts = 0;  ///< motor encoder, 24 bits
+  std::int32_t load_counts = 0;   ///< load encoder, 24 bits
+  std::uint8_t counter = 0;       ///< of the SYNC that is answered
+  std::uint8_t status = 0;        ///< StatusBit, at the time of sending
+};
+
+/// Module to host, answering SYNC: how the joint moves.
+struct Motion {
+  std::int16_t milliradians_per_second = 0;  ///< [1e-3 rad/s]
+  std::int16_t millinewton_metres = 0;       ///< measured effort [1e-3 N m]
+  std::uint8_t counter = 0;                  ///< of the SYNC that is answered
+  std::uint8_t faults = 0;                   ///< FaultBit, at the time of sending
+};
+
+/// Module to host, every 100 ms and at once after a reset.
+struct Heartbeat {
+  std::uint8_t status = 0;  ///< StatusBit
+  std::uint8_t faults = 0;  ///< FaultBit
+  std::uint16_t count = 0;  ///< heartbeats since the last reset; 0 tells of the reset; 65535 stays
+};
+
+namespace detail {
+
+/// -32768 is not a value: it stands for a figure that a module does not have.
+inline constexpr std::int16_t no_value = -32768;
+inline constexpr std::int32_t largest_count = 0x7fffff;
+/// Likewise for counts.
+inline constexpr std::int32_t no_count = -largest_count - 1;
+
+[[nodiscard]] constexpr bool is(const CanFrame& frame, std::uint32_t base,
+                                std::uint8_t length) noexcept {
+  return !frame.extended && frame.length == length && frame.identifier > base &&
+         frame.identifier <= base + last_node;
+}
+/// Reserved bits are 0, and a module is not enabled while it is faulty.
+[[nodiscard]] constexpr bool is_status(std::uint8_t bits) noexcept {
+  return bits < 1 << 3 && (bits & (enabled | faulty)) != (enabled | faulty);
+}
+[[nodiscard]] constexpr bool is_faults(std::uint8_t bits) noexcept { return bits < 1 << 7; }
+
+[[nodiscard]] constexpr CanFrame frame_of(std::uint32_t identifier, std::uint8_t length) noexcept {
+  CanFrame frame;
+  frame.identifier = identifier;
+  frame.length = length;
+  return frame;
+}
+
+}  // namespace detail
+
+/// The module that a frame is from or for: 1 .. 31, or 0 if it is none's.
+[[nodiscard]] constexpr std::uint8_t node_of(const CanFrame& frame) noexcept {
+  for (const std::uint32_t base :
+       {control_base, effort_base, position_base, motion_base, heartbeat_base}) {
+    const bool in_range = frame.identifier > base && frame.identifier <= base + last_node;
+    if (!frame.extended && in_range) return static_cast<std::uint8_t>(frame.identifier - base);
+  }
+  return 0;
+}
+
+[[nodiscard]] constexpr CanFrame encode(Control control, std::uint8_t node) noexcept {
+  CanFrame frame = detail::frame_of(control_base + node, 1);
+  frame.data[0] = static_cast<std::uint8_t>(control);
+  return frame;
+}
+[[nodiscard]] constexpr std::optional<Control> decode_control(const CanFrame& frame) noexcept {
+  if (!detail::is(frame, control_base, 1)) return {};
+  if (frame.data[0] < 1 || frame.data[0] > 3) return {};
+  return static_cast<Control>(frame.data[0]);
+}
+
+[[nodiscard]] constexpr CanFrame encode(const Effort& effort, std::uint8_t node) noexcept {
+  CanFrame frame = detail::frame_of(effort_base + node, 3);
+  store_little_endian<0, 2>(frame.data, effort.millinewton_metres);
+  frame.data[2] = effort.counter;
+  return frame;
+}
+[[nodiscard]] constexpr std::optional<Effort> decode_effort(const CanFrame& frame) noexcept {
+  if (!detail::is(frame, effort_base, 3)) return {};
+  const Effort effort{load_little_endian<std::int16_t, 0>(frame.data), frame.data[2]};
+  if (effort.millinewton_metres == detail::no_value) return {};
+  return effort;
+}
+
+/// Host to all modules: begins cycle `counter`.
+[[nodiscard]] constexpr CanFrame encode_sync(std::uint8_t counter) noexcept {
+  CanFrame frame = detail::frame_of(sync_identifier, 1);
+  frame.data[0] = counter;
+  return frame;
+}
+[[nodiscard]] constexpr std::optional<std::uint8_t> decode_sync(const CanFrame& frame) noexcept {
+  if (frame.extended || frame.identifier != sync_identifier || frame.length != 1) return {};
+  return frame.data[0];
+}
+
+[[nodiscard]] constexpr CanFrame encode(const Position& position, std::uint8_t node) noexcept {
+  CanFrame frame = detail::frame_of(position_base + node, 8);
+  store_little_endian<0, 3>(frame.data, position.motor_counts);
+  store_little_endian<3, 3>(frame.data, position.load_counts);
+  frame.data[6] = position.counter;
+  frame.data[7] = position.status;
+  return frame;
+}
+[[nodiscard]] constexpr std::optional<Position> decode_position(const CanFrame& frame) noexcept {
+  if (!detail::is(frame, position_base, 8) || !detail::is_status(frame.data[7])) return {};
+  const Position position{load_little_endian<std::int32_t, 0, 3>(frame.data),
+                          load_little_endian<std::int32_t, 3, 3>(frame.data), frame.data[6],
+                          frame.data[7]};
+  const std::int32_t lowest = std::min(position.motor_counts, position.load_counts);
+  if (lowest == detail::no_count) return {};
+  return position;
+}
+
+[[nodiscard]] constexpr CanFrame encode(const Motion& motion, std::uint8_t node) noexcept {
+  CanFrame frame = detail::frame_of(motion_base + node, 6);
+  store_little_endian<0, 2>(frame.data, motion.milliradians_per_second);
+  store_little_endian<2, 2>(frame.data, motion.millinewton_metres);
+  frame.data[4] = motion.counter;
+  frame.data[5] = motion.faults;
+  return frame;
+}
+[[nodiscard]] constexpr std::optional<Motion> decode_motion(const CanFrame& frame) noexcept {
+  if (!detail::is(frame, motion_base, 6) || !detail::is_faults(frame.data[5])) return {};
+  const Motion motion{load_little_endian<std::int16_t, 0>(frame.data),
+                      load_little_endian<std::int16_t, 2>(frame.data), frame.data[4],
+                      frame.data[5]};
+  if (motion.milliradians_per_second == detail::no_value) return {};
+  if (motion.millinewton_metres == detail::no_value) return {};
+  return motion;
+}
+
+[[nodiscard]] constexpr CanFrame encode(const Heartbeat& heartbeat, std::uint8_t node) noexcept {
+  CanFrame frame = detail::frame_of(heartbeat_base + node, 4);
+  frame.data[0] = heartbeat.status;
+  frame.data[1] = heartbeat.faults;
+  store_little_endian<2, 2>(frame.data, heartbeat.count);
+  return frame;
+}
+[[nodiscard]] constexpr std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept {
+  if (!detail::is(frame, heartbeat_base, 4)) return {};
+  if (!detail::is_status(frame.data[0]) || !detail::is_faults(frame.data[1])) return {};
+  return Heartbeat{frame.data[0], frame.data[1], load_little_endian<std::uint16_t, 2>(frame.data)};
+}
+
+}  // namespace articula::quanser

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file New gains for a controller that is running.
+#pragma once
+
+#include "articula/control/laws/effort_law.hpp"
+#include "articula/control/laws/valid_gains.hpp"
+#include "articula/core/name.hpp"
+#include "articula/loop/exchange/latest_value.hpp"
+#include "articula/model/robot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace articula {
+
+/// Hands new gains from any one thread to a controller that runs in another. A set is checked as a
+/// whole before it is handed over, so the controller has the old set or the new one, never a
+/// mixture or a bad one; if several are offered between two cycles, the last one counts.
+///
+///     GainsExchange<PidGains, 2> exchange(Q2d{});
+///     exchange.offer(gains);               // another thread: throws if the gains are bad
+///     exchange.apply(loop.controller());   // the control thread, between two cycles
+///
+/// @tparam G  the gains of one joint: PidGains, ImpedanceGains or your own, with `validate`
+/// @tparam N  number of joints
+template <class G, int N>
+class GainsExchange {
+ public:
+  using Gains = std::array<G, static_cast<std::size_t>(N)>;
+
+  /// @param robot  whose joints the messages name
+  template <Robot R>
+    requires(joint_count<R> == N)
+  explicit GainsExchange(const R& robot) {
+    const auto names = joint_names(robot);
+    std::copy(names.begin(), names.end(), names_.begin());
+  }
+
+  /// Checks gains and hands them over. For the one thread that sets gains; it does not wait.
+  /// @throws std::invalid_argument with the reason, naming joint, gain and value; the controller
+  ///         then keeps what it has
+  /// Real-time: no (throws).
+  void offer(const Gains& gains) {
+    JointNames<N> names;
+    std::copy(names_.begin(), names_.end(), names.begin());
+    latest_.write(ValidGains<G, N>(gains, names));
+  }
+
+  /// Gives the controller the latest gains, if there are any that it does not have yet. For the
+  /// control thread, between two cycles.
+  /// @param controller  has a noexcept set_gains(ValidGains<G, N>); of a Switch or Groups in which
+  ///                    several have, the one that is meant: `member<I>()`
+  /// @return whether there were some
+  /// Real-time: yes. Wait-free.
+  template <class C>
+  bool apply(C& controller) noexcept {
+    if constexpr (TakesGains<C, ValidGains<G, N>>) {
+      if (!latest_.update()) return false;
+      controller.set_gains(latest_.value());
+      return true;
+    } else {
+      static_assert(TakesGains<C, ValidGains<G, N>>,
+                    "this controller does not take such gains for N joints: of several in a Switch "
+                    "or Groups pass the one that is meant, apply(loop.controller().member<I>()); "
+                    "your own controller needs set_gains(const ValidGains<G, N>&) noexcept");
+      return false;
+    }
+  }
+
+ private:
+  std::array<Name, static_cast<std::size_t>(N)> names_{};
+  LatestValue<ValidGains<G, N>> latest_{};
+};
+
+}  // namespace articula

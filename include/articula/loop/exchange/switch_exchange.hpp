@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Switching controllers from another thread.
+#pragma once
+
+#include "articula/control/switching/switch_board.hpp"
+#include "articula/control/switching/switch_request.hpp"
+#include "articula/loop/exchange/event_ring.hpp"
+#include "articula/loop/exchange/latest_value.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <thread>
+
+namespace articula {
+
+/// What became of a request of this number.
+struct NumberedOutcome {
+  std::uint64_t request = 0;
+  SwitchOutcome outcome{};
+};
+
+/// A controller that does something else than before: it was asked to, or it has failed, or it took
+/// over from one that failed.
+struct SwitchEvent {
+  Name controller{};
+  ControllerStatus before = ControllerStatus::inactive;
+  ControllerStatus after = ControllerStatus::inactive;
+};
+
+/// Carries requests from any one thread to the Switch, or Groups, of a loop that runs in another,
+/// and brings back what became of them, who is active and what has happened:
+///
+///     SwitchExchange exchange(loop.controller());
+///     auto outcome = exchange.ask({.stop = {"pid"}, .start = {"bypass"}});  // another thread
+///     for (const ControllerInfo& controller : exchange.list()) ...          // that thread
+///     exchange.apply(loop.controller());            // the control thread, between two cycles
+///
+/// Neither thread waits for the other, unless it asks to by `ask`.
+/// @tparam Count  number of controllers
+template <std::size_t Count>
+class SwitchExchange {
+ public:
+  static constexpr std::size_t capacity = 16;  ///< requests, outcomes, and events not yet taken
+
+  /// @param controller  a Switch or Groups, or a Limited one
+  template <class C>
+    requires(detail::switch_size<C> == Count)
+  explicit SwitchExchange(const C& controller)
+      : infos_(switch_in(controller).list()), statuses_(infos_) {}
+
+  // For the one thread that switches:
+
+  /// Hands a request over.
+  /// @return  its number, from 1; 0 if there are too many that the control thread has not taken yet
+  /// Real-time: yes. Wait-free.
+  std::uint64_t request(const SwitchRequest& request) noexcept {
+    if (!requests_.push({last_request_ + 1, request})) return 0;
+    return ++last_request_;
+  }
+
+  /// The oldest outcome that was not taken yet; they come in the order of the requests. Of outcomes
+  /// that nobody takes only the first are kept. Real-time: yes. Wait-free.
+  [[nodiscard]] std::optional<NumberedOutcome> outcome() noexcept {
+    NumberedOutcome next;
+    if (!outcomes_.pop(next)) return std::nullopt;
+    return next;
+  }
+
+  /// Hands a request over and waits for its outcome. Outcomes of earlier requests are dropped.
+  /// @param patience  how long to wait for the control thread
+  /// @return          nothing if it took longer; the request may still be done later
+  /// Real-time: no (waits).
+  std::optional<SwitchOutcome> ask(const SwitchRequest& wish, std::chrono::milliseconds patience =
+                                                                  std::chrono::milliseconds(1000)) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (outcome()) {  // or there may be no room for the one that is waited for
+    }
+    std::uint64_t number = 0;
+    for (;;) {
+      if (number == 0) number = request(wish);
+      while (const auto next = outcome()) {
+        if (next->request == number) return next->outcome;
+      }
+      if (std::chrono::steady_clock::now() > end) return std::nullopt;
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  }
+
+  /// All controllers and what they did at the last `apply`. Real-time: yes. Wait-free.
+  [[nodiscard]] const std::array<ControllerInfo, Count>& list() noexcept {
+    if (published_.update()) infos_ = published_.value();
+    return infos_;
+  }
+
+  /// The oldest event that was not taken yet. Of events that nobody takes only the first are kept.
+  /// Real-time: yes. Wait-free.
+  [[nodiscard]] std::optional<SwitchEvent> event() noexcept {
+    SwitchEvent next;
+    if (!events_.pop(next)) return std::nullopt;
+    return next;
+  }
+
+  // For the control thread:
+
+  /// Passes requests on to the controller and publishes what it has done. Between two cycles. An
+  /// outcome is handed over by the next call, so that `list` and `event` know of the cycle in
+  /// between. What shall start or stop in a group with a divisor does so when that is asked next;
+  /// they know of it then.
+  /// @return  whether a controller started, stopped or failed since the last call
+  /// Real-time: yes. Wait-free.
+  template <class C>
+    requires(detail::switch_size<C> == Count)
+  bool apply(C& controller) noexcept {
+    auto& controllers = switch_in(controller);
+    const std::array<ControllerInfo, Count> now = controllers.list();
+    bool changed = false;
+    for (std::size_t i = 0; i < Count; ++i) {
+      if (now[i].status == statuses_[i].status) continue;
+      events_.push({now[i].name, statuses_[i].status, now[i].status});
+      changed = true;
+    }
+    if (changed) published_.write(now);
+    statuses_ = now;
+    // The outcomes of the last call's requests, now that the list shows what that cycle made of
+    // them.
+    for (std::size_t k = 0; k < decided_count_; ++k) outcomes_.push(decided_[k]);
+    decided_count_ = 0;
+    NumberedRequest next;
+    while (decided_count_ < capacity && requests_.pop(next)) {
+      decided_[decided_count_++] = {next.number, controllers.request(next.request)};
+    }
+    return changed;
+  }
+
+ private:
+  struct NumberedRequest {
+    std::uint64_t number = 0;
+    SwitchRequest request{};
+  };
+
+  // The switching thread's:
+  std::uint64_t last_request_ = 0;
+  std::array<ControllerInfo, Count> infos_;
+  // The control thread's:
+  alignas(64) std::array<ControllerInfo, Count> statuses_;
+  std::array<NumberedOutcome, capacity> decided_{};  ///< and not handed over yet
+  std::size_t decided_count_ = 0;
+  // Between them:
+  EventRing<NumberedRequest, capacity> requests_{};
+  EventRing<NumberedOutcome, capacity> outcomes_{};
+  EventRing<SwitchEvent, capacity> events_{};
+  LatestValue<std::array<ControllerInfo, Count>> published_{};
+};
+
+/// An exchange for a controller has the size that it takes.
+template <class C>
+SwitchExchange(const C&) -> SwitchExchange<detail::switch_size<C>>;
+
+}  // namespace articula

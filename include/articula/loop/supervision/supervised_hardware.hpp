@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What stands between a supervised loop and its hardware.
+#pragma once
+
+#include "articula/control/safety/damping_effort.hpp"
+#include "articula/control/safety/safe_command.hpp"
+#include "articula/core/finite.hpp"
+#include "articula/core/hardware.hpp"
+#include "articula/loop/supervision/supervision_options.hpp"
+#include "articula/model/robot.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <utility>
+
+namespace articula {
+
+/// What a supervised loop lets through to its hardware.
+enum class Passage : unsigned char {
+  closed,     ///< nothing: the hardware is not active
+  command,    ///< the loop's commands
+  behaviour,  ///< the safe behaviour in place of them
+};
+
+/// Hardware that judges what it measures by the robot's limits, and lets through what a supervised
+/// loop allows. It is hardware to the Loop inside, which stays as it is.
+/// @tparam HardwareType  what is supervised
+/// @tparam CommandType   what it accepts
+template <class HardwareType, class CommandType>
+  requires Hardware<HardwareType, CommandType>
+class SupervisedHardware {
+ public:
+  using RobotType = typename HardwareType::RobotType;
+  static constexpr int joint_count = articula::joint_count<RobotType>;
+
+  SupervisedHardware(HardwareType hardware, const SupervisionOptions& options)
+      : hardware_(std::move(hardware)), options_(options) {}
+
+  [[nodiscard]] const RobotType& robot() const noexcept { return hardware_.robot(); }
+  [[nodiscard]] double period() const noexcept
+    requires requires(const HardwareType& h) { h.period(); }
+  {
+    return hardware_.period();
+  }
+
+  /// Nothing: the loop inside is made long before anything shall move.
+  [[nodiscard]] Status activate() noexcept { return Status::ok; }
+  [[nodiscard]] Status deactivate() noexcept { return Status::ok; }
+
+  /// Reads and judges. Real-time: yes, if the hardware's read is.
+  /// @return what to tell the loop inside: the verdict, or in its place the status that `open` gave
+  [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
+    verdict_ = hardware_.read(state);
+    if (verdict_ == Status::ok && !is_finite(state)) verdict_ = Status::non_finite_state;
+    if (verdict_ == Status::ok && beyond_limits(state)) verdict_ = Status::limit_exceeded;
+    state_ = state;
+    return verdict_ == Status::ok ? answer_ : verdict_;
+  }
+
+  /// Writes what the passage allows. Real-time: yes, if the hardware's write is.
+  [[nodiscard]] Status write(const CommandType& command) noexcept {
+    if (passage_ == Passage::closed) return Status::ok;
+    written_ = passage_ == Passage::behaviour ? safe_behaviour(command) : command;
+    has_written_ = true;
+    return hardware_.write(written_);
+  }
+
+  /// @param passage  what is let through from now on
+  /// @param answer   what the loop inside is told when all is well: anything but Status::ok keeps
+  ///                 the controller from being called
+  void open(Passage passage, Status answer) noexcept {
+    passage_ = passage;
+    answer_ = answer;
+    if (passage == Passage::closed) has_written_ = false;
+  }
+
+  [[nodiscard]] Passage passage() const noexcept { return passage_; }
+  /// How the last state was judged.
+  [[nodiscard]] Status verdict() const noexcept { return verdict_; }
+  /// What the hardware was given last.
+  [[nodiscard]] const CommandType& written() const noexcept { return written_; }
+  [[nodiscard]] HardwareType& hardware() noexcept { return hardware_; }
+  [[nodiscard]] const HardwareType& hardware() const noexcept { return hardware_; }
+
+ private:
+  [[nodiscard]] bool beyond_limits(const JointState<joint_count>& state) const noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      const JointLimits& limits = model_of(robot()).joints[static_cast<std::size_t>(j)].limits;
+      const double q = state.position[j], v = state.velocity[j];
+      const double most = limits.velocity * (1 + options_.velocity_margin);
+      if (q < limits.lower - options_.position_margin) return true;
+      if (q > limits.upper + options_.position_margin) return true;
+      if (v > most || v < -most) return true;
+    }
+    return false;
+  }
+
+  /// @param command  what the loop inside found safe, for a state that cannot be trusted
+  [[nodiscard]] CommandType safe_behaviour(const CommandType& command) const noexcept {
+    const bool trusted = verdict_ == Status::ok || verdict_ == Status::limit_exceeded;
+    if constexpr (std::same_as<CommandType, EffortCommand<joint_count>>) {
+      if (options_.behaviour == SafeBehaviour::zero_effort) return {};
+      if (!trusted) return command;
+      CommandType damped{
+          damping_effort(robot(), state_.position, state_.velocity, options_.damping_time)};
+      return is_finite(damped) ? limited(robot(), damped) : CommandType{};
+    } else if constexpr (std::same_as<CommandType, MultiModeCommand<joint_count>>) {
+      return options_.behaviour == SafeBehaviour::zero_effort ? CommandType{} : command;
+    } else if constexpr (std::same_as<CommandType, PositionCommand<joint_count>>) {
+      return has_written_ ? written_ : command;  // the measured position would creep
+    } else {
+      return command;  // zero velocity
+    }
+  }
+
+  HardwareType hardware_;
+  SupervisionOptions options_;
+  Passage passage_ = Passage::closed;
+  Status answer_ = Status::inactive;
+  Status verdict_ = Status::inactive;
+  JointState<joint_count> state_{};
+  CommandType written_{};
+  bool has_written_ = false;
+};
+
+}  // namespace articula

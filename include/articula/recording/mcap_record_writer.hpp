@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Records in an MCAP file. Needs nlohmann-json (target articula::recording).
+#pragma once
+
+#include "articula/recording/mcap_writer.hpp"
+#include "articula/recording/record_json.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+namespace articula {
+
+/// Writes records to an MCAP file, as JSON messages of the topic "cycle". Their time is the loop's,
+/// which begins at 0. The destructor completes the file; close() also says whether that went well.
+/// @tparam R            the robot
+/// @tparam CommandType  of the loop
+template <Robot R, class CommandType>
+class McapRecordWriter {
+ public:
+  using Record = CycleRecord<joint_count<R>, CommandType>;
+
+  /// @param contents  what is written besides the joints that can be commanded
+  /// @throws std::runtime_error if the file cannot be written, std::invalid_argument if the robot
+  ///         has no link of a name
+  McapRecordWriter(const R& robot, const std::filesystem::path& path,
+                   const RecordContents& contents = {})
+      : robot_(robot),
+        extras_(robot, contents),
+        writer_(path, "cycle", "articula.Cycle",
+                schema_of(record_json(robot, Record(), extras_)).dump()) {}
+  /// For a robot known at compile time.
+  explicit McapRecordWriter(const std::filesystem::path& path, const RecordContents& contents = {})
+    requires DescribedRobot<R>
+      : McapRecordWriter(R(), path, contents) {}
+
+  /// Writes one record.
+  /// @throws std::runtime_error if it cannot be written
+  void write(const Record& record) {
+    writer_.write(std::chrono::nanoseconds(std::llround(record.time * 1e9)),
+                  record_json(robot_, record, extras_).dump());
+  }
+
+  /// Completes the file. Does nothing if it is closed already.
+  /// @throws std::runtime_error if not all could be written
+  void close() { writer_.close(); }
+
+ private:
+  [[no_unique_address]] R robot_;
+  RecordExtras<R> extras_;
+  McapWriter writer_;
+};
+
+}  // namespace articula

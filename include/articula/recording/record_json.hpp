@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Records as JSON. Needs nlohmann-json (target articula::recording).
+#pragma once
+
+#include "articula/core/command_parts.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/recording/cycle_record.hpp"
+#include "articula/recording/record_extras.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <concepts>
+#include <cstddef>
+#include <string>
+
+namespace articula {
+
+/// JSON whose members stay in the order in which they were written.
+using Json = nlohmann::ordered_json;
+
+/// What is measured at the joints, by their names, with the time as PlotJuggler looks for it:
+///
+///     {"timestamp": 0.02, "q2d": {"shoulder_active_joint": {"position": 0.1, ...}, ...}}
+///
+/// NaN and infinity, for which JSON has no words, are null.
+/// @param robot  whose joints these are
+/// @param time   [s]
+/// @param state  of the joints
+/// Real-time: no (allocates).
+template <Robot R>
+[[nodiscard]] Json joint_state_json(const R& robot, double time,
+                                    const JointState<joint_count<R>>& state) {
+  Json joints;
+  for (int j = 0; j < joint_count<R>; ++j) {
+    joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())] = {
+        {"position", state.position[j]},
+        {"velocity", state.velocity[j]},
+        {"effort", state.effort[j]}};
+  }
+  return {{"timestamp", time}, {std::string(model_of(robot).name.view()), joints}};
+}
+
+/// Adds the references of the joints to JSON as joint_state_json() makes it: each joint gets a
+/// member "reference" with position, velocity, acceleration and effort.
+/// Real-time: no (allocates).
+template <Robot R>
+void add_references(const R& robot, Json& json, const JointReference<joint_count<R>>& reference) {
+  Json& joints = json[std::string(model_of(robot).name.view())];
+  for (int j = 0; j < joint_count<R>; ++j) {
+    joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())]
+          ["reference"] = {{"position", reference.position[j]},
+                           {"velocity", reference.velocity[j]},
+                           {"acceleration", reference.acceleration[j]},
+                           {"effort", reference.effort[j]}};
+  }
+}
+
+/// Adds mimic joints and link poses: to the joints the position and the velocity of each mimic
+/// joint, and a member "links" with
+///
+///     {"tool_link": {"translation": {"x": ..., "y", "z"}, "rotation": {"x", "y", "z", "w"}}}
+///
+/// whose figures are the pose in the root link's frame: metres and a unit quaternion.
+/// Real-time: no (allocates).
+template <Robot R>
+void add_extras(const R& robot, Json& json, const RecordExtras<R>& extras,
+                const JointState<joint_count<R>>& state) {
+  Json& joints = json[std::string(model_of(robot).name.view())];
+  const auto q = moving_joint_positions(robot, state.position);
+  const auto v = moving_joint_velocities(robot, state.velocity);
+  for (const MimicJoint& joint : extras.mimic_joints()) {
+    joints[joint.name] = {{"position", q[joint.index]}, {"velocity", v[joint.index]}};
+  }
+  for (const RecordedLink& link : extras.links()) {
+    const Eigen::Isometry3d pose = forward_kinematics(robot, state.position, link.index);
+    const Eigen::Vector3d p = pose.translation();
+    const Eigen::Quaterniond rotation(pose.linear());
+    json["links"][link.name] = {
+        {"translation", {{"x", p.x()}, {"y", p.y()}, {"z", p.z()}}},
+        {"rotation",
+         {{"x", rotation.x()}, {"y", rotation.y()}, {"z", rotation.z()}, {"w", rotation.w()}}}};
+  }
+}
+
+/// A whole record: the above, and with each joint its command, then status and timing.
+/// @param robot   whose joints these are
+/// @param record  of one cycle
+/// @param extras  mimic joints and links to add
+/// Real-time: no (allocates).
+template <Robot R, class Command>
+[[nodiscard]] Json record_json(const R& robot, const CycleRecord<joint_count<R>, Command>& record,
+                               const RecordExtras<R>& extras) {
+  const auto seconds = [](std::chrono::nanoseconds duration) {
+    return std::chrono::duration<double>(duration).count();
+  };
+  Json json = joint_state_json(robot, record.time, record.state);
+  add_references(robot, json, record.reference);
+  Json& joints = json[std::string(model_of(robot).name.view())];
+  for (int j = 0; j < joint_count<R>; ++j) {
+    Json& joint =
+        joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())];
+    const auto parts = parts_of(record.command);
+    for (const auto& part : parts) {
+      const double value = (*part.values)[j];
+      if (parts.size() == 1) {
+        joint["command"] = value;
+      } else {
+        joint["command"][std::string(to_string(part.quantity))] = value;
+      }
+    }
+  }
+  json["cycle"] = record.cycle;
+  json["status"] = std::string(to_string(record.status));
+  json["status_number"] = static_cast<int>(record.status);
+  json["timing"] = {{"latency", seconds(record.timing.latency)},
+                    {"period", seconds(record.timing.period)},
+                    {"update", seconds(record.timing.update)}};
+  add_extras(robot, json, extras, record.state);
+  return json;
+}
+/// The same with all mimic joints and without links.
+template <Robot R, class Command>
+[[nodiscard]] Json record_json(const R& robot, const CycleRecord<joint_count<R>, Command>& record) {
+  return record_json(robot, record, RecordExtras<R>(robot, {}));
+}
+
+/// The JSON Schema that JSON like this one has: an object or a value, its kind and its members.
+/// Real-time: no (allocates).
+[[nodiscard]] inline Json schema_of(const Json& example) {
+  if (!example.is_object()) return {{"type", example.is_string() ? "string" : "number"}};
+  Json properties = Json::object();
+  for (const auto& [name, member] : example.items()) properties[name] = schema_of(member);
+  return {{"type", "object"}, {"properties", properties}};
+}
+
+}  // namespace articula

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A joint as the designer of its controller sees it: an inertia with damping.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/tuning/equivalent_inertia.hpp"
+
+#include <limits>
+#include <string_view>
+
+namespace articula {
+
+/// One joint from effort to position: inertia I against viscous damping D, I q'' + D q' = effort,
+///
+///     P(s) = (1/I) / (s (s + 1/T)),   T = I/D.
+///
+/// T is the time in which the joint coasts down to 37 % of its speed. Without damping T is infinite
+/// and P(s) = 1/(I s^2).
+struct JointPlant {
+  static constexpr double undamped = std::numeric_limits<double>::infinity();
+
+  double inertia = 1;               ///< I [kg m^2 or kg], > 0
+  double time_constant = undamped;  ///< T [s], > 0
+
+  /// 1/T [1/s], 0 without damping. Real-time: yes.
+  [[nodiscard]] double decay_rate() const noexcept { return 1 / time_constant; }
+};
+
+/// Refuses what is no plant.
+/// @throws std::invalid_argument naming the member and its value
+/// Real-time: no (throws).
+inline void validate(const JointPlant& plant) {
+  if (!is_finite(plant.inertia) || !(plant.inertia > 0)) {
+    detail::refuse({"joint plant: inertia ", plant.inertia, " is not a finite number > 0"});
+  }
+  const double rate = plant.decay_rate();  // 0 for infinity, NaN for NaN
+  if (!is_finite(rate) || rate < 0 || !(plant.time_constant > 0)) {
+    detail::refuse({"joint plant: time_constant ", plant.time_constant,
+                    " s is not a number > 0 (infinity: undamped)"});
+  }
+}
+
+/// A plant from its damping instead of its time constant, T = I/D.
+/// @param inertia  I [kg m^2 or kg], > 0
+/// @param damping  D [N m s/rad or N s/m], >= 0
+/// @throws std::invalid_argument naming the parameter and its value
+/// Real-time: no (throws).
+[[nodiscard]] inline JointPlant damped_plant(double inertia, double damping) {
+  if (!is_finite(damping) || damping < 0) {
+    detail::refuse({"joint plant: damping ", damping, " is not a finite number >= 0"});
+  }
+  JointPlant plant{.inertia = inertia};
+  if (damping > 0) plant.time_constant = inertia / damping;
+  validate(plant);
+  return plant;
+}
+
+/// A joint of a robot as a plant: its equivalent inertia at a configuration and the damping of its
+/// description. Dry friction, gravity and stops are no part of a linear plant.
+/// @param robot   a described robot or a model
+/// @param q       joint positions [rad or m], N x 1
+/// @param joint   index or name of the joint
+/// @param others  what the other joints do
+/// @throws std::invalid_argument as equivalent_inertia, and if the joint moves no mass; the message
+///         names joint and value
+/// Real-time: no (set-up).
+template <Robot R>
+[[nodiscard]] JointPlant joint_plant(const R& robot, const JointVector<joint_count<R>>& q,
+                                     int joint, OtherJoints others = OtherJoints::locked) {
+  const double inertia = equivalent_inertia(robot, q, joint, others);
+  const JointProperties& properties = model_of(robot).joints[static_cast<std::size_t>(joint)];
+  if (!is_finite(inertia) || !(inertia > 0)) {
+    detail::refuse({"joint '", properties.name.view(), "': equivalent inertia ", inertia,
+                    " is not a finite number > 0"});
+  }
+  return damped_plant(inertia, properties.damping);
+}
+
+/// @copydoc joint_plant
+template <Robot R>
+[[nodiscard]] JointPlant joint_plant(const R& robot, const JointVector<joint_count<R>>& q,
+                                     std::string_view joint,
+                                     OtherJoints others = OtherJoints::locked) {
+  return joint_plant(robot, q, joint_index(robot, joint), others);
+}
+
+}  // namespace articula

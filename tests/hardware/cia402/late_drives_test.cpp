@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drives behind an adapter that takes its time: their answers come later than one period.
+#include <articula/articula.hpp>
+#include <articula/hardware/can/can_hardware.hpp>
+#include <articula/hardware/cia402/cia402_codec.hpp>
+#include <articula/hardware/cia402/simulated_cia402_drives.hpp>
+#include <articula/hardware/quanser/quanser_codec.hpp>
+#include <articula/hardware/quanser/simulated_quanser_drives.hpp>
+#include <articula/loop/supervision/supervised_loop.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include "catch.hpp"
+#include "fake_can_bus.hpp"
+
+#include <chrono>
+#include <memory>
+
+using namespace articula;
+using namespace std::chrono_literals;
+
+namespace {
+
+struct Quanser {
+  using Drives = SimulatedQuanserDrives<Q2d>;
+  using Codec = QuanserCodec<Q2d>;
+  static constexpr QuanserModules<2> list{{
+      {.node = 1, .gear_ratio = 100, .load_counts_per_turn = 65536},
+      {.node = 2, .gear_ratio = 80, .load_counts_per_turn = 65536},
+  }};
+};
+
+struct Cia402 {
+  using Drives = SimulatedCia402Drives<Q2d>;
+  using Codec = Cia402Codec<Q2d>;
+  static constexpr Cia402DriveList<2> list{{
+      {.node = 5, .rated_effort = 30, .position_scale = 1e5, .velocity_scale = 1e6},
+      {.node = 6, .rated_effort = 15, .position_scale = 1e5, .velocity_scale = 1e6},
+  }};
+};
+
+/// A supervised loop at 1 kHz on a bus with delays.
+template <class Protocol>
+struct Bench {
+  using Drives = typename Protocol::Drives;
+  using Codec = typename Protocol::Codec;
+  using Bus = support::FakeCanBus<Drives>;
+  using Arm = CanHardware<Q2d, Codec, support::FakeCanTransport<Drives>>;
+
+  std::shared_ptr<Bus> bus = std::make_shared<Bus>(Drives(Protocol::list));
+  SupervisedLoop<Arm, PidPlusGravity> loop{
+      Arm(Codec(Protocol::list), support::FakeCanTransport<Drives>(bus))};
+
+  /// @param delay  each way; the later frames of a cycle take 0.27 ms more
+  explicit Bench(std::chrono::nanoseconds delay) {
+    bus->command_delay = bus->feedback_delay = delay;
+    pass_feedback();
+  }
+  void pass_feedback() {
+    bus->on_feedback = [this, delay = bus->command_delay, number = 0](CanFrame&) mutable {
+      bus->feedback_delay = delay + (++number % 2 == 0 ? 270us : 0us);
+      return true;
+    };
+  }
+  Status cycle() {
+    const Status status = loop.update();
+    bus->pass(1ms);
+    return status;
+  }
+  void cycles(int count) {
+    for (int k = 0; k < count; ++k) static_cast<void>(cycle());
+  }
+};
+
+}  // namespace
+
+// With 400 and 870 us each way the frames of one cycle come on both sides of a SYNC. 1200 us make
+// figures that are two cycles old, which is the oldest that counts as fresh.
+TEMPLATE_TEST_CASE("drives that answer late are enabled, driven, stopped and enabled again", "",
+                   Quanser, Cia402) {
+  const std::chrono::microseconds delay = GENERATE(400us, 700us, 870us, 1200us);
+  CAPTURE(delay.count());
+  Bench<TestType> bench(delay);
+  auto& loop = bench.loop;
+  loop.request_activation();
+  bench.cycles(10);
+  REQUIRE(loop.mode() == LoopMode::active);
+  for (int k = 0; k < 300; ++k) REQUIRE(bench.cycle() == Status::ok);
+  JointState<2> state;
+  CHECK(loop.hardware().read(state) == Status::ok);
+  std::uint32_t age = 0;
+  for (const DriveReport& report : loop.hardware().reports()) age = std::max(age, report.age);
+  CHECK(age == (2 * delay + 270us) / 1ms);
+
+  bench.bus->on_feedback = [](CanFrame&) { return false; };
+  bench.cycles(40);
+  REQUIRE(loop.mode() == LoopMode::fault);
+  bench.pass_feedback();
+  loop.acknowledge_fault();
+  bench.cycles(1);
+  CHECK(loop.mode() == LoopMode::inactive);
+  CHECK_FALSE(bench.bus->drives.enabled(0));
+  loop.request_activation();
+  bench.cycles(10);
+  CHECK(loop.mode() == LoopMode::active);
+  CHECK(loop.stop() == Status::ok);
+  CHECK_FALSE(bench.bus->drives.enabled(0));
+  CHECK_FALSE(bench.bus->drives.enabled(1));
+}
+
+TEST_CASE("a drive that answers an access late is stopped by the first acknowledge") {
+  const int answer_delay = GENERATE(0, 13, 15, 20, 95);  // [ms]
+  CAPTURE(answer_delay);
+  Bench<Cia402> bench(0us);
+  auto& loop = bench.loop;
+  bench.bus->on_feedback = [](CanFrame&) { return true; };
+  bench.bus->answer_delay = std::chrono::milliseconds(answer_delay);
+  loop.request_activation();
+  bench.cycles(10);
+  REQUIRE(loop.mode() == LoopMode::active);
+  bench.bus->accept(canopen::encode(canopen::NmtCommand::enter_pre_operational, 5));
+  bench.cycles(50);
+  REQUIRE(loop.mode() == LoopMode::fault);
+  loop.acknowledge_fault();
+  bench.cycles(1);
+  CHECK(loop.mode() == LoopMode::inactive);
+  CHECK_FALSE(bench.bus->drives.enabled(0));
+  CHECK_FALSE(bench.bus->drives.enabled(1));
+  CHECK(loop.hardware().deactivate() == Status::ok);
+}
+
+TEMPLATE_TEST_CASE("drives that answer too late for reading are not activated", "", Quanser,
+                   Cia402) {
+  Bench<TestType> bench(1700us);  // the feedback is three cycles old
+  CHECK(bench.loop.hardware().activate() == Status::hardware_fault);
+  CHECK(bench.loop.hardware().fault().cause == CanCause::no_activation);
+  CHECK_FALSE(bench.bus->drives.enabled(0));
+  CHECK_FALSE(bench.bus->drives.enabled(1));
+}
