@@ -7,15 +7,16 @@
 namespace articula {
 
 /// What is measured at N joints at one moment. Prismatic joints have m, m/s and N.
-/// @tparam N  number of joints
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  type of a number: double, or a pack with the numbers of several robots
+template <int N, class Scalar = double>
 struct JointState {
   static constexpr int joint_count = N;
+  using Vector = JointVector<N, Scalar>;
 
-  JointVector<N> position = JointVector<N>::Zero();  ///< q [rad or m], N x 1
-  JointVector<N> velocity = JointVector<N>::Zero();  ///< v [rad/s or m/s], N x 1
-  JointVector<N> effort =
-      JointVector<N>::Zero();  ///< effort applied by the drives [N m or N], N x 1
+  Vector position = Vector::Zero();  ///< q [rad or m], N x 1
+  Vector velocity = Vector::Zero();  ///< v [rad/s or m/s], N x 1
+  Vector effort = Vector::Zero();    ///< effort applied by the drives [N m or N], N x 1
 };
 
 }  // namespace articula

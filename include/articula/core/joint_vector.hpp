@@ -8,15 +8,17 @@
 
 namespace articula {
 
-/// One real number per joint: a column vector of compile-time size. Unit as the user of it says.
-/// @tparam N  number of joints (>= 1)
-template <int N>
-using JointVector = Eigen::Matrix<double, N, 1>;
+/// One number per joint: a column vector of compile-time size. The owner states the unit.
+/// @tparam N       number of joints (>= 1)
+/// @tparam Scalar  type of a number: double, or a pack with the numbers of several robots
+template <int N, class Scalar = double>
+using JointVector = Eigen::Matrix<Scalar, N, 1>;
 
-/// One real number per pair of joints, such as the mass matrix: N x N, compile-time size.
-/// @tparam N  number of joints (>= 1)
-template <int N>
-using JointMatrix = Eigen::Matrix<double, N, N>;
+/// One number per pair of joints, such as the mass matrix: N x N, compile-time size.
+/// @tparam N       number of joints (>= 1)
+/// @tparam Scalar  as that of JointVector
+template <int N, class Scalar = double>
+using JointMatrix = Eigen::Matrix<Scalar, N, N>;
 
 /// Joint vectors of K robots of one kind, a column each. A joint's numbers lie side by side in
 /// memory, so that processors take several robots at once.
