@@ -82,7 +82,7 @@ TEST_CASE("The PR2's torso lifts all that it carries") {
 
 TEST_CASE("Efforts on a gripper of the PR2 do not reach the other arm's factors") {
   // Joints that follow one another stay within their arm, and so do the ways to the base.
-  const auto before = branches(pr2().mechanism);
+  const auto before = elimination_tree(pr2().mechanism);
   const auto index = [](std::string_view name) { return joint_index(pr2(), name); };
   const auto at = [&](std::string_view name) {
     return before[static_cast<std::size_t>(index(name))];

@@ -8,10 +8,11 @@
 
 namespace articula {
 
-/// One value for each of N joints, indexed by the joint's number as joint vectors are. Numbers
-/// belong into a JointVector, which has arithmetic.
+/// One value for each of N joints, indexed by the joint's number as joint vectors are. Also one
+/// value for each of N bodies, indexed by the body's number. Use a JointVector for numbers that
+/// need arithmetic.
 /// @tparam T  type of a value
-/// @tparam N  number of joints
+/// @tparam N  number of joints or bodies
 template <class T, int N>
 struct JointArray : std::array<T, static_cast<std::size_t>(N)> {
   using Base = std::array<T, static_cast<std::size_t>(N)>;
@@ -27,3 +28,7 @@ struct JointArray : std::array<T, static_cast<std::size_t>(N)> {
 };
 
 }  // namespace articula
+
+template <class T, int N>
+struct std::tuple_size<articula::JointArray<T, N>>
+    : std::tuple_size<typename articula::JointArray<T, N>::Base> {};

@@ -98,7 +98,7 @@ struct ArticulatedBodies {
     for (const Body& body : mechanism.bodies) {
       if (body.sharing_body >= 0) return false;
       int length = 1;
-      for (int i = body.parent; i >= 0; i = mechanism.bodies[static_cast<std::size_t>(i)].parent) {
+      for (int i = body.parent; i >= 0; i = mechanism.bodies[i].parent) {
         ++length;
       }
       longest = length > longest ? length : longest;
@@ -115,7 +115,7 @@ struct ArticulatedBodies {
     constexpr double per_body = 73, per_element = 1.6;  // in units of what a depth's square costs
     JointArray<int, B> depth;
     int squares = 0;
-    for (std::size_t i = 0; i < depth.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Body& body = mechanism.bodies[i];
       if (body.sharing_body >= 0) return false;
       depth[i] = body.parent < 0 ? 1 : depth[detail::parent_of(body, i)] + 1;
@@ -136,11 +136,11 @@ struct ArticulatedBodies {
     detail::UnsetArray<Wrench<S>, B> wrench;  // that the efforts beyond a body exert on it
     detail::UnsetArray<Wrench<S>, B> along;   // for a unit acceleration of the joint alone
     JointArray<S, B> inverse, remaining;      // 1/D, and the effort that is left to accelerate
-    for (std::size_t i = 0; i < remaining.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       inertia.set(i, detail::articulated(configuration[i].moments));
       wrench.set(i, {});
     }
-    for (std::size_t i = remaining.size(); i-- > 0;) {
+    for (int i = B; i-- > 0;) {
       const Body& body = mechanism.bodies[i];
       const detail::ArticulatedInertia<S>& own = inertia[i];
       const Matrix3<S> h = own.coupling, m = detail::full(own.mass), j = detail::full(own.moment);
@@ -151,7 +151,7 @@ struct ArticulatedBodies {
       remaining[i] =
           effort[i] - bias[i] - (body.prismatic ? wrench[i].force.z : wrench[i].moment.z);
       if (body.parent < 0) continue;
-      const std::size_t p = detail::parent_of(body, i);
+      const int p = detail::parent_of(body, i);
       const Vector3<S> force = inverse[i] * along[i].force, moment = inverse[i] * along[i].moment;
       detail::ArticulatedInertia<S> rest{detail::minus_product(own.moment, moment, along[i].moment),
                                          own.coupling,
@@ -175,12 +175,12 @@ struct ArticulatedBodies {
     }
     detail::UnsetArray<Vector3<S>, B> angular, linear;
     JointArray<S, N> a;
-    for (std::size_t i = 0; i < remaining.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Body& body = mechanism.bodies[i];
       Vector3<S> turning{}, moving{};
       S carried(0.0);
       if (body.parent >= 0) {
-        const std::size_t p = detail::parent_of(body, i);
+        const int p = detail::parent_of(body, i);
         turning = configuration[i].from_parent(angular[p]);
         moving = configuration[i].from_parent(linear[p] +
                                               cross(angular[p], configuration[i].translation));

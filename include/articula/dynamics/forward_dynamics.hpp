@@ -20,9 +20,9 @@ struct ForwardDynamics {
       const JointArray<S, N>& v, const JointArray<S, N>& effort) noexcept {
     // The bias first: it leaves fewer numbers behind than the matrix for a processor to remember.
     JointArray<S, N> b = NonlinearEffects::evaluate<S, N, B>(mechanism, configuration, v);
-    for (std::size_t i = 0; i < b.size(); ++i) b[i] = effort[i] - b[i];
+    for (int i = 0; i < N; ++i) b[i] = effort[i] - b[i];
     const auto matrix = MassMatrix::evaluate<S, N, B>(mechanism, configuration);
-    const JointArray<int, N> parents = branches(mechanism);
+    const JointArray<int, N> parents = elimination_tree(mechanism);
     return solve<S, N>(parents, factorise<S, N>(parents, matrix), b);
   }
 };

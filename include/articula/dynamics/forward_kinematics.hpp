@@ -43,10 +43,10 @@ namespace detail {
 
 /// A link's frame in the base frame: the steps on its way, and its rotation.
 template <class S, int B>
-[[nodiscard]] constexpr Placement<S> placement_at_end(const BodiesBefore<B>& way,
+[[nodiscard]] constexpr Placement<S> placement_at_end(const LinkPath<B>& path,
                                                       LinkChain<S, B>& chain) noexcept {
   Vector3<S> translation = chain.last_step;
-  for (std::size_t k = way.count; k-- > 0;) translation = chain.steps[k] + translation;
+  for (int k = path.count; k-- > 0;) translation = chain.steps[k] + translation;
   return {chain.rotation, translation};
 }
 
@@ -73,9 +73,9 @@ struct PlacementOf {
       const AnyModel& model, const JointArray<S, AnyModel::joint_count>& q) {
     constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
     const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
-    const detail::BodiesBefore<b> way(model.mechanism, frame);
-    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, way, frame, q);
-    return detail::placement_at_end(way, chain);
+    const detail::LinkPath<b> path(model.mechanism, frame);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, path, frame, q);
+    return detail::placement_at_end(path, chain);
   }
 };
 
@@ -93,11 +93,12 @@ template <Robot R>
   const LinkFrame& frame = model.links[link.value];
   if (detail::takes_all_bodies<R>(frame)) {
     const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
-    return detail::to_isometry(bodies[static_cast<std::size_t>(frame.body)] * frame.placement);
+    return detail::to_isometry(bodies[frame.body] * frame.placement);
   }
-  const detail::BodiesBefore way(model.mechanism, frame);
-  auto chain = detail::link_chain<Frames::moving>(model.mechanism, way, frame, detail::to_array(q));
-  return detail::to_isometry(detail::placement_at_end(way, chain));
+  const detail::LinkPath path(model.mechanism, frame);
+  auto chain =
+      detail::link_chain<Frames::moving>(model.mechanism, path, frame, detail::to_array(q));
+  return detail::to_isometry(detail::placement_at_end(path, chain));
 }
 
 /// The same for a link named at compile time, `forward_kinematics<"tool0">(Ur10(), q)`: as fast as

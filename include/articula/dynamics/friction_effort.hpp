@@ -19,7 +19,7 @@ template <Robot R>
     const R& robot, const JointVector<joint_count<R>>& v) noexcept {
   JointVector<joint_count<R>> effort;
   for (int i = 0; i < joint_count<R>; ++i) {
-    const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(i)];
+    const JointProperties& joint = model_of(robot).joints[i];
     const double sign = v[i] > 0 ? 1 : v[i] < 0 ? -1 : 0;
     effort[i] = -(joint.damping * v[i] + joint.friction * sign);
   }

@@ -21,20 +21,20 @@ namespace detail {
 /// turns it by z; one that slides moves it by z. Source: [Siciliano et al. 2009, section 3.1.3].
 /// @param jacobian  6 x N, column by column
 template <class S, int N, int B>
-[[gnu::always_inline]] constexpr void add_column(const Mechanism<N, B>& mechanism, std::size_t body,
+[[gnu::always_inline]] constexpr void add_column(const Mechanism<N, B>& mechanism, int body,
                                                  const Vector3<S>& z, const Vector3<S>& r,
                                                  S* jacobian) noexcept {
   const bool slides = mechanism.bodies[body].prismatic;
   const Vector3<S> linear = slides ? z : cross(z, r);
   const Vector3<S> angular = slides ? Vector3<S>{} : z;
   const S rates[] = {linear.x, linear.y, linear.z, angular.x, angular.y, angular.z};
-  for (std::size_t k = 0; k < 6; ++k) {
+  for (int k = 0; k < 6; ++k) {
     if constexpr (N == B) {
       jacobian[6 * body + k] = rates[k];
     } else {
       const Coupling& coupling = mechanism.couplings[body];
-      S& felt = jacobian[6 * static_cast<std::size_t>(coupling.joint) + k];
-      felt = felt + S(coupling.multiplier) * rates[k];
+      S& element = jacobian[6 * coupling.joint + k];
+      element = element + S(coupling.multiplier) * rates[k];
     }
   }
 }
@@ -42,11 +42,11 @@ template <class S, int N, int B>
 /// A link's Jacobian by the steps on its way.
 /// @param[in,out] jacobian  6 x N, column by column, filled with zeros
 template <class S, int N, int B>
-constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, const BodiesBefore<B>& way,
+constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkPath<B>& path,
                              LinkChain<S, B>& chain, S* jacobian) noexcept {
   Vector3<S> lever = chain.last_step;
-  for (std::size_t k = way.count; k-- > 0;) {
-    add_column<S, N, B>(mechanism, way.index[k], chain.axes[k], lever, jacobian);
+  for (int k = path.count; k-- > 0;) {
+    add_column<S, N, B>(mechanism, path.bodies[k], chain.axes[k], lever, jacobian);
     lever = chain.steps[k] + lever;
   }
 }
@@ -55,13 +55,11 @@ constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, const BodiesBefor
 template <int N, int B>
 void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkFrame& link,
                    const JointArray<Placement<double>, B>& bodies, double* jacobian) noexcept {
-  const Placement<double>& carrier = bodies[static_cast<std::size_t>(link.body)];
+  const Placement<double>& carrier = bodies[link.body];
   const Vector3<double> point = carrier.rotation * link.placement.translation + carrier.translation;
-  for (int body = link.body; body >= 0;) {
-    const auto i = static_cast<std::size_t>(body);
+  for (int i = link.body; i >= 0; i = mechanism.bodies[i].parent) {
     add_column<double, N, B>(mechanism, i, bodies[i].rotation.column(2),
                              point - bodies[i].translation, jacobian);
-    body = mechanism.bodies[i].parent;
   }
 }
 
@@ -81,11 +79,11 @@ struct JacobianOf {
                                                const JointArray<S, AnyModel::joint_count>& q) {
     constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
     const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
-    const detail::BodiesBefore<b> way(model.mechanism, frame);
-    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, way, frame, q);
-    std::array<S, std::size_t{6} * n> jacobian;
+    const detail::LinkPath<b> path(model.mechanism, frame);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, path, frame, q);
+    JointArray<S, 6 * n> jacobian;
     jacobian.fill(S(0.0));
-    detail::fill_jacobian<S, n, b>(model.mechanism, way, chain, jacobian.data());
+    detail::fill_jacobian<S, n, b>(model.mechanism, path, chain, jacobian.data());
     return jacobian;
   }
 };
@@ -113,9 +111,10 @@ template <Robot R>
                           jacobian.data());
     return jacobian;
   }
-  const detail::BodiesBefore way(model.mechanism, frame);
-  auto chain = detail::link_chain<Frames::moving>(model.mechanism, way, frame, detail::to_array(q));
-  detail::fill_jacobian(model.mechanism, way, chain, jacobian.data());
+  const detail::LinkPath path(model.mechanism, frame);
+  auto chain =
+      detail::link_chain<Frames::moving>(model.mechanism, path, frame, detail::to_array(q));
+  detail::fill_jacobian(model.mechanism, path, chain, jacobian.data());
   return jacobian;
 }
 

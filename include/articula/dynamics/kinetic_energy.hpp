@@ -16,11 +16,11 @@ struct KineticEnergy {
     JointArray<Vector3<S>, B> angular, linear;
     const JointArray<S, B> velocity = body_rates<S, N, B>(mechanism, v);
     S energy = S(0.0);
-    for (std::size_t i = 0; i < velocity.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Body& body = mechanism.bodies[i];
       Vector3<S> w{}, u{};
       if (body.parent >= 0) {
-        const std::size_t p = detail::parent_of(body, i);
+        const int p = detail::parent_of(body, i);
         w = configuration[i].from_parent(angular[p]);
         u = configuration[i].from_parent(linear[p] +
                                          cross(angular[p], configuration[i].translation));
@@ -35,8 +35,7 @@ struct KineticEnergy {
         energy = energy + S(0.5 * body.reflected_inertia) * (velocity[i] * velocity[i]);
       }
       if (body.sharing_body >= 0) {
-        const auto other = static_cast<std::size_t>(body.sharing_body);
-        energy = energy + S(body.shared_inertia) * (velocity[i] * velocity[other]);
+        energy = energy + S(body.shared_inertia) * (velocity[i] * velocity[body.sharing_body]);
       }
     }
     return energy;

@@ -17,17 +17,17 @@ struct MassMatrix {
   [[nodiscard]] static constexpr JointRows<S, N> evaluate(
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
     detail::UnsetArray<MassMoments<S>, B> composite;
-    for (std::size_t i = 0; i < configuration.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       composite.set(i, configuration[i].moments);
     }
     JointRows<S, B> matrix;
     for (auto& row : matrix) row.fill(S(0.0));
-    for (std::size_t i = configuration.size(); i-- > 0;) {
+    for (int i = B; i-- > 0;) {
       Wrench<S> wrench = unit_acceleration_wrench(composite[i], mechanism.bodies[i].prismatic);
       matrix[i][i] = felt_by(mechanism.bodies[i], wrench);
       const double reflected = mechanism.bodies[i].reflected_inertia;
       if (reflected != 0) matrix[i][i] = matrix[i][i] + S(reflected);
-      std::size_t j = i;
+      int j = i;
       while (mechanism.bodies[j].parent >= 0) {
         const Vector3<S> force = configuration[j].to_parent(wrench.force);
         wrench = {force, configuration[j].to_parent(wrench.moment) +
@@ -40,10 +40,10 @@ struct MassMatrix {
                                        composite[detail::parent_of(mechanism.bodies[i], i)]);
       }
     }
-    for (std::size_t i = 0; i < configuration.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Body& body = mechanism.bodies[i];
       if (body.sharing_body < 0) continue;
-      const auto other = static_cast<std::size_t>(body.sharing_body);
+      const int other = body.sharing_body;
       matrix[i][other] = matrix[other][i] = matrix[i][other] + S(body.shared_inertia);
     }
     return joint_matrix<S, N, B>(mechanism, matrix);

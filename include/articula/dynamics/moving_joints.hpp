@@ -5,7 +5,6 @@
 #include "articula/dynamics/engine/coupling.hpp"
 #include "articula/dynamics/engine/evaluate.hpp"
 
-#include <array>
 #include <string_view>
 
 namespace articula {
@@ -19,8 +18,9 @@ inline constexpr int moving_joint_count =
 /// Real-time: yes.
 template <Robot R>
 [[nodiscard]] constexpr auto moving_joint_names(const R& robot) noexcept {
-  std::array<std::string_view, static_cast<std::size_t>(moving_joint_count<R>)> names;
-  for (std::size_t i = 0; i < names.size(); ++i) names[i] = model_of(robot).moving_joints[i].view();
+  JointArray<std::string_view, moving_joint_count<R>> names;
+  for (int i = 0; i < moving_joint_count<R>; ++i)
+    names[i] = model_of(robot).moving_joints[i].view();
   return names;
 }
 

@@ -17,7 +17,7 @@ struct PotentialEnergy {
     const auto placements = BodyPlacements::evaluate<S, N, B>(mechanism, configuration);
     const Vector3<S> upward = constant<S>(-mechanism.gravity);
     S energy = S(0.0);
-    for (std::size_t i = 0; i < placements.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Inertia<double>& inertia = mechanism.bodies[i].inertia;
       const Vector3<S> first_moment = placements[i].rotation * constant<S>(inertia.first_moment) +
                                       S(inertia.mass) * placements[i].translation;

@@ -2,11 +2,9 @@
 /// @file The numbers that the equations of motion need, and nothing else.
 #pragma once
 
+#include "articula/core/joint_array.hpp"
 #include "articula/model/inertia.hpp"
 #include "articula/model/placement.hpp"
-
-#include <array>
-#include <cstddef>
 
 namespace articula {
 
@@ -38,20 +36,19 @@ struct Coupling {
 /// @tparam Bodies  number of moving bodies: N and one for each mimic joint
 template <int N, int Bodies = N>
 struct Mechanism {
-  std::array<Body, static_cast<std::size_t>(Bodies)> bodies{};
-  std::array<Coupling, static_cast<std::size_t>(Bodies)> couplings{};  ///< not used if Bodies == N
+  JointArray<Body, Bodies> bodies{};
+  JointArray<Coupling, Bodies> couplings{};  ///< not used if Bodies == N
   Vector3<double> gravity{};  ///< acceleration of free fall in the base frame [m/s^2], 3 x 1
 };
 
 namespace detail {
 
-/// The index of the body that carries body i. That it is smaller tells compilers that algorithms
-/// read what they have set before.
+/// The index of the body that carries body i. The bounds let compilers conclude that algorithms
+/// read only elements that they have set.
 /// @pre body i has a parent, which stands before it
-[[nodiscard, gnu::always_inline]] constexpr std::size_t parent_of(const Body& body,
-                                                                  std::size_t i) noexcept {
-  const auto parent = static_cast<std::size_t>(body.parent);
-  if (parent >= i) __builtin_unreachable();
+[[nodiscard, gnu::always_inline]] constexpr int parent_of(const Body& body, int i) noexcept {
+  const int parent = body.parent;
+  if (parent < 0 || parent >= i) __builtin_unreachable();
   return parent;
 }
 

@@ -6,7 +6,6 @@
 #include "articula/model/joint_properties.hpp"
 #include "articula/model/mechanism.hpp"
 
-#include <array>
 #include <vector>
 
 namespace articula {
@@ -34,9 +33,9 @@ struct Model {
   Name name{};
   Mechanism<N, Bodies> mechanism{};  ///< the bodies as described; link frames refer to it
   Mechanism<N, Bodies> canonical{};  ///< an equivalent one with shorter equations of motion
-  std::array<JointProperties, static_cast<std::size_t>(N)> joints{};
+  JointArray<JointProperties, N> joints{};
   /// Names of the joints that carry the bodies, those that mimic others included
-  std::array<Name, static_cast<std::size_t>(Bodies)> moving_joints{};
+  JointArray<Name, Bodies> moving_joints{};
   LinkFrames links{};  ///< all links of the description, those welded to others included
 };
 

@@ -98,7 +98,7 @@ auto joint_names(const R&& robot) = delete;
 template <Robot R>
 [[nodiscard]] constexpr int joint_index(const R& robot, std::string_view name) {
   for (int i = 0; i < joint_count<R>; ++i) {
-    if (model_of(robot).joints[static_cast<std::size_t>(i)].name.view() == name) return i;
+    if (model_of(robot).joints[i].name.view() == name) return i;
   }
   detail::no_such_joint(model_of(robot), name);
 }
@@ -111,7 +111,7 @@ template <Robot R, class Property>
 [[nodiscard]] JointVector<joint_count<R>> joint_values(const R& robot, Property property) noexcept {
   JointVector<joint_count<R>> values;
   for (int i = 0; i < joint_count<R>; ++i) {
-    values[i] = property(model_of(robot).joints[static_cast<std::size_t>(i)]);
+    values[i] = property(model_of(robot).joints[i]);
   }
   return values;
 }

@@ -5,9 +5,6 @@
 #include "articula/dynamics/engine/evaluate.hpp"
 #include "articula/dynamics/engine/tree_factors.hpp"
 
-#include <array>
-#include <cstddef>
-
 namespace articula {
 
 /// What each joint's constraint can exert: any effort between the bounds, as much as it takes to
@@ -23,7 +20,7 @@ template <int N>
 struct BoundedEffort {
   JointVector<N> motion = JointVector<N>::Zero();  ///< x, zero for the joints that are held, N x 1
   JointVector<N> effort = JointVector<N>::Zero();  ///< what each constraint exerts, N x 1
-  std::array<bool, static_cast<std::size_t>(N)> held{};  ///< which joints are held still
+  JointArray<bool, N> held{};                      ///< which joints are held still
 };
 
 /// Finds constraint efforts within bounds that hold as many joints as they can:
@@ -48,18 +45,17 @@ template <int N>
                                                   const EffortBounds<N>& bounds) noexcept {
   BoundedEffort<N> answer;
   for (int j = 0; j < N; ++j) {
-    answer.held[static_cast<std::size_t>(j)] = bounds.lower[j] < bounds.upper[j];
+    answer.held[j] = bounds.lower[j] < bounds.upper[j];
   }
   constexpr int rounds = 16 * N;  // far beyond what was seen; the limit only bounds the time
   for (int round = 0; round < rounds; ++round) {
     // Held joints leave the equations: identity rows and columns, zero right-hand side.
     JointRows<double, N> m = detail::to_rows(mass_matrix);
     JointArray<double, N> b;
-    for (std::size_t j = 0; j < m.size(); ++j) {
-      const auto row = static_cast<Eigen::Index>(j);
-      b[j] = answer.held[j] ? 0 : load[row] + answer.effort[row];
+    for (int j = 0; j < N; ++j) {
+      b[j] = answer.held[j] ? 0 : load[j] + answer.effort[j];
       if (!answer.held[j]) continue;
-      for (std::size_t i = 0; i < m.size(); ++i) m[i][j] = m[j][i] = i == j ? 1 : 0;
+      for (int i = 0; i < N; ++i) m[i][j] = m[j][i] = i == j ? 1 : 0;
     }
     const auto factors = factorise<double, N>(parents, m);
     answer.motion = detail::to_vector(solve<double, N>(parents, factors, b));
@@ -67,8 +63,7 @@ template <int N>
     const auto needed = for_each_joint<N>([&](int j) noexcept { return taken[j] - load[j]; });
     int wrong = -1;
     for (int j = N - 1; j >= 0; --j) {
-      const auto i = static_cast<std::size_t>(j);
-      if (answer.held[i]) {
+      if (answer.held[j]) {
         answer.motion[j] = 0;  // exactly, so that a held joint stays where it is to the last bit
         if (needed[j] < bounds.lower[j] || needed[j] > bounds.upper[j]) wrong = j;
       } else if (bounds.lower[j] < bounds.upper[j]) {
@@ -77,10 +72,10 @@ template <int N>
       }
     }
     for (int j = 0; j < N; ++j) {
-      if (answer.held[static_cast<std::size_t>(j)] && j != wrong) answer.effort[j] = needed[j];
+      if (answer.held[j] && j != wrong) answer.effort[j] = needed[j];
     }
     if (wrong < 0) break;
-    bool& held = answer.held[static_cast<std::size_t>(wrong)];
+    bool& held = answer.held[wrong];
     if (held) {
       answer.effort[wrong] =
           needed[wrong] < bounds.lower[wrong] ? bounds.lower[wrong] : bounds.upper[wrong];

@@ -8,8 +8,6 @@
 #include "articula/sim/runge_kutta.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <limits>
 #include <type_traits>
 
@@ -33,7 +31,7 @@ class JointDynamics {
         upper_(joint_values(robot, [](const JointProperties& j) { return j.limits.upper; })),
         damping_(joint_values(robot, [](const JointProperties& j) { return j.damping; })),
         friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
-        parents_(branches(model_of(robot).mechanism)) {}
+        parents_(elimination_tree(model_of(robot).mechanism)) {}
 
   /// The motion after one step under constant efforts.
   /// @param motion  position and velocity at its beginning; positions within the joints' limits
@@ -91,7 +89,7 @@ class JointDynamics {
   /// What stays the same between two events.
   struct Phase {
     bool any_held = false;  ///< some joint is held still
-    std::array<bool, static_cast<std::size_t>(joint_count)> held{};
+    JointArray<bool, joint_count> held{};
     /// Friction efforts of the joints that slide [N m or N], N x 1
     JointVector<joint_count> sliding = JointVector<joint_count>::Zero();
   };
@@ -150,7 +148,7 @@ class JointDynamics {
     const auto answer = held_within(bounds, phase, motion.position, motion.velocity, effort);
     phase.held = answer.held;
     for (int j = 0; j < joint_count; ++j) {
-      const bool held = answer.held[static_cast<std::size_t>(j)];
+      const bool held = answer.held[j];
       phase.any_held = phase.any_held || held;
       const bool breaks_away = !held && bounds.lower[j] < bounds.upper[j];
       if (breaks_away) phase.sliding[j] = answer.effort[j];
@@ -171,7 +169,7 @@ class JointDynamics {
     }
     EffortBounds<joint_count> bounds;
     for (int j = 0; j < joint_count; ++j) {
-      if (!phase.held[static_cast<std::size_t>(j)]) continue;
+      if (!phase.held[j]) continue;
       bounds.lower[j] = -JointLimits::infinity;
       bounds.upper[j] = JointLimits::infinity;
     }
@@ -208,7 +206,7 @@ class JointDynamics {
   [[nodiscard]] double excess(const Phase& phase, const Motion<joint_count>& later) const noexcept {
     double most = -JointLimits::infinity;
     for (int j = 0; j < joint_count; ++j) {
-      if (phase.held[static_cast<std::size_t>(j)]) continue;
+      if (phase.held[j]) continue;
       most = std::max({most, lower_[j] - later.position[j], later.position[j] - upper_[j]});
       if (phase.sliding[j] != 0) most = std::max(most, later.velocity[j] * phase.sliding[j]);
     }

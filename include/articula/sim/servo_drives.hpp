@@ -47,7 +47,7 @@ class ServoDrives {
         most_effort_(effort_limits(robot)),
         damping_(joint_values(robot, [](const JointProperties& j) { return j.damping; })),
         friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
-        parents_(branches(model_of(robot).mechanism)) {}
+        parents_(elimination_tree(model_of(robot).mechanism)) {}
 
   /// What the drives give to reach positions.
   /// @param target  q_ref [rad or m], N x 1, finite

@@ -93,7 +93,7 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
 
   const JointVector<n> q = initial_position(robot, options);
   for (int j = 0; j < n; ++j) {
-    const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+    const JointProperties& joint = model_of(robot).joints[j];
     const std::string_view name = joint.name.view();
     const auto check_not_negative = [&](std::string_view what, double value) {
       if (!is_finite(value) || value < 0) {
@@ -128,14 +128,14 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
   }
 
   // A pivot is the inertia that a joint feels when the joints that it carries are free to give way.
-  const JointArray<int, n> parents = branches(model_of(robot).mechanism);
+  const JointArray<int, n> parents = elimination_tree(model_of(robot).mechanism);
   const auto factors = factorise<double, n>(parents, detail::to_rows(mass_matrix(robot, q)));
   for (int j = 0; j < n; ++j) {
-    const double pivot = 1 / factors.inverse_pivot[static_cast<std::size_t>(j)];
+    const double pivot = 1 / factors.inverse_pivot[j];
     const double whole = mass_matrix(robot, q)(j, j);
     if (!(pivot > 1e-12 * whole)) {  // what cancellation leaves of nothing is some 1e-16
       refuse({"the mass matrix is singular at the initial position: joint '",
-              model_of(robot).joints[static_cast<std::size_t>(j)].name.view(),
+              model_of(robot).joints[j].name.view(),
               "' moves no mass when the joints that it carries give way"});
     }
   }
@@ -148,12 +148,10 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
       joint_values(robot, [](const JointProperties& joint) { return joint.damping; });
   constexpr double infinity = std::numeric_limits<double>::infinity();
   JointArray<double, n> mode;  // to begin with, one that no robot's symmetry makes a slow one
-  for (std::size_t j = 0; j < mode.size(); ++j) mode[j] = 1 / (1.0 + static_cast<double>(j));
+  for (int j = 0; j < n; ++j) mode[j] = 1 / (1.0 + j);
   double rate = 0;
   for (int k = 0; k < 100; ++k) {
-    for (std::size_t j = 0; j < mode.size(); ++j) {
-      mode[j] *= damping[static_cast<Eigen::Index>(j)];
-    }
+    for (int j = 0; j < n; ++j) mode[j] *= damping[j];
     mode = solve<double, n>(parents, factors, mode);
     rate = 0;  // the largest number; of squares the sum may overflow
     for (const double x : mode) rate = std::fmax(rate, is_finite(x) ? std::abs(x) : infinity);

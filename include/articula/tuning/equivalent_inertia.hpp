@@ -61,10 +61,10 @@ template <Robot R>
   detail::check_joint_and_positions(robot, q, joint);
   const JointMatrix<n> matrix = mass_matrix(robot, q);
   if (others == OtherJoints::locked) return matrix(joint, joint);
-  const JointArray<int, n> parents = branches(model_of(robot).mechanism);
+  const JointArray<int, n> parents = elimination_tree(model_of(robot).mechanism);
   const auto factors = factorise<double, n>(parents, detail::to_rows(matrix));
   for (int j = n - 1; j >= 0; --j) {  // in the order of elimination
-    const double pivot = 1 / factors.inverse_pivot[static_cast<std::size_t>(j)];
+    const double pivot = 1 / factors.inverse_pivot[j];
     if (pivot > 1e-12 * matrix(j, j))
       continue;  // what cancellation leaves of nothing is some 1e-16
     detail::refuse({"the mass matrix is singular: joint '",
@@ -72,8 +72,8 @@ template <Robot R>
                     "' moves no mass when the joints that it carries give way"});
   }
   JointArray<double, n> effort{};
-  effort[static_cast<std::size_t>(joint)] = 1;
-  return 1 / solve<double, n>(parents, factors, effort)[static_cast<std::size_t>(joint)];
+  effort[joint] = 1;
+  return 1 / solve<double, n>(parents, factors, effort)[joint];
 }
 
 /// The same for a joint by its name.

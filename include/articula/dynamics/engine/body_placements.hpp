@@ -15,7 +15,7 @@ struct BodyPlacements {
   [[nodiscard]] static constexpr JointArray<Placement<S>, B> evaluate(
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
     JointArray<Placement<S>, B> placements;
-    for (std::size_t i = 0; i < placements.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Placement<S> in_parent{configuration[i].matrix(), configuration[i].translation};
       const Body& body = mechanism.bodies[i];
       placements[i] =

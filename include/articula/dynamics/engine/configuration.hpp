@@ -7,10 +7,8 @@
 #include "articula/model/mechanism.hpp"
 #include "articula/symbolic/sine_cosine.hpp"
 
-#include <array>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 #include <type_traits>
 
 namespace articula {
@@ -146,10 +144,10 @@ namespace detail {
 /// True if all axes that a body carries are parallel to its own.
 template <int N, int B>
 [[nodiscard]] constexpr bool carries_parallel_axes(const Mechanism<N, B>& mechanism,
-                                                   std::size_t index) noexcept {
+                                                   int index) noexcept {
   for (const Body& body : mechanism.bodies) {
     const Vector3<double>& axis = body.placement.rotation.rows[2];
-    if (body.parent == static_cast<int>(index) && (axis.x != 0 || axis.y != 0)) return false;
+    if (body.parent == index && (axis.x != 0 || axis.y != 0)) return false;
   }
   return true;
 }
@@ -173,19 +171,19 @@ template <class S>
 }
 
 /// The same for all bodies. At run time it pays to take all sines and cosines together.
-template <class S, std::size_t B>
-[[nodiscard]] constexpr std::array<AxialTurn<S>, B> turns_by(
-    const std::array<S, B>& angle) noexcept {
-  std::array<AxialTurn<S>, B> turns;
+template <class S, int B>
+[[nodiscard]] constexpr JointArray<AxialTurn<S>, B> turns_by(
+    const JointArray<S, B>& angle) noexcept {
+  JointArray<AxialTurn<S>, B> turns;
   if constexpr (std::same_as<S, double>) {
     if (!std::is_constant_evaluated()) {
-      std::array<double, B> sine, cosine;
+      JointArray<double, B> sine, cosine;
       symbolic::sine_cosine(angle, sine, cosine);
-      for (std::size_t i = 0; i < B; ++i) turns[i] = {sine[i], cosine[i]};
+      for (int i = 0; i < B; ++i) turns[i] = {sine[i], cosine[i]};
       return turns;
     }
   }
-  for (std::size_t i = 0; i < B; ++i) turns[i] = turn_by(angle[i]);
+  for (int i = 0; i < B; ++i) turns[i] = turn_by(angle[i]);
   return turns;
 }
 
@@ -201,20 +199,20 @@ template <class S, int N, int B, Frames frames = Frames::moving>
                                                              const JointArray<S, N>& q) noexcept {
   const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
   Configuration<S, B> configuration;
-  const auto place_at_zero = [&](std::size_t i) __attribute__((always_inline)) {
+  const auto place_at_zero = [&](int i) __attribute__((always_inline)) {
     const Body& body = mechanism.bodies[i];
     configuration[i] = {constant<S>(body.placement.rotation),
                         {},
                         constant<S>(body.placement.translation),
                         moments_of<S>(body.inertia)};
   };
-  const auto slide = [&](std::size_t i) __attribute__((always_inline)) {
+  const auto slide = [&](int i) __attribute__((always_inline)) {
     JointPlacement<S>& joint = configuration[i];
     joint.translation = joint.translation + position[i] * joint.rotation.column(2);
   };
   if constexpr (frames == Frames::moving) {
     const JointArray<AxialTurn<S>, B> turns = detail::turns_by(position);
-    for (std::size_t i = 0; i < configuration.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       place_at_zero(i);
       if (mechanism.bodies[i].prismatic) {
         slide(i);
@@ -229,12 +227,12 @@ template <class S, int N, int B, Frames frames = Frames::moving>
     JointArray<AxialTurn<S>, B> own_turn;
     angle.fill(S(0.0));  // g++ 12 leaves elements of arrays uninitialised where braces should do it
     own_turn.fill({S(0.0), S(1.0)});
-    for (std::size_t i = 0; i < configuration.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Body& body = mechanism.bodies[i];
       JointPlacement<S>& joint = configuration[i];
       place_at_zero(i);
       if (body.parent >= 0) {
-        const std::size_t parent = detail::parent_of(body, i);
+        const int parent = detail::parent_of(body, i);
         joint.translation = own_turn[parent](joint.translation);
         // Either the parent is seen in its own frame and its angle is 0, or this is a joint on an
         // axis parallel to the parent's: 1 if both point the same way, -1 if not.

@@ -26,39 +26,32 @@ template <int N>
   }(std::make_integer_sequence<int, N>{});
 }
 
-template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline JointVector<static_cast<int>(N)> to_vector(
-    const std::array<double, N>& array) noexcept {
-  JointVector<static_cast<int>(N)> vector;
-  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
-    ((vector.coeffRef(static_cast<Eigen::Index>(I)) = array[I]), ...);
-  }(std::make_index_sequence<N>{});
-  return vector;
+template <int N>
+[[nodiscard, gnu::always_inline]] inline JointVector<N> to_vector(
+    const JointArray<double, N>& array) noexcept {
+  return for_each_joint<N>([&](int j) __attribute__((always_inline)) { return array[j]; });
 }
 
 template <int N>
 [[nodiscard]] JointRows<double, N> to_rows(const JointMatrix<N>& matrix) noexcept {
   JointRows<double, N> rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < rows.size(); ++j) {
-      rows[i][j] = matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    }
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < N; ++j) rows[i][j] = matrix(i, j);
   }
   return rows;
 }
 
-template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline JointMatrix<static_cast<int>(N)> to_matrix(
-    const std::array<std::array<double, N>, N>& rows) noexcept {
-  JointMatrix<static_cast<int>(N)> matrix;
+template <int N>
+[[nodiscard, gnu::always_inline]] inline JointMatrix<N> to_matrix(
+    const JointRows<double, N>& rows) noexcept {
+  JointMatrix<N> matrix;
   // Row by row: clang refuses folds over more than 256 elements.
-  [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
-    const auto copy_row = [&](std::size_t i) __attribute__((always_inline)) {
-      ((matrix.coeffRef(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(I)) = rows[i][I]),
-       ...);
+  [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+    const auto copy_row = [&](int i) __attribute__((always_inline)) {
+      ((matrix.coeffRef(i, I) = rows[i][I]), ...);
     };
     (copy_row(I), ...);
-  }(std::make_index_sequence<N>{});
+  }(std::make_integer_sequence<int, N>{});
   return matrix;
 }
 

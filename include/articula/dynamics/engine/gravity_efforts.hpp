@@ -15,7 +15,7 @@ struct Gravity {
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration) noexcept {
     detail::UnsetArray<Vector3<S>, B> upward;  // minus gravity, in each body's frame
     detail::UnsetArray<Wrench<S>, B> wrenches;
-    for (std::size_t i = 0; i < configuration.size(); ++i) {
+    for (int i = 0; i < B; ++i) {
       const Body& body = mechanism.bodies[i];
       const Vector3<S> own = configuration[i].from_parent(
           body.parent < 0 ? constant<S>(-mechanism.gravity) : upward[detail::parent_of(body, i)]);

@@ -9,9 +9,7 @@
 #include "articula/symbolic/sine_cosine.hpp"
 
 #include <algorithm>
-#include <array>
 #include <concepts>
-#include <cstddef>
 #include <type_traits>
 #include <utility>
 
@@ -19,20 +17,16 @@ namespace articula::detail {
 
 /// The bodies that move a link, from the base outwards.
 template <int B>
-struct BodiesBefore {
-  std::array<std::size_t, static_cast<std::size_t>(B)> index{};
-  std::size_t count = 0;
+struct LinkPath {
+  JointArray<int, B> bodies{};
+  int count = 0;
 
   template <int N>
-  constexpr BodiesBefore(const Mechanism<N, B>& mechanism, const LinkFrame& link) noexcept {
-    const auto parent = [&](int body) {
-      return mechanism.bodies[static_cast<std::size_t>(body)].parent;
-    };
+  constexpr LinkPath(const Mechanism<N, B>& mechanism, const LinkFrame& link) noexcept {
+    const auto parent = [&](int body) { return mechanism.bodies[body].parent; };
     for (int body = link.body; body >= 0; body = parent(body)) ++count;
-    std::size_t place = count;
-    for (int body = link.body; body >= 0; body = parent(body)) {
-      index[--place] = static_cast<std::size_t>(body);
-    }
+    int k = count;
+    for (int body = link.body; body >= 0; body = parent(body)) bodies[--k] = body;
   }
 };
 
@@ -57,29 +51,29 @@ struct LinkChain {
 /// turn. In resting frames it is the sum of those of the parallel axes that follow each other.
 template <Frames frames, class S, int N, int B>
 [[nodiscard]] constexpr JointArray<AxialTurn<S>, B> turns_along(
-    const Mechanism<N, B>& mechanism, const BodiesBefore<B>& way,
+    const Mechanism<N, B>& mechanism, const LinkPath<B>& path,
     const JointArray<S, B>& position) noexcept {
   JointArray<AxialTurn<S>, B> turns;
   if constexpr (std::same_as<S, double> && frames == Frames::moving) {
     if (!std::is_constant_evaluated()) {
       // As many at a time as fill the widest registers.
-      constexpr std::size_t at_once = std::min(B, 8);
-      for (std::size_t begin = 0; begin < way.count; begin += at_once) {
-        const std::size_t taken = std::min(at_once, way.count - begin);
-        std::array<double, at_once> angle{}, sine, cosine;
-        for (std::size_t k = 0; k < taken; ++k) angle[k] = position[way.index[begin + k]];
+      constexpr int at_once = std::min(B, 8);
+      for (int begin = 0; begin < path.count; begin += at_once) {
+        const int taken = std::min(at_once, path.count - begin);
+        JointArray<double, at_once> angle{}, sine, cosine;
+        for (int k = 0; k < taken; ++k) angle[k] = position[path.bodies[begin + k]];
         symbolic::sine_cosine(angle, sine, cosine);
-        for (std::size_t k = 0; k < taken; ++k) turns[begin + k] = {sine[k], cosine[k]};
+        for (int k = 0; k < taken; ++k) turns[begin + k] = {sine[k], cosine[k]};
       }
       return turns;
     }
   }
   S angle(0.0);
-  for (std::size_t k = 0; k < std::size_t{B} && k < way.count; ++k) {
-    const Body& body = mechanism.bodies[way.index[k]];
+  for (int k = 0; k < B && k < path.count; ++k) {
+    const Body& body = mechanism.bodies[path.bodies[k]];
     const bool goes_on = frames == Frames::resting && is_parallel_to_parent(body);
     angle = !goes_on ? S(0.0) : body.placement.rotation.rows[2].z > 0 ? angle : -angle;
-    if (!body.prismatic) angle = angle + position[way.index[k]];
+    if (!body.prismatic) angle = angle + position[path.bodies[k]];
     turns[k] = turn_by(angle);
   }
   return turns;
@@ -89,22 +83,21 @@ template <Frames frames, class S, int N, int B>
 /// robots.)
 /// @tparam frames    resting ones add the angles of parallel axes that follow each other
 /// @param mechanism  the robot's bodies, to which link frames refer
-/// @param way        those that move the link
+/// @param path       the bodies that move the link
 /// @param link       the link
 /// @param q          joint positions [rad or m]
 template <Frames frames, class S, int N, int B>
 [[nodiscard]] constexpr LinkChain<S, B> link_chain(const Mechanism<N, B>& mechanism,
-                                                   const BodiesBefore<B>& way,
-                                                   const LinkFrame& link,
+                                                   const LinkPath<B>& path, const LinkFrame& link,
                                                    const JointArray<S, N>& q) noexcept {
   const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
-  const JointArray<AxialTurn<S>, B> turns = turns_along<frames, S, N, B>(mechanism, way, position);
+  const JointArray<AxialTurn<S>, B> turns = turns_along<frames, S, N, B>(mechanism, path, position);
   LinkChain<S, B> chain;
   Matrix3<S> rotation = constant<S>(Matrix3<double>::identity());
   AxialTurn<S> turn{S(0.0), S(1.0)};  // of the body before in the frame that `rotation` belongs to
   bool turns_before = false;
-  for (std::size_t k = 0; k < std::size_t{B} && k < way.count; ++k) {
-    const Body& body = mechanism.bodies[way.index[k]];
+  for (int k = 0; k < B && k < path.count; ++k) {
+    const Body& body = mechanism.bodies[path.bodies[k]];
     const Vector3<S> place = constant<S>(body.placement.translation);
     const bool goes_on = frames == Frames::resting && is_parallel_to_parent(body);
     Vector3<S> step;
@@ -119,7 +112,7 @@ template <Frames frames, class S, int N, int B>
     turn = turns[k];
     turns_before = goes_on || !body.prismatic;
     chain.axes.set(k, rotation.column(2));
-    if (body.prismatic) step = step + position[way.index[k]] * chain.axes[k];
+    if (body.prismatic) step = step + position[path.bodies[k]] * chain.axes[k];
     chain.steps.set(k, step);
   }
   if (turns_before) rotation = turned(rotation, turn);
@@ -137,10 +130,9 @@ inline constexpr auto program_is_cheaper = [] {
   // A product of two placements, a turn, a sine and the loop around them, in multiplications.
   constexpr int cost_of_a_step = 100;
   JointArray<bool, b> cheaper{};
-  for (std::size_t i = 0; i < cheaper.size(); ++i) {
-    const BodiesBefore<b> way(mechanism, {.body = static_cast<int>(i)});
-    cheaper[i] =
-        operations<BodyPlacements, R>().cost() <= static_cast<int>(way.count) * cost_of_a_step;
+  for (int i = 0; i < b; ++i) {
+    const LinkPath<b> path(mechanism, {.body = i});
+    cheaper[i] = operations<BodyPlacements, R>().cost() <= path.count * cost_of_a_step;
   }
   return cheaper;
 }();
@@ -151,7 +143,7 @@ template <Robot R>
 [[nodiscard]] constexpr bool takes_all_bodies(const LinkFrame& link) noexcept {
   constexpr int b = std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::body_count;
   if constexpr (DescribedRobot<R>) {
-    return link.body >= 0 && program_is_cheaper<R>[static_cast<std::size_t>(link.body)];
+    return link.body >= 0 && program_is_cheaper<R>[link.body];
   }
   return link.body >= 0 && b <= 3;
 }

@@ -87,12 +87,12 @@ template <class S, int N, int B>
   detail::UnsetArray<detail::BodyMotion<S>, B> motions;
   detail::UnsetArray<Matrix3<S>, B> gradients;
   detail::UnsetArray<Wrench<S>, B> wrenches;
-  for (std::size_t i = 0; i < velocity.size(); ++i) {
+  for (int i = 0; i < B; ++i) {
     const Body& body = mechanism.bodies[i];
     const JointPlacement<S>& joint = configuration[i];
     Vector3<S> w{}, dw{}, dv = constant<S>(-mechanism.gravity);
     if (body.parent >= 0) {
-      const std::size_t p = detail::parent_of(body, i);
+      const int p = detail::parent_of(body, i);
       w = joint.from_parent(motions[p].angular_velocity);
       dw = joint.from_parent(motions[p].angular_acceleration);
       dv = motions[p].acceleration + gradients[p] * joint.translation;
@@ -114,13 +114,13 @@ template <class S, int N, int B>
   }
 
   JointArray<S, B> effort = detail::efforts_for<S, N, B>(mechanism, configuration, wrenches);
-  for (std::size_t i = 0; i < effort.size(); ++i) {
+  for (int i = 0; i < B; ++i) {
     const Body& body = mechanism.bodies[i];
     if (body.reflected_inertia != 0) {
       effort[i] = effort[i] + S(body.reflected_inertia) * acceleration[i];
     }
     if (body.sharing_body < 0) continue;
-    const auto other = static_cast<std::size_t>(body.sharing_body);
+    const int other = body.sharing_body;
     effort[i] = effort[i] + S(body.shared_inertia) * acceleration[other];
     effort[other] = effort[other] + S(body.shared_inertia) * acceleration[i];
   }

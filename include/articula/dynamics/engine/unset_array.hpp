@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file An array whose elements get their values later.
+/// @file An array without initial values, one element for each body.
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include "articula/core/joint_array.hpp"
+
 #include <memory>
 
 namespace articula::detail {
 
-/// Room for elements that an algorithm sets one by one. An array of vectors, which are zero unless
-/// something else is said, would be filled with zeros first: that takes up to a fifth of a model's
-/// inverse dynamics.
+/// Storage for elements that an algorithm sets one by one. A plain array of vectors would be filled
+/// with zeros first, which takes up to a fifth of the time of a model's inverse dynamics.
 /// @tparam T  with a trivial destructor
-template <class T, int Size>
+/// @tparam N  number of elements
+template <class T, int N>
 class UnsetArray {
  public:
-  /// The elements that have been set may be read and changed.
-  [[nodiscard, gnu::always_inline]] constexpr T& operator[](std::size_t i) noexcept {
-    return rooms_[i].element;
+  /// @pre element i has been set
+  [[nodiscard, gnu::always_inline]] constexpr T& operator[](int i) noexcept {
+    return slots_[i].element;
   }
-  [[gnu::always_inline]] constexpr void set(std::size_t i, const T& value) noexcept {
-    std::construct_at(&rooms_[i].element, value);
+  [[gnu::always_inline]] constexpr void set(int i, const T& value) noexcept {
+    std::construct_at(&slots_[i].element, value);
   }
 
  private:
-  union Room {
-    constexpr Room() noexcept {}  // NOLINT: without the element
+  union Slot {
+    constexpr Slot() noexcept {}  // NOLINT: without the element
     T element;
   };
 
-  std::array<Room, static_cast<std::size_t>(Size)> rooms_;
+  JointArray<Slot, N> slots_;
 };
 
 }  // namespace articula::detail

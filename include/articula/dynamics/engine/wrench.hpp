@@ -6,8 +6,6 @@
 #include "articula/dynamics/engine/unset_array.hpp"
 #include "articula/model/mechanism.hpp"
 
-#include <cstddef>
-
 namespace articula {
 
 /// A force and a moment about the origin of a body's frame.
@@ -31,14 +29,14 @@ template <class S, int N, int B>
   JointArray<S, B> effort;
   // Most parents are the body before: what is handed on to that one stays in registers, because the
   // next step waits for it.
-  Wrench<S> wrench = wrenches[effort.size() - 1];
-  for (std::size_t i = effort.size(); i-- > 0;) {
+  Wrench<S> wrench = wrenches[B - 1];
+  for (int i = B; i-- > 0;) {
     const Body& body = mechanism.bodies[i];
     effort[i] = body.prismatic ? wrench.force.z : wrench.moment.z;
     if (i == 0) break;
     Wrench<S> next = wrenches[i - 1];
     if (body.parent >= 0) {
-      const std::size_t p = parent_of(body, i);
+      const int p = parent_of(body, i);
       const Vector3<S> force = configuration[i].to_parent(wrench.force);
       Wrench<S> parent = p + 1 == i ? next : wrenches[p];
       parent.force = parent.force + force;
