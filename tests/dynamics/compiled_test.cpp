@@ -32,7 +32,7 @@ template <class Algorithm, class R, class... Inputs>
 void check_program(test::Randomness& random, const Inputs&... inputs) {
   constexpr int n = joint_count<R>, b = compiled::detail::ModelOf<R>::body_count;
   const Mechanism<n, b>& mechanism = model_of(R{}).mechanism;
-  const auto q = random.numbers<static_cast<std::size_t>(n)>(-3, 3);
+  const auto q = random.numbers<n>(-3, 3);
   const auto configuration = configuration_of<double, n, b>(mechanism, q);
   const auto expected =
       numbers_of(Algorithm::template evaluate<double, n, b>(mechanism, configuration, inputs...));
@@ -55,7 +55,7 @@ constexpr bool takes(int multiplications, int additions) {
 TEMPLATE_TEST_CASE("Programs compute what their algorithms compute", "", Q2d, Ur10, Panda,
                    support::Oddity) {
   using R = TestType;
-  constexpr std::size_t n = joint_count<R>;
+  constexpr int n = joint_count<R>;
   test::Randomness random(1);
   for (int trial = 0; trial < 500; ++trial) {
     const auto v = random.numbers<n>(-2, 2), x = random.numbers<n>(-5, 5);
@@ -118,15 +118,15 @@ TEST_CASE("Results do not depend on the frames in which they are calculated") {
 #if __has_include(<xsimd/xsimd.hpp>)
 TEST_CASE("A program runs for a pack of robots at once") {
   using Pack = xsimd::batch<double>;
-  constexpr std::size_t n = 7;
+  constexpr int n = 7;
   test::Randomness random(3);
-  std::array<std::array<std::array<double, n>, Pack::size>, 3> states;
+  std::array<std::array<JointArray<double, n>, Pack::size>, 3> states;
   for (auto& robots : states) {
     for (auto& numbers : robots) numbers = random.numbers<n>(-2, 2);
   }
   const auto pack = [&](std::size_t which) {
-    std::array<Pack, n> packed;
-    for (std::size_t i = 0; i < n; ++i) {
+    JointArray<Pack, n> packed;
+    for (int i = 0; i < n; ++i) {
       alignas(64) std::array<double, Pack::size> lanes;
       for (std::size_t k = 0; k < lanes.size(); ++k) lanes[k] = states[which][k][i];
       packed[i] = Pack::load_unaligned(lanes.data());
@@ -137,7 +137,7 @@ TEST_CASE("A program runs for a pack of robots at once") {
   for (std::size_t k = 0; k < Pack::size; ++k) {
     const auto single =
         compiled::run<ForwardDynamics, Panda>(states[0][k], states[1][k], states[2][k]);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (int i = 0; i < n; ++i) {
       CHECK(packed[i].get(k) == Approx(single[i]).epsilon(1e-11).margin(1e-11));
     }
   }

@@ -130,7 +130,7 @@ static_assert(operations<Gravity, Scara>().cost() == 0 &&
 
 TEMPLATE_TEST_CASE("Programs of unusual robots do what their algorithms say", "", MachineTool,
                    Scara, Oblique, Tripod) {
-  constexpr auto n = static_cast<std::size_t>(joint_count<TestType>);
+  constexpr int n = joint_count<TestType>;
   test::Randomness random(11);
   for (int trial = 0; trial < 100; ++trial) {
     const auto q = random.numbers<n>(-3, 3), v = random.numbers<n>(-3, 3),

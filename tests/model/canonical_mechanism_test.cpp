@@ -19,17 +19,16 @@ using namespace articula;  // NOLINT
 namespace {
 
 constexpr int n = 9;
-constexpr std::size_t size = n;
 
 // Some hundred operations on numbers up to about 1e4, each off by 1e-16 of its size.
 Approx same(double value) { return Approx(value).epsilon(1e-11).margin(1e-10); }
 
 struct State {
-  std::array<double, size> q, v, a;
+  JointArray<double, n> q, v, a;
 };
 
 State random_state(test::Randomness& random) {
-  return {random.numbers<size>(-3, 3), random.numbers<size>(-2, 2), random.numbers<size>(-5, 5)};
+  return {random.numbers<n>(-3, 3), random.numbers<n>(-2, 2), random.numbers<n>(-5, 5)};
 }
 
 }  // namespace
@@ -48,7 +47,7 @@ TEST_CASE("Axes that are all but parallel are not taken as parallel with toleran
         body.inertia = {2, {0.2, 0.6, 0.8}, {1.5, -0.1, -0.1, 1.2, -0.3, 0.9}};
       }
       const Mechanism<2> canonical = canonical_form(chain, 0).mechanism;
-      const std::array<double, 2> q{0.7, -1.1}, v{1, -2}, a{3, 4};
+      const JointArray<double, 2> q{0.7, -1.1}, v{1, -2}, a{3, 4};
       const auto own = configuration_of<double, 2, 2>(chain, q);
       for (const auto& other : {configuration_of<double, 2, 2>(canonical, q),
                                 configuration_of<double, 2, 2, Frames::resting>(canonical, q)}) {
@@ -79,11 +78,11 @@ TEST_CASE("The canonical form of any tree moves as the tree itself") {
     const auto other_gravity = Gravity::evaluate(canonical.mechanism, other);
     const auto matrix = MassMatrix::evaluate(tree, configuration);
     const auto other_matrix = MassMatrix::evaluate(canonical.mechanism, other);
-    for (std::size_t i = 0; i < size; ++i) {
+    for (int i = 0; i < n; ++i) {
       CAPTURE(trial, i);
       CHECK(other_effort[i] == same(effort[i]));
       CHECK(other_gravity[i] == same(gravity[i]));
-      for (std::size_t j = 0; j < size; ++j) CHECK(other_matrix[i][j] == same(matrix[i][j]));
+      for (int j = 0; j < n; ++j) CHECK(other_matrix[i][j] == same(matrix[i][j]));
     }
     CHECK(KineticEnergy::evaluate(canonical.mechanism, other, state.v) ==
           same(KineticEnergy::evaluate(tree, configuration, state.v)));
@@ -98,12 +97,13 @@ TEST_CASE("The canonical form says where its frames are") {
   for (int trial = 0; trial < 50; ++trial) {
     const Mechanism<n> tree = random.mechanism<n>();
     const CanonicalMechanism<n> canonical = canonical_form(tree);
-    const auto q = random.numbers<size>(-3, 3);
+    const auto q = random.numbers<n>(-3, 3);
     const auto old_frames = BodyPlacements::evaluate(tree, configuration_of<double, n, n>(tree, q));
     const auto new_frames = BodyPlacements::evaluate(
         canonical.mechanism, configuration_of<double, n, n>(canonical.mechanism, q));
-    for (std::size_t i = 0; i < size; ++i) {
-      const Placement<double> expected = old_frames[i] * canonical.frames[i];
+    for (int i = 0; i < n; ++i) {
+      const Placement<double> expected =
+          old_frames[i] * canonical.frames[static_cast<std::size_t>(i)];
       const Vector3<double> difference = new_frames[i].translation - expected.translation;
       CHECK(std::sqrt(dot(difference, difference)) < 1e-13);
       for (int k = 0; k < 3; ++k) {
@@ -182,10 +182,10 @@ TEST_CASE("An angle beyond the tolerance is not taken for a right one in part") 
 
 TEST_CASE("The canonical form can be had at compile time") {
   constexpr Mechanism<1> pendulum{
-      .bodies = {{{.parent = -1,
-                   .prismatic = false,
-                   .placement = {},
-                   .inertia = {2, {0.5, 0, 0.25}, {0.5, 0, 0, 1, 0, 0.75}}}}},
+      .bodies = {{{{.parent = -1,
+                    .prismatic = false,
+                    .placement = {},
+                    .inertia = {2, {0.5, 0, 0.25}, {0.5, 0, 0, 1, 0, 0.75}}}}}},
       .couplings = {},
       .gravity = {0, 0, -9.81}};
   constexpr CanonicalMechanism<1> canonical = canonical_form(pendulum);

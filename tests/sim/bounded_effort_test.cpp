@@ -39,9 +39,9 @@ Problem<N> random_problem(support::Random& random) {
   JointVector<N> d;
   for (int k = 0; k < N; ++k) {
     d[k] = std::pow(10, random.number(-2, 1));
-    int& parent = p.parents[static_cast<std::size_t>(k)];
+    int& parent = p.parents[k];
     parent = random.integer(-1, k - 1);
-    for (int i = parent; i >= 0; i = p.parents[static_cast<std::size_t>(i)]) {
+    for (int i = parent; i >= 0; i = p.parents[i]) {
       l(k, i) = random.number(-2, 2);
     }
     p.load[k] = random.number(-3, 3);
@@ -122,7 +122,7 @@ void compare_with_brute_force(int problems) {
     REQUIRE((answer.motion - motion).cwiseAbs().maxCoeff() <
             tolerance * (1 + motion.cwiseAbs().maxCoeff()));
     for (int j = 0; j < N; ++j) {
-      if (answer.held[static_cast<std::size_t>(j)]) REQUIRE(answer.motion[j] == 0);
+      if (answer.held[j]) REQUIRE(answer.motion[j] == 0);
     }
   }
 }

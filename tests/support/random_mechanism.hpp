@@ -22,9 +22,9 @@ class Randomness {
   bool chance() { return number(0, 1) < 0.5; }
   Vector3<double> vector() { return {number(-1, 1), number(-1, 1), number(-1, 1)}; }
 
-  template <std::size_t N>
-  std::array<double, N> numbers(double low, double high) {
-    std::array<double, N> values;
+  template <int N>
+  JointArray<double, N> numbers(double low, double high) {
+    JointArray<double, N> values;
     for (double& value : values) value = number(low, high);
     return values;
   }
@@ -52,7 +52,7 @@ class Randomness {
     Mechanism<N> tree;
     tree.gravity = 9.81 * vector();
     for (int i = 0; i < N; ++i) {
-      Body& body = tree.bodies[static_cast<std::size_t>(i)];
+      Body& body = tree.bodies[i];
       body.parent =
           i == 0 || number(0, 8) < 1 ? -1 : static_cast<int>(number(i > 2 ? i - 2 : 0, i));
       body.prismatic = number(0, 4) < 1;
