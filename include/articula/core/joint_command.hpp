@@ -9,44 +9,49 @@
 namespace articula {
 
 /// Efforts for N drives.
-/// @tparam N  number of joints
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  as that of JointVector
+template <int N, class Scalar = double>
 struct EffortCommand {
   static constexpr int joint_count = N;
 
-  JointVector<N> effort = JointVector<N>::Zero();  ///< [N m or N], N x 1
+  JointVector<N, Scalar> effort = JointVector<N, Scalar>::Zero();  ///< [N m or N], N x 1
 };
 
 /// Positions for N drives that close their own position loop.
-/// @tparam N  number of joints
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  as that of JointVector
+template <int N, class Scalar = double>
 struct PositionCommand {
   static constexpr int joint_count = N;
 
-  JointVector<N> position = JointVector<N>::Zero();  ///< [rad or m], N x 1
+  JointVector<N, Scalar> position = JointVector<N, Scalar>::Zero();  ///< [rad or m], N x 1
 };
 
 /// Velocities for N drives that close their own velocity loop.
-/// @tparam N  number of joints
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  as that of JointVector
+template <int N, class Scalar = double>
 struct VelocityCommand {
   static constexpr int joint_count = N;
 
-  JointVector<N> velocity = JointVector<N>::Zero();  ///< [rad/s or m/s], N x 1
+  JointVector<N, Scalar> velocity = JointVector<N, Scalar>::Zero();  ///< [rad/s or m/s], N x 1
 };
 
 /// A spring, a damper and an effort for each of N drives that close this loop of their own, known
 /// as MIT mode: effort = stiffness (position - q) + damping (velocity - v) + effort.
-/// @tparam N  number of joints
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  as that of JointVector
+template <int N, class Scalar = double>
 struct MultiModeCommand {
   static constexpr int joint_count = N;
 
-  JointVector<N> position = JointVector<N>::Zero();   ///< [rad or m], N x 1
-  JointVector<N> velocity = JointVector<N>::Zero();   ///< [rad/s or m/s], N x 1
-  JointVector<N> stiffness = JointVector<N>::Zero();  ///< [N m/rad or N/m], N x 1
-  JointVector<N> damping = JointVector<N>::Zero();    ///< [N m s/rad or N s/m], N x 1
-  JointVector<N> effort = JointVector<N>::Zero();     ///< feed-forward effort [N m or N], N x 1
+  JointVector<N, Scalar> position = JointVector<N, Scalar>::Zero();   ///< [rad or m], N x 1
+  JointVector<N, Scalar> velocity = JointVector<N, Scalar>::Zero();   ///< [rad/s or m/s], N x 1
+  JointVector<N, Scalar> stiffness = JointVector<N, Scalar>::Zero();  ///< [N m/rad or N/m], N x 1
+  JointVector<N, Scalar> damping = JointVector<N, Scalar>::Zero();  ///< [N m s/rad or N s/m], N x 1
+  JointVector<N, Scalar> effort =
+      JointVector<N, Scalar>::Zero();  ///< feed-forward effort [N m or N], N x 1
 };
 
 /// Any of the commands above for N joints.

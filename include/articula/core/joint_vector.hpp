@@ -27,14 +27,16 @@ using JointMatrix = Eigen::Matrix<Scalar, N, N>;
 template <int N, int K>
 using JointVectors = Eigen::Matrix<double, N, K, Eigen::RowMajor>;
 
-/// The vector with the number f(j) for each joint j. It does what Eigen's expressions do, for which
-/// compilers need longer, because each is a type of its own.
-/// @tparam N  number of joints
-/// @param f   callable with an int -> double
+/// The vector with the number f(j) for each joint j. It replaces Eigen's expressions, which take
+/// longer to compile because each is a type of its own.
+/// @tparam N       number of joints
+/// @tparam Scalar  type of a number
+/// @param f        callable with an int -> Scalar
 /// Real-time: yes if f is. O(N).
-template <int N, class Function>
-[[nodiscard, gnu::always_inline]] inline JointVector<N> for_each_joint(const Function& f) noexcept {
-  JointVector<N> vector;
+template <int N, class Scalar = double, class Function>
+[[nodiscard, gnu::always_inline]] inline JointVector<N, Scalar> for_each_joint(
+    const Function& f) noexcept {
+  JointVector<N, Scalar> vector;
   // A fold and not a loop: compilers leave vectors in memory that are filled by loops.
   [&]<int... J>(std::integer_sequence<int, J...>) __attribute__((always_inline)) {
     ((vector.coeffRef(J) = f(J)), ...);
