@@ -5,8 +5,8 @@
 #include "articula/control/laws/joint_pid.hpp"
 #include "articula/control/laws/pid_gains.hpp"
 #include "articula/control/laws/sampled_feedback.hpp"
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/joint_state.hpp"
+#include "articula/core/control_input.hpp"
+#include "articula/core/joint_array.hpp"
 
 #include <algorithm>
 #include <array>
@@ -67,33 +67,31 @@ class ControlToolboxPidLaw {
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   ControlToolboxPidLaw(ControlToolbox version, const JointPidGains<N>& gains,
                        const JointNames<N>& names, const JointFlags& keeps_integral = {})
-      : version_(version), gains_(gains), keeps_integral_(keeps_integral) {
+      : version_(version), gains_{gains}, keeps_integral_(keeps_integral) {
     validate(gains, names, GainSigns::any);
   }
 
   /// Forgets the past, but for the integrals of joints that keep them. Real-time: yes.
-  void start(const JointState<N>&) noexcept {
+  void start(const ControlInput<N>&) noexcept {
     for (std::size_t i = 0; i < memories_.size(); ++i) {
       memories_[i] = {.integral = keeps_integral_[i] ? memories_[i].integral : 0};
     }
   }
 
   /// The output of each joint, N x 1. Real-time: yes. O(N).
-  [[nodiscard]] JointVector<N> effort(const JointState<N>& state,
-                                      const JointReference<N>& reference, double period) noexcept {
+  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) noexcept {
     JointVector<N> output;
     for (int j = 0; j < N; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      const double error = reference.position[j] - state.position[j];
-      const double rate = reference.velocity[j] - state.velocity[j];
-      output[j] = sums_errors() ? legacy(gains_[i], memories_[i], error, rate, period)
-                                : current(gains_[i], memories_[i], error, rate, period);
+      const double error = in.reference.position[j] - in.state.position[j];
+      const double rate = in.reference.velocity[j] - in.state.velocity[j];
+      output[j] = sums_errors() ? legacy(gains_[j], memories_[j], error, rate, in.period)
+                                : current(gains_[j], memories_[j], error, rate, in.period);
     }
     return output;
   }
 
   /// Goes on with other gains, none of them negative. Real-time: yes.
-  void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains.values(); }
+  void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = {gains.values()}; }
 
   /// What becomes of one joint's measurements, see gain_notices. Real-time: yes.
   [[nodiscard]] SampledFeedback sampled_feedback(std::size_t joint) const noexcept {
@@ -108,9 +106,8 @@ class ControlToolboxPidLaw {
   [[nodiscard]] JointVector<N> integral() const noexcept {
     JointVector<N> terms;
     for (int j = 0; j < N; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      const double factor = sums_errors() ? gains_[i].integral : 1;
-      terms[j] = clamped(gains_[i], factor * memories_[i].integral);
+      const double factor = sums_errors() ? gains_[j].integral : 1;
+      terms[j] = clamped(gains_[j], factor * memories_[j].integral);
     }
     return terms;
   }
@@ -191,9 +188,9 @@ class ControlToolboxPidLaw {
   }
 
   ControlToolbox version_;
-  JointPidGains<N> gains_;
+  JointArray<PidGains, N> gains_;
   JointFlags keeps_integral_;
-  std::array<Memory, static_cast<std::size_t>(N)> memories_{};
+  JointArray<Memory, N> memories_{};
 };
 
 }  // namespace articula

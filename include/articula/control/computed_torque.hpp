@@ -34,45 +34,37 @@ class ComputedTorqueLaw {
   ComputedTorqueLaw(const R& robot, const JointPidGains<joint_count>& gains)
       : robot_(robot), feedback_(robot, gains) {}
 
-  /// Forgets the integral. Real-time: yes.
-  void start(const JointState<joint_count>& state) noexcept { feedback_.start(state); }
-
-  /// The effort [N m or N], N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<joint_count> effort(const JointState<joint_count>& state,
-                                                const JointReference<joint_count>& reference,
-                                                double period) noexcept {
-    position_ = state.position;
-    const JointVector<joint_count> acceleration =
-        reference.acceleration + feedback_.effort(state, reference, period);
-    return inverse_dynamics(robot_, state.position, state.velocity, acceleration);
-  }
-
-  /// Lets the integrals begin with the acceleration that the effort would cause beyond a_ref, see
-  /// PidLaw. Real-time: yes.
-  /// @return  the effort that reference and integrals ask for [N m or N], N x 1
-  JointVector<joint_count> prime(const JointState<joint_count>& state,
-                                 const JointReference<joint_count>& reference, double period,
-                                 const JointVector<joint_count>& effort,
-                                 LastCommand is = LastCommand::any) noexcept {
-    const JointVector<joint_count> share = feedback_.prime(
-        state, reference, period,
-        forward_dynamics(robot_, state.position, state.velocity, effort) - reference.acceleration,
-        is);
-    return inverse_dynamics(robot_, state.position, state.velocity, reference.acceleration + share);
-  }
-
-  /// Keeps the integrals from winding up. The feedback asks for accelerations, so it is told the
-  /// acceleration that was lost, M(q)^-1 excess: through the coupling of the joints an effort may
-  /// be cut off on the side that its own joint is not asked to go to.
-  /// @param excess  effort minus what was left of it [N m or N], N x 1
+  /// Forgets the integral. If a command was applied, the integrals begin with the acceleration that
+  /// the effort would cause beyond a_ref, see PidLaw.
+  /// @return  the effort that reference and integrals ask for if a command was applied, else 0
+  ///          [N m or N], N x 1
   /// Real-time: yes.
-  void limited(const JointVector<joint_count>& excess) noexcept {
-    if ((excess.array() == 0).all()) return;
-    // M^-1 excess is the acceleration from rest that the excess causes beyond what carries the
-    // robot.
-    const JointVector<joint_count> rest = JointVector<joint_count>::Zero();
-    feedback_.limited(
-        forward_dynamics(robot_, position_, rest, excess + gravity(robot_, position_)));
+  JointVector<joint_count> start(const ControlInput<joint_count>& in) noexcept {
+    ControlInput<joint_count> inner{in.state, in.reference, in.period, in.applied};
+    if (!in.applied.reached_drives()) return feedback_.start(inner);
+    inner.applied.numbers = forward_dynamics(robot_, in.state.position, in.state.velocity,
+                                             in.applied.numbers) -
+                            in.reference.acceleration;
+    const JointVector<joint_count> acceleration =
+        in.reference.acceleration + feedback_.start(inner);
+    return inverse_dynamics(robot_, in.state.position, in.state.velocity, acceleration);
+  }
+
+  /// The effort [N m or N], N x 1. The feedback asks for accelerations, so its cut is the
+  /// acceleration that was lost, M(q)^-1 cut at the position of the cut output. Through the coupling
+  /// of the joints an effort may be cut off on the side that its own joint is not asked to go to.
+  /// Real-time: yes.
+  [[nodiscard]] JointVector<joint_count> output(const ControlInput<joint_count>& in) noexcept {
+    ControlInput<joint_count> inner{in.state, in.reference, in.period, in.applied, in.cut};
+    if ((in.cut.array() != 0).any()) {
+      // M^-1 cut is the acceleration from rest that the cut causes beyond what carries the robot.
+      const JointVector<joint_count> rest = JointVector<joint_count>::Zero();
+      inner.cut = forward_dynamics(robot_, position_, rest, in.cut + gravity(robot_, position_));
+    }
+    position_ = in.state.position;
+    const JointVector<joint_count> acceleration =
+        in.reference.acceleration + feedback_.output(inner);
+    return inverse_dynamics(robot_, in.state.position, in.state.velocity, acceleration);
   }
 
   /// Goes on with other gains of the feedback. Real-time: yes.

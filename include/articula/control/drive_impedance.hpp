@@ -31,21 +31,16 @@ class DriveImpedance {
     requires DescribedRobot<R>
       : DriveImpedance(R(), gains) {}
 
-  /// Nothing to forget. Real-time: yes.
-  void start(const JointState<joint_count>& state) noexcept { added_.start(state); }
-
   /// The springs, dampers and efforts for the coming period. Real-time: yes.
-  [[nodiscard]] MultiModeCommand<joint_count> update(const JointState<joint_count>& state,
-                                                     const JointReference<joint_count>& reference,
-                                                     double period) noexcept {
-    MultiModeCommand<joint_count> command{.position = reference.position,
-                                          .velocity = reference.velocity};
+  [[nodiscard]] MultiModeCommand<joint_count> update(
+      const ControlInput<joint_count>& in) noexcept {
+    MultiModeCommand<joint_count> command{.position = in.reference.position,
+                                          .velocity = in.reference.velocity};
     for (int j = 0; j < joint_count; ++j) {
-      const ImpedanceGains& g = gains_[static_cast<std::size_t>(j)];
-      command.stiffness[j] = g.stiffness;
-      command.damping[j] = g.damping;
+      command.stiffness[j] = gains_[j].stiffness;
+      command.damping[j] = gains_[j].damping;
     }
-    command.effort = added_.update(state, reference, period).effort;
+    command.effort = added_.update(in).effort;
     return command;
   }
 

@@ -20,17 +20,12 @@ class ImpedanceLaw {
  public:
   explicit ImpedanceLaw(const ValidImpedanceGains<N>& gains) : gains_(gains) {}
 
-  /// Nothing to forget. Real-time: yes.
-  void start(const JointState<N>&) noexcept {}
-
   /// The effort [N m or N], N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<N> effort(const JointState<N>& state,
-                                      const JointReference<N>& reference, double) const noexcept {
+  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) const noexcept {
     JointVector<N> effort;
     for (int j = 0; j < N; ++j) {
-      const ImpedanceGains& g = gains_[static_cast<std::size_t>(j)];
-      effort[j] = g.stiffness * (reference.position[j] - state.position[j]) +
-                  g.damping * (reference.velocity[j] - state.velocity[j]);
+      effort[j] = gains_[j].stiffness * (in.reference.position[j] - in.state.position[j]) +
+                  gains_[j].damping * (in.reference.velocity[j] - in.state.velocity[j]);
     }
     return effort;
   }

@@ -100,7 +100,7 @@ class HeldPlant {
                                      .rate_error = -joint.velocity},
                                     options.period);
     const double effort = std::clamp(asked, -options.effort_limit, options.effort_limit);
-    if (effort != asked) pid.limited(gains, asked - effort);
+    if (effort != asked) pid.limit_windup(gains, asked - effort);
     joint.advance(effort);
     metrics.add(static_cast<double>(k + 1) * options.period, joint.position);
   }

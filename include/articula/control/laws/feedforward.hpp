@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the reference asks for, passed on.
+/// @file The law that passes on one member of the reference.
 #pragma once
 
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/joint_state.hpp"
+#include "articula/core/control_input.hpp"
 
 namespace articula {
 
@@ -12,15 +11,10 @@ namespace articula {
 /// @tparam N       number of joints
 /// @tparam Member  which one, in the unit of the command
 template <int N, JointVector<N> JointReference<N>::* Member>
-class Feedforward {
- public:
-  /// Nothing to forget. Real-time: yes.
-  void start(const JointState<N>&) noexcept {}
-
+struct Feedforward {
   /// The reference's member, N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<N> effort(const JointState<N>&, const JointReference<N>& reference,
-                                      double) const noexcept {
-    return reference.*Member;
+  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) const noexcept {
+    return in.reference.*Member;
   }
 };
 

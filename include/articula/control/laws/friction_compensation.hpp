@@ -2,8 +2,7 @@
 /// @file The effort that overcomes joint damping and friction.
 #pragma once
 
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/joint_state.hpp"
+#include "articula/core/control_input.hpp"
 #include "articula/dynamics/friction_effort.hpp"
 
 namespace articula {
@@ -21,14 +20,10 @@ class FrictionCompensation {
   {}
   explicit FrictionCompensation(const R& robot) : robot_(robot) {}
 
-  /// Nothing to forget. Real-time: yes.
-  void start(const JointState<joint_count>&) noexcept {}
-
   /// D v + f sign(v) [N m or N], N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<joint_count> effort(const JointState<joint_count>& state,
-                                                const JointReference<joint_count>&,
-                                                double) const noexcept {
-    return -friction_effort(robot_, state.velocity);
+  [[nodiscard]] JointVector<joint_count> output(
+      const ControlInput<joint_count>& in) const noexcept {
+    return -friction_effort(robot_, in.state.velocity);
   }
 
  private:

@@ -2,8 +2,7 @@
 /// @file The effort that carries the robot's weight.
 #pragma once
 
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/joint_state.hpp"
+#include "articula/core/control_input.hpp"
 #include "articula/dynamics/gravity.hpp"
 #include "articula/model/dynamic_robot.hpp"
 
@@ -24,14 +23,10 @@ class GravityCompensation {
   {}
   explicit GravityCompensation(const R& robot) : robot_(robot) {}
 
-  /// Nothing to forget. Real-time: yes.
-  void start(const JointState<joint_count>&) noexcept {}
-
   /// g(q) [N m or N], N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<joint_count> effort(const JointState<joint_count>& state,
-                                                const JointReference<joint_count>&,
-                                                double) const noexcept {
-    return gravity(robot_, state.position);
+  [[nodiscard]] JointVector<joint_count> output(
+      const ControlInput<joint_count>& in) const noexcept {
+    return gravity(robot_, in.state.position);
   }
 
  private:

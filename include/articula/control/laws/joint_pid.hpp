@@ -2,8 +2,8 @@
 /// @file The PID law of one joint.
 #pragma once
 
-#include "articula/control/laws/effort_law.hpp"
 #include "articula/control/laws/pid_gains.hpp"
+#include "articula/core/control_input.hpp"
 #include "articula/core/finite.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace articula {
 
-/// What a PID is told in a cycle.
+/// The input of one joint's PID in a cycle.
 struct PidInput {
   double error = 0;                   ///< e = r - y, of the variable that is controlled
   double measured = 0;                ///< y
@@ -41,8 +41,8 @@ struct PidInput {
 /// Nothing is remembered of an input that is not finite. Where terms of finite inputs overflow, the
 /// output is a finite number of 1e300 or so.
 ///
-/// By what the output is cut off, u - u', and what the caller cuts off later, the integral is kept
-/// from winding up in one of three ways (AntiWindup): none; back-calculation,
+/// By what the output is cut off, u - u', and what the caller cuts off later (`limit_windup`), the
+/// integral is kept from winding up in one of three ways (AntiWindup): none; back-calculation,
 ///
 ///     I <- I - dt/T_t (u - u'),   T_t = sqrt(d/i), or p/i where d is 0, unless given;
 ///
@@ -59,14 +59,15 @@ class JointPid {
   /// The slowest integral that begins with what may have been a push, see `prime` [s].
   static constexpr double slowest_primed = 10;
 
-  /// Lets the integral begin with an output that was given last, as far as its clamps allow. After
-  /// `start`. If the output was no load but a passing push, the error is off by I/p, and goes as
-  /// the integral takes that back, with the time constant p/i. So it does nothing where p/i is more
-  /// than ten seconds and the output may have been one; nor without an integral gain, nor with an
-  /// output that is not finite. Real-time: yes.
-  void prime(const PidGains& g, double output, LastCommand is = LastCommand::any) noexcept {
+  /// Lets the integral begin with the output that was applied last, as far as its clamps allow.
+  /// After `start`. If the output was a passing push and no load, the error is off by I/p. The
+  /// integral takes that back with the time constant p/i. So the integral stays 0 where p/i is more
+  /// than ten seconds and the output may have been a push. It stays 0 without an integral gain, and
+  /// with an output that is not finite, too. Real-time: yes.
+  /// @param held  push or load
+  void prime(const PidGains& g, double output, Held held) noexcept {
     const bool soon = g.proportional <= slowest_primed * g.integral;
-    if (g.integral == 0 || (is == LastCommand::any && !soon) || !is_finite(output)) return;
+    if (g.integral == 0 || (held != Held::load && !soon) || !is_finite(output)) return;
     set_integral(g, output);
     previous_integral_ = integral_;
   }
@@ -101,14 +102,14 @@ class JointPid {
     const bool unusual = excess != 0;  // also where it is NaN
     if (unusual && !is_finite(output)) return overflown(g, in, rate, period);
     remember(in, period);
-    if (unusual) limited(g, excess);
+    if (unusual) limit_windup(g, excess);
     return within;
   }
 
-  /// Keeps the integral from winding up when an output was cut off.
+  /// Keeps the integral from winding up when an output was cut off (anti-windup).
   /// @param excess  the output minus what was left of it; that of an overflow may be anything
   /// Real-time: yes.
-  void limited(const PidGains& g, double excess) noexcept {
+  void limit_windup(const PidGains& g, double excess) noexcept {
     if (!is_finite(excess)) {
       integral_ = previous_integral_;
     } else if (g.anti_windup == AntiWindup::conditional_integration) {
@@ -184,7 +185,7 @@ class JointPid {
                           bounded(g.velocity_feedforward, in.velocity_reference) +
                           bounded(g.acceleration_feedforward, in.acceleration_reference);
     const double within = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
-    if (within != output) limited(g, output - within);
+    if (within != output) limit_windup(g, output - within);
     return within;
   }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A part of a controller for some of the joints.
+/// @file A law that acts on some of the joints.
 #pragma once
 
-#include "articula/control/laws/effort_law.hpp"
+#include "articula/control/laws/control_law.hpp"
 #include "articula/control/laws/part_scope.hpp"
+#include "articula/control/laws/valid_gains.hpp"
 #include "articula/model/robot.hpp"
 
 #include <span>
@@ -14,19 +15,19 @@
 
 namespace articula {
 
-/// A part of a controller that acts on some of a robot's joints, and on the others not at all. With
-/// it each joint, or group of joints, of one robot can have its own law:
+/// A law that acts on some of a robot's joints only. With it each joint of a robot, or each group of
+/// joints, can have its own law:
 ///
 ///     EffortController<Arm, OnJoints<7, PidLaw<7>>, OnJoints<7, ImpedanceLaw<7>>>
 ///
 /// @tparam N    number of joints of the robot
-/// @tparam Law  the part, for all N joints
-template <int N, EffortLaw<N> Law>
+/// @tparam Law  for all N joints
+template <int N, ControlLaw<N> Law>
 class OnJoints {
  public:
   /// @param robot   whose joints these are
-  /// @param law     the part
-  /// @param joints  names of those that the part acts on
+  /// @param law     for all joints
+  /// @param joints  names of those that the law acts on
   /// @throws std::invalid_argument if the robot has no such joint, or one is named twice
   template <Robot R>
     requires(joint_count<R> == N)
@@ -41,29 +42,25 @@ class OnJoints {
     }
   }
 
-  /// Starts the part anew. Real-time: yes.
-  void start(const JointState<N>& state) noexcept { law_.start(state); }
-
-  /// The part's effort on its joints, 0 on the others, N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<N> effort(const JointState<N>& state,
-                                      const JointReference<N>& reference, double period) noexcept {
-    return chosen(law_.effort(state, reference, period));
+  /// Starts the law with what was applied on its joints.
+  /// @return  the law's share of that, N x 1, if it has one
+  /// Real-time: yes, if the law's is.
+  auto start(const ControlInput<N>& in) noexcept
+    requires detail::StartsLaw<Law, N>
+  {
+    const ControlInput<N> own{in.state, in.reference, in.period,
+                              {chosen(in.applied.numbers), in.applied.held}};
+    if constexpr (detail::SharesApplied<Law, N>) {
+      return chosen(law_.start(own));
+    } else {
+      law_.start(own);
+    }
   }
 
-  /// Lets the part begin with what was given last on its joints. Real-time: yes.
-  JointVector<N> prime(const JointState<N>& state, const JointReference<N>& reference,
-                       double period, const JointVector<N>& effort,
-                       LastCommand is = LastCommand::any) noexcept
-    requires Primable<Law, N>
-  {
-    return chosen(detail::prime(law_, state, reference, period, chosen(effort), is));
-  }
-
-  /// Tells the part what was cut off on its joints. Real-time: yes.
-  void limited(const JointVector<N>& excess) noexcept
-    requires LimitAware<Law, N>
-  {
-    law_.limited(chosen(excess));
+  /// The law's output on its joints, 0 on the others, N x 1. Real-time: yes, if the law's is.
+  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) noexcept {
+    return chosen(
+        law_.output({in.state, in.reference, in.period, in.applied, chosen(in.cut)}));
   }
 
   /// Goes on with other gains. Real-time: yes.
@@ -73,17 +70,17 @@ class OnJoints {
     law_.set_gains(gains);
   }
 
-  /// Calls function(part, scope).
+  /// Calls function(law, scope).
   void for_each_part(auto&& function) const { function(law_, PartScope<N>{.joints = chosen_}); }
 
  private:
-  /// What belongs to the part's joints; a NaN of another joint does not get through.
+  /// The values of the law's joints; a NaN of another joint does not get through.
   [[nodiscard]] JointVector<N> chosen(const JointVector<N>& values) const noexcept {
     return (chosen_.array() != 0).select(values, JointVector<N>::Zero());
   }
 
   Law law_;
-  JointVector<N> chosen_ = JointVector<N>::Zero();  ///< 1 for the part's joints
+  JointVector<N> chosen_ = JointVector<N>::Zero();  ///< 1 for the law's joints
 };
 
 }  // namespace articula

@@ -4,11 +4,10 @@
 
 #include "articula/control/laws/joint_pid.hpp"
 #include "articula/control/laws/sampled_feedback.hpp"
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/joint_state.hpp"
+#include "articula/core/control_input.hpp"
+#include "articula/core/joint_array.hpp"
 #include "articula/model/robot.hpp"
 
-#include <array>
 #include <cstddef>
 #include <numbers>
 
@@ -50,76 +49,62 @@ class PidLaw {
   PidLaw(const R& robot, const JointPidGains<N>& gains)
       : PidLaw(ValidPidGains<N>(gains, joint_names(robot))) {
     if constexpr (Variable == PidOf::position) {
-      for (std::size_t i = 0; i < turns_.size(); ++i) {
-        const bool turns = model_of(robot).joints[i].type == JointType::continuous;
-        turns_[i] = turns ? 2 * std::numbers::pi : 0;
+      for (std::size_t j = 0; j < turns_.size(); ++j) {
+        const bool turns = model_of(robot).joints[j].type == JointType::continuous;
+        turns_[j] = turns ? 2 * std::numbers::pi : 0;
       }
     }
   }
 
-  /// Forgets the past. Real-time: yes.
-  void start(const JointState<N>&) noexcept {
-    for (JointPid& pid : pids_) pid.start();
-  }
-
-  /// The output u of each joint, N x 1.
-  /// @param state      position and velocity are used
-  /// @param reference  position and velocity are used, acceleration by a feed-forward gain
-  /// @param period     dt [s]
+  /// Forgets the past. If a command was applied, the integrals begin with the load that it has
+  /// carried; what p and d ask for comes on top of it. If it may have been a push, joints whose
+  /// integral could not take that back soon begin with 0, see JointPid::prime.
+  /// @return  the integral terms and feed-forwards if a command was applied, else 0, N x 1
   /// Real-time: yes. O(N).
-  [[nodiscard]] JointVector<N> effort(const JointState<N>& state,
-                                      const JointReference<N>& reference, double period) noexcept {
-    JointVector<N> output;
+  JointVector<N> start(const ControlInput<N>& in) noexcept {
+    JointVector<N> share = JointVector<N>::Zero();
     for (int j = 0; j < N; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      const PidGains& g = gains_[i];
-      PidInput in{.velocity_reference = reference.velocity[j],
-                  .acceleration_reference = reference.acceleration[j]};
-      if constexpr (Variable == PidOf::position) {
-        in.error = JointPid::short_way(reference.position[j] - state.position[j], turns_[i]);
-        in.measured = state.position[j];
-        in.rate_error = g.velocity_weight * reference.velocity[j] - state.velocity[j];
-      } else {
-        in.error = reference.velocity[j] - state.velocity[j];
-        in.measured = state.velocity[j];
-        in.rate_is_measured = false;
-      }
-      output[j] = pids_[i].update(g, in, period, turns_[i]);
-    }
-    return output;
-  }
-
-  /// Lets the integrals begin with the effort that was given last: the load that it has carried.
-  /// What p and d ask for comes on top of it. If it may have been a push, joints whose integral
-  /// could not take that back soon begin with 0, see JointPid::prime.
-  /// @return  the integral terms and feed-forwards, N x 1
-  /// Real-time: yes. O(N).
-  JointVector<N> prime(const JointState<N>&, const JointReference<N>& reference, double,
-                       const JointVector<N>& effort, LastCommand is = LastCommand::any) noexcept {
-    JointVector<N> share;
-    for (int j = 0; j < N; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      const PidGains& g = gains_[i];
-      const double feedforward = g.velocity_feedforward * reference.velocity[j] +
-                                 g.acceleration_feedforward * reference.acceleration[j];
-      pids_[i].prime(g, effort[j] - feedforward, is);
-      share[j] = pids_[i].integral() + feedforward;
+      pids_[j].start();
+      if (!in.applied.reached_drives()) continue;
+      const PidGains& g = gains_[j];
+      const double feedforward = g.velocity_feedforward * in.reference.velocity[j] +
+                                 g.acceleration_feedforward * in.reference.acceleration[j];
+      pids_[j].prime(g, in.applied.numbers[j] - feedforward, in.applied.held);
+      share[j] = pids_[j].integral() + feedforward;
     }
     return share;
   }
 
-  /// Keeps the integrals from winding up behind a limit, as each joint's gains say.
-  /// @param excess  total minus limited total, N x 1
+  /// The output u of each joint, N x 1. At first the integrals take back what the last output was
+  /// cut off by, as each joint's gains say (AntiWindup).
+  /// @param in  position and velocity of state and reference are used, and the reference's
+  ///            acceleration by a feed-forward gain
   /// Real-time: yes. O(N).
-  void limited(const JointVector<N>& excess) noexcept {
+  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) noexcept {
+    JointVector<N> output;
     for (int j = 0; j < N; ++j) {
-      const auto i = static_cast<std::size_t>(j);
-      if (excess[j] != 0) pids_[i].limited(gains_[i], excess[j]);
+      const PidGains& g = gains_[j];
+      const double q = in.state.position[j], v = in.state.velocity[j];
+      if (in.cut[j] != 0) pids_[j].limit_windup(g, in.cut[j]);
+      PidInput input{.velocity_reference = in.reference.velocity[j],
+                     .acceleration_reference = in.reference.acceleration[j]};
+      if constexpr (Variable == PidOf::position) {
+        input.error = JointPid::short_way(in.reference.position[j] - q, turns_[j]);
+        input.measured = q;
+        input.rate_error = g.velocity_weight * in.reference.velocity[j] - v;
+      } else {
+        input.error = in.reference.velocity[j] - v;
+        input.measured = v;
+        input.rate_is_measured = false;
+      }
+      output[j] = pids_[j].update(g, input, in.period, turns_[j]);
     }
+    return output;
   }
 
   /// Goes on with other gains. The integral terms, being in units of the output, stay as they are,
-  /// as far as the new clamps allow in the next cycle; also where i becomes 0. Real-time: yes.
+  /// as far as the new clamps allow in the next cycle; also where i becomes 0. The cut of the last
+  /// output is taken back by the new gains' anti-windup. Real-time: yes.
   void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains; }
 
   [[nodiscard]] const JointPidGains<N>& gains() const noexcept { return gains_.values(); }
@@ -131,19 +116,20 @@ class PidLaw {
     return feedback;
   }
 
-  /// The integral terms I [output], N x 1. Real-time: yes.
+  /// The integral terms I in the last output [output], N x 1. Anti-windup changes them at the next
+  /// output. Real-time: yes.
   [[nodiscard]] JointVector<N> integral() const noexcept {
     JointVector<N> terms;
-    for (int j = 0; j < N; ++j) terms[j] = pids_[static_cast<std::size_t>(j)].integral();
+    for (int j = 0; j < N; ++j) terms[j] = pids_[j].integral();
     return terms;
   }
 
  private:
-  explicit PidLaw(const ValidPidGains<N>& gains) : gains_(gains) { start({}); }
+  explicit PidLaw(const ValidPidGains<N>& gains) : gains_(gains) {}
 
   ValidPidGains<N> gains_;
-  std::array<JointPid, static_cast<std::size_t>(N)> pids_{};
-  std::array<double, static_cast<std::size_t>(N)> turns_{};  ///< a full turn [rad], or 0
+  JointArray<JointPid, N> pids_{};
+  JointArray<double, N> turns_{};  ///< a full turn [rad], or 0
 };
 
 }  // namespace articula

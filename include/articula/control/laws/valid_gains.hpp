@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <string_view>
 
@@ -32,12 +33,20 @@ class ValidGains {
   }
 
   /// The gains of one joint. Real-time: yes.
-  [[nodiscard]] const G& operator[](std::size_t joint) const noexcept { return values_[joint]; }
+  [[nodiscard]] const G& operator[](std::integral auto joint) const noexcept {
+    return values_[static_cast<std::size_t>(joint)];
+  }
   /// Those of all joints. Real-time: yes.
   [[nodiscard]] const Values& values() const noexcept { return values_; }
 
  private:
   Values values_{};
+};
+
+/// A law or controller that can go on with other gains of the kind `Gains` between two cycles.
+template <class L, class Gains>
+concept TakesGains = requires(L law, const Gains& gains) {
+  { law.set_gains(gains) } noexcept;
 };
 
 }  // namespace articula

@@ -12,10 +12,10 @@
 
 namespace articula {
 
-/// Keeps a command's effort within the limits of the robot's drives. Positions, velocities and
-/// gains pass: what drives make of them is theirs to limit (or see Limited). Real-time: yes.
+/// A command with its effort within the limits of the robot's drives. Positions, velocities and
+/// gains pass: the drives limit them, or Limited does. Real-time: yes.
 template <Robot R, JointCommand<joint_count<R>> Command>
-[[nodiscard]] Command limited(const R& robot, Command command) noexcept {
+[[nodiscard]] Command within_effort_limits(const R& robot, Command command) noexcept {
   if constexpr (requires { command.effort; }) {
     const JointVector<joint_count<R>> limits = effort_limits(robot);
     for (int j = 0; j < joint_count<R>; ++j) {
@@ -51,7 +51,7 @@ template <Robot R, JointCommand<joint_count<R>> Command>
     }
     if (is_finite(position)) command.effort = gravity(robot, position);
     if (!is_finite(command.effort)) command.effort.setZero();
-    command = limited(robot, command);
+    command = within_effort_limits(robot, command);
   }
   return command;
 }

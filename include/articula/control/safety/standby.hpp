@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the joints are commanded while no controller is active.
+/// @file The controller for times in which no other is active.
 #pragma once
 
 #include "articula/control/safety/damping_effort.hpp"
 #include "articula/control/safety/safe_command.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/control_input.hpp"
 #include "articula/core/joint_command.hpp"
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/joint_state.hpp"
 #include "articula/core/refuse.hpp"
 
 #include <algorithm>
@@ -16,11 +15,11 @@
 
 namespace articula {
 
-/// The controller that wants nothing but safety, whatever the reference says:
+/// The controller that keeps the joints safe, whatever the reference says:
 ///
 ///     efforts      g(q) - M(q) v / T: the weight is carried, motion decays (see damping_effort)
 ///     velocities   zero
-///     positions    that at which it was started
+///     positions    the one commanded before it was started
 ///     multi-mode   no spring, no damper, the effort as above
 ///
 /// A Switch does this while no controller is active. It can be one of its controllers, too.
@@ -30,8 +29,6 @@ template <Robot R, JointCommand<joint_count<R>> C = EffortCommand<joint_count<R>
 class Standby {
  public:
   static constexpr std::string_view name = "standby";
-  /// It uses no reference.
-  static constexpr bool brakes_without_reference = true;
   static constexpr int joint_count = articula::joint_count<R>;
 
   Standby()
@@ -50,23 +47,28 @@ class Standby {
     requires DescribedRobot<R>
       : Standby(R(), damping_time) {}
 
-  /// Takes the position that is to be held. Real-time: yes.
-  void start(const JointState<joint_count>& state) noexcept { position_ = state.position; }
+  /// Takes the position to hold: the one that was commanded last, or else the measured one, which
+  /// would creep. Real-time: yes.
+  void start(const ControlInput<joint_count>& in) noexcept {
+    position_ = in.applied.reached_drives() ? in.applied.numbers : in.state.position;
+  }
 
-  /// The safe command for the coming period. Without a good state efforts are zero. Real-time: yes.
-  [[nodiscard]] C update(const JointState<joint_count>& state, const JointReference<joint_count>&,
-                         double period) noexcept {
+  /// The safe command for the coming period. Real-time: yes.
+  [[nodiscard]] C update(const ControlInput<joint_count>& in) noexcept {
     C command;
     if constexpr (requires { command.effort; }) {
-      const double time = is_finite(period) ? std::max(damping_time_, 2 * period) : damping_time_;
-      command.effort = damping_effort(robot_, state.position, state.velocity, time);
+      const double time = std::max(damping_time_, 2 * in.period);
+      command.effort = damping_effort(robot_, in.state.position, in.state.velocity, time);
       if (!is_finite(command.effort)) command.effort.setZero();
-      return limited(robot_, command);
+      return within_effort_limits(robot_, command);
     } else {
       if constexpr (std::same_as<C, PositionCommand<joint_count>>) command.position = position_;
       return command;
     }
   }
+
+  /// Does the same: it uses no reference. Real-time: yes.
+  [[nodiscard]] C brake(const ControlInput<joint_count>& in) noexcept { return update(in); }
 
  private:
   [[no_unique_address]] R robot_;

@@ -2,7 +2,6 @@
 /// @file New gains for a controller that is running.
 #pragma once
 
-#include "articula/control/laws/effort_law.hpp"
 #include "articula/control/laws/valid_gains.hpp"
 #include "articula/core/name.hpp"
 #include "articula/loop/exchange/latest_value.hpp"

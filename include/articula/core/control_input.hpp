@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The input of a controller in one cycle.
+#pragma once
+
+#include "articula/core/joint_reference.hpp"
+#include "articula/core/joint_state.hpp"
+#include "articula/core/joint_vector.hpp"
+
+namespace articula {
+
+/// What the command that was applied last has done. In the order of what can be built on it.
+enum class Held : unsigned char {
+  nothing,  ///< There is no such command: at a cold start, or in calls without a loop.
+  unsure,   ///< It was sent, but joints or drives were lost. Rates go on from it, integrals do not.
+  push,     ///< It reached the drives. It may have been a passing push.
+  load,     ///< It held the joints.
+};
+
+/// The command that was applied last.
+/// @tparam N  number of joints
+template <int N>
+struct Applied {
+  JointVector<N> numbers = JointVector<N>::Zero();  ///< numbers_of that command, N x 1
+  Held held = Held::nothing;
+
+  /// Whether the drives got the command, so that an integral can begin with it. Real-time: yes.
+  [[nodiscard]] constexpr bool reached_drives() const noexcept { return held >= Held::push; }
+};
+
+/// The input of a controller, or of one of its laws, in one cycle. It refers to state and
+/// reference, and lives as long as the call to which it is passed:
+///
+///     controller.update({state, reference, period});
+///
+/// `applied` and `cut` belong to the last cycle in which this controller was called. They close the
+/// loop around limits: an integral takes back what was cut, and a switch goes on from what was
+/// applied. A composition passes `applied` inward unchanged, and as `cut` its own clip plus the cut
+/// that came from outside.
+/// @tparam N  number of joints
+template <int N>
+struct ControlInput {
+  static constexpr int joint_count = N;
+
+  const JointState<N>& state;          ///< as measured in this cycle, finite
+  const JointReference<N>& reference;  ///< what the joints are asked to do, finite
+  double period;                       ///< dt, time until the next cycle, > 0 [s]
+  Applied<N> applied{};                ///< of the whole robot
+  /// The callee's own last command minus what was left of it, in the unit of the command, N x 1;
+  /// exactly 0 where nothing was cut off, after a start, and after a failed command.
+  JointVector<N> cut = JointVector<N>::Zero();
+};
+
+}  // namespace articula
