@@ -2,8 +2,7 @@
 /// @file What was held back from a joint.
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include "articula/core/joint_array.hpp"
 
 namespace articula {
 
@@ -33,6 +32,6 @@ struct JointLimitReport {
 
 /// The reports of N joints.
 template <int N>
-using LimitReport = std::array<JointLimitReport, static_cast<std::size_t>(N)>;
+using LimitReport = JointArray<JointLimitReport, N>;
 
 }  // namespace articula

@@ -3,68 +3,51 @@
 #pragma once
 
 #include "articula/control/laws/command_numbers.hpp"
-#include "articula/control/laws/drive_spring.hpp"
-#include "articula/control/laws/effort_law.hpp"
-#include "articula/control/limits/effort_limiter.hpp"
-#include "articula/control/limits/joint_limiter.hpp"
-#include "articula/control/limits/position_limiter.hpp"
-#include "articula/control/safety/resume.hpp"
-#include "articula/control/safety/tells_failure.hpp"
-#include "articula/core/joint_command.hpp"
-#include "articula/core/joint_reference.hpp"
+#include "articula/control/laws/valid_gains.hpp"
+#include "articula/control/limits/command_limiter.hpp"
+#include "articula/core/controller.hpp"
 
-#include <array>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 #include <exception>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 namespace articula {
 
-/// A controller whose commands keep limits of position, velocity, acceleration, jerk and effort, so
-/// that every joint can always stop before its position limit (see JointLimiter):
+/// A controller whose commands keep limits of position, velocity, acceleration, jerk and effort. So
+/// every joint can always stop before its position limit (see JointLimiter):
 ///
-///     template <class R>
-///     using CarefulPid = articula::Limited<R, articula::PidPlusGravity>;
-///     articula::Loop<articula::Q2dSim, CarefulPid> loop{CarefulPid<articula::Q2d>(limits)};
+///     CommandLimits<2> limits = command_limits(Q2d());
+///     limits.acceleration = {20, 40};  // what the drives can do in every posture
+///     Loop loop{Q2dSim(), Limited(Q2d(), limits, PidPlusGravity<Q2d>())};
 ///
-/// - Position commands: limits hold for the commands, which begin where the joint is measured.
+/// - Position commands: limits hold for the commands, which begin at the measured position.
 /// - Velocity commands: likewise, at the measured position; a drive that lags needs some room.
 /// - Effort commands: limits hold for the motion that the model foresees (see EffortLimiter).
 /// - Multi-mode commands: likewise, for the total effort at the measured state. Where it is too
 ///   much, the drive's references are drawn towards the state.
 ///
-/// What is within the limits passes unchanged. A command that is not finite, or does not count
-/// because the controller says that it has failed (TellsFailure), brakes all joints, and `failed`
-/// tells. (Groups brake the joints of a failed group themselves.) A reference that is not finite
-/// brakes all joints, too: the controller is not asked in that cycle. After more than three such
-/// cycles in a row it is started anew, and goes on from what was given. The controller is told what
-/// was cut off, and what was given, if it wants to know (LimitAware, TakesGiven).
-/// @tparam R                   the robot
-/// @tparam ControllerTemplate  makes the controller of a robot
-template <Robot R, template <class> class ControllerTemplate>
+/// A command within the limits passes unchanged. If the controller has failed, all joints brake and
+/// the verdict is `degraded`. A reference that is not finite brakes all joints, too, and the
+/// controller is not called. After more than three such cycles in a row it is started again, with
+/// the command that held the joints.
+///
+/// Limits of effort alone need no Limited: loops and SumController keep those.
+/// @tparam R  the robot
+/// @tparam C  the controller
+template <Robot R, Controller<joint_count<R>> C>
 class Limited {
  public:
-  /// The command counts even where `failed` tells: the joints brake.
-  static constexpr bool safe_in_failure = true;
-  /// A reference that is not finite brakes the joints, too.
-  static constexpr bool brakes_without_reference = true;
   static constexpr int joint_count = articula::joint_count<R>;
-  using ControllerType = ControllerTemplate<R>;
-  using State = JointState<joint_count>;
-  using Reference = JointReference<joint_count>;
-  using Command = decltype(std::declval<ControllerType&>().update(
-      std::declval<const State&>(), std::declval<const Reference&>(), double()));
-
-  /// Whether the command contains efforts.
-  static constexpr bool by_effort = requires(Command command) { command.effort; };
+  using ControllerType = C;
+  using Command = CommandOf<C, joint_count>;
+  using Input = ControlInput<joint_count>;
 
   /// The limits of the robot's description. (For efforts it does not say enough.)
   Limited()
-    requires DescribedRobot<R> && std::default_initializable<ControllerType> && (!by_effort)
+    requires DescribedRobot<R> && std::default_initializable<C> &&
+             (!requires(Command command) { command.effort; })
       : Limited(command_limits(R())) {}
 
   /// @param robot       whose joints these are
@@ -72,181 +55,109 @@ class Limited {
   /// @param controller  whose commands are limited
   /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is
   ///         beyond what the description says, or is missing (see EffortLimiter)
-  Limited(const R& robot, const CommandLimits<joint_count>& limits, ControllerType controller)
+  Limited(const R& robot, const CommandLimits<articula::joint_count<R>>& limits, C controller)
       : controller_(std::move(controller)),
-        limits_(limits),
-        limiter_(make_limiter(robot, limits)) {}
+        limits_((validate(robot, limits), limits)),
+        limiter_(robot, limits) {}
   /// With a controller that is made from the robot, or by default where none can be.
-  Limited(const R& robot, const CommandLimits<joint_count>& limits)
+  Limited(const R& robot, const CommandLimits<articula::joint_count<R>>& limits)
       : Limited(robot, limits, controller_of(robot)) {}
   /// For a robot known at compile time.
-  Limited(const CommandLimits<joint_count>& limits, ControllerType controller)
+  Limited(const CommandLimits<articula::joint_count<R>>& limits, C controller)
     requires DescribedRobot<R>
       : Limited(R(), limits, std::move(controller)) {}
-  /// @copydoc Limited(const CommandLimits<joint_count>&, ControllerType)
-  explicit Limited(const CommandLimits<joint_count>& limits)
+  /// @copydoc Limited(const CommandLimits<articula::joint_count<R>>&, C)
+  explicit Limited(const CommandLimits<articula::joint_count<R>>& limits)
     requires DescribedRobot<R>
       : Limited(R(), limits) {}
 
-  /// Starts the controller anew; the limits begin at the measured state. Real-time: yes.
-  void start(const State& state) noexcept {
-    controller_.start(state);
-    started_ = failed_ = goes_on_ = false;
-    unasked_cycles_ = 0;
+  /// Starts the controller. The limits begin at the measured state, those of `effort_rate` at the
+  /// effort that was applied last. Real-time: yes, if the controller's is.
+  void start(const Input& in) noexcept {
+    start_controller(controller_, in);
+    given_ = limiter_.start(in);
+    clip_.setZero();
+    passes_cut_ = false;
+    braked_cycles_ = 0;
   }
 
-  /// The controller's command, limited. Before any position is known a position command is NaN,
-  /// which no loop writes.
-  /// Real-time: yes, if the controller's is.
-  [[nodiscard]] Command update(const State& state, const Reference& reference,
-                               double period) noexcept {
-    const Command asked = ask(state, reference, period);
+  /// The controller's command within the limits. Real-time: yes, if the controller's is.
+  [[nodiscard]] Outcome<Command> update(const Input& in) noexcept {
+    Input inner{in.state, in.reference, in.period, in.applied, clip_};
+    if (passes_cut_) inner.cut += in.cut;
+    if (braked_cycles_ > detail::borne_cycles) {
+      inner.applied = {given_, Held::load};
+      inner.cut.setZero();
+      start_controller(controller_, inner);
+    }
+    braked_cycles_ = 0;
+    const Outcome<Command> own = update_controller(controller_, inner);
+    const Vector asked = numbers_of(own.command, in.state);
     report_ = {};
-    begin_cycle(state, period);
-    if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {
-      return {told(asked.effort, limit_effort(state, asked.effort))};
-    } else if constexpr (std::same_as<Command, VelocityCommand<joint_count>>) {
-      return {told(asked.velocity, limit_velocity(state, asked.velocity))};
-    } else if constexpr (std::same_as<Command, PositionCommand<joint_count>>) {
-      return {told(asked.position, limit_position(asked.position))};
-    } else {
-      return limit_multi_mode(state, asked);
+    passes_cut_ = own.verdict != Verdict::failed && is_finite(asked);
+    if (!passes_cut_) {
+      clip_.setZero();
+      return {braked(in, asked), Verdict::degraded};
     }
+    Command command = own.command;
+    note(asked, limiter_.limit(in, given_ - in.cut, command, report_));
+    clip_ = asked - given_;
+    return {command, own.verdict};
   }
 
-  /// Lets limits of `effort_rate` go on from what was given last, and the controller begin with it,
-  /// if it can. Real-time: yes.
-  /// @return  what the controller begins with of it, N x 1
-  JointVector<joint_count> prime(const State& state, const Reference& reference, double period,
-                                 const JointVector<joint_count>& command,
-                                 LastCommand is = LastCommand::any) noexcept {
-    go_on_from(command);
-    if constexpr (Primable<ControllerType, joint_count>) {
-      return detail::prime(controller_, state, reference, period, command, is);
-    } else {
-      return Vector::Zero();
-    }
+  /// Brakes all joints; the controller is not called. Real-time: yes.
+  [[nodiscard]] Outcome<Command> brake(const Input& in) noexcept {
+    if (passes_cut_) clip_ += in.cut;  // of the controller's last command, for its next call
+    passes_cut_ = false;
+    if (braked_cycles_ <= detail::borne_cycles) ++braked_cycles_;
+    report_ = {};
+    return braked(in, Vector::Constant(std::numeric_limits<double>::quiet_NaN()));
   }
-
-  /// Hears what was given in the end, or by others since the start: N x 1, see numbers_of. Limits
-  /// of `effort_rate` go on from there. (Drives that measure no effort would have them begin at 0.)
-  /// Real-time: yes.
-  void given(const JointVector<joint_count>& command) noexcept {
-    go_on_from(command);
-    if constexpr (TakesGiven<ControllerType, joint_count>) controller_.given(command);
-  }
-
-  /// Whether the controller gave no command in the last update, although state and reference were
-  /// good, or said that it has failed. Real-time: yes.
-  [[nodiscard]] bool failed() const noexcept { return failed_; }
 
   /// What the last update changed. Real-time: yes.
   [[nodiscard]] const LimitReport<joint_count>& report() const noexcept { return report_; }
   [[nodiscard]] const CommandLimits<joint_count>& limits() const noexcept { return limits_; }
-  [[nodiscard]] ControllerType& controller() noexcept { return controller_; }
-  [[nodiscard]] const ControllerType& controller() const noexcept { return controller_; }
+  [[nodiscard]] C& controller() noexcept { return controller_; }
+  [[nodiscard]] const C& controller() const noexcept { return controller_; }
 
   /// Calls function(controller).
   void for_each_part(auto&& function) const { function(controller_); }
 
   /// Goes on with other gains of the controller. Real-time: yes.
   template <class Gains>
-    requires TakesGains<ControllerType, Gains>
+    requires TakesGains<C, Gains>
   void set_gains(const Gains& gains) noexcept {
     controller_.set_gains(gains);
   }
 
  private:
   using Vector = JointVector<joint_count>;
-  static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-  static constexpr bool by_position = std::same_as<Command, PositionCommand<joint_count>>;
-  using OfJoint = std::conditional_t<by_position, PositionLimiter, JointLimiter>;
-  using OfJoints = std::array<OfJoint, static_cast<std::size_t>(joint_count)>;
-  using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, OfJoints>;
 
-  [[nodiscard]] static constexpr std::size_t index(int j) noexcept {
-    return static_cast<std::size_t>(j);
-  }
-
-  [[nodiscard]] static ControllerType controller_of(const R& robot) {
-    if constexpr (std::constructible_from<ControllerType, const R&>) {
-      return ControllerType(robot);
-    } else if constexpr (std::default_initializable<ControllerType>) {
-      return ControllerType();
+  [[nodiscard]] static C controller_of(const R& robot) {
+    if constexpr (std::constructible_from<C, const R&>) {
+      return C(robot);
+    } else if constexpr (std::default_initializable<C>) {
+      return C();
     } else {
-      static_assert(std::default_initializable<ControllerType>,
+      static_assert(std::default_initializable<C>,
                     "Limited cannot make this controller from the robot alone: pass the "
                     "controller behind the limits");
       std::terminate();
     }
   }
 
-  [[nodiscard]] static Limiter make_limiter(const R& robot,
-                                            const CommandLimits<joint_count>& limits) {
-    validate(robot, limits);
-    if constexpr (by_effort) {
-      return EffortLimiter<R>(robot, limits);
-    } else {
-      OfJoints limiters;
-      for (int j = 0; j < joint_count; ++j) limiters[index(j)] = OfJoint(limits, j);
-      return limiters;
-    }
+  [[nodiscard]] Command braked(const Input& in, const Vector& asked) noexcept {
+    Command command;
+    note(asked, limiter_.brake(in, given_ - in.cut, command, report_));
+    return command;
   }
 
-  /// The controller's command; one that is not finite where none counts.
-  [[nodiscard]] Command ask(const State& state, const Reference& reference,
-                            double period) noexcept {
-    if (!is_finite(reference)) {
-      if (unasked_cycles_ <= detail::borne_cycles) ++unasked_cycles_;
-      failed_ = false;
-      return no_command<Command>();
-    }
-    if (unasked_cycles_ > detail::borne_cycles && is_finite(state)) {
-      Vector last;
-      for (int j = 0; j < joint_count; ++j) last[j] = report_[index(j)].given;
-      detail::resume(controller_, state, reference, period, last);
-    }
-    unasked_cycles_ = 0;
-    const Command asked = controller_.update(state, reference, period);
-    const bool none = !is_finite(asked) || !is_finite(numbers_of(asked, state));
-    failed_ = (none || has_failed(controller_)) && is_finite(state);
-    return command_counts(controller_) ? asked : no_command<Command>();
-  }
-
-  /// Before the first cycle the joints' motion is what is measured; with another period they go on.
-  void begin_cycle(const State& state, double period) noexcept {
-    const bool usable = period > 0 && period < 1e6;  // s; beyond, motions overflow
-    const bool begins = !started_ && is_finite(state);
-    const bool changes = started_ && usable && period != period_;
-    if (usable) period_ = period;
-    if constexpr (by_effort) {
-      if (begins) limiter_.start(state, period_);
-      if (begins && goes_on_) limiter_.given(last_given_);
-      if (changes) limiter_.set_period(period_);
-    } else {
-      for (int j = 0; j < joint_count; ++j) {
-        OfJoint& limiter = limiter_[index(j)];
-        if (begins) limiter.start({state.position[j], state.velocity[j], 0}, period_);
-        if (changes) limiter.set_period(period_);
-      }
-    }
-    started_ = started_ || begins;
-  }
-
-  void go_on_from(const Vector& command) noexcept {
-    if constexpr (by_effort) {
-      goes_on_ = is_finite(command);
-      last_given_ = command;
-      if (started_) limiter_.given(command);
-    }
-  }
-
-  /// Notes what became of a command, and tells the controller.
-  [[nodiscard]] const Vector& told(const Vector& asked, const Vector& given) noexcept {
+  /// Notes the numbers of a command and what became of them.
+  void note(const Vector& asked, const Vector& given) noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      JointLimitReport& report = report_[index(j)];
-      // What only rounding has changed is not worth a report. What is no number always is, and so
-      // is a stiffness or damping that has changed, though it may pull nothing at this state.
+      JointLimitReport& report = report_[j];
+      // A change by rounding is not reported. What is no number always is, and so is a stiffness or
+      // damping that has changed, though it may pull nothing at this state.
       if (std::abs(asked[j] - given[j]) <= 1e-12 * (1 + std::abs(given[j]))) {
         report = {.stiffness = report.stiffness,
                   .damping = report.damping,
@@ -255,81 +166,17 @@ class Limited {
       report.asked = asked[j];
       report.given = given[j];
     }
-    if constexpr (LimitAware<ControllerType, joint_count>) {
-      if (unasked_cycles_ == 0) controller_.limited(asked - given);
-    }
-    if constexpr (TakesGiven<ControllerType, joint_count>) controller_.given(given);
-    return given;
+    given_ = given;
   }
 
-  [[nodiscard]] Vector limit_position(const Vector& asked) noexcept {
-    if (!started_) return Vector::Constant(not_a_number);
-    const bool brake = !is_finite(asked);
-    Vector given;
-    for (int j = 0; j < joint_count; ++j) {
-      JointLimitReport& report = report_[index(j)];
-      given[j] =
-          brake ? limiter_[index(j)].brake(report) : limiter_[index(j)].limit(asked[j], report);
-    }
-    return given;
-  }
-
-  [[nodiscard]] Vector limit_velocity(const State& state, const Vector& asked) noexcept {
-    if (!started_) return Vector::Zero();
-    const bool brake = !is_finite(asked) || !is_finite(state.position);
-    Vector given;
-    for (int j = 0; j < joint_count; ++j) {
-      JointLimiter& limiter = limiter_[index(j)];
-      if (is_finite(state.position[j])) limiter.measured(state.position[j]);
-      static_cast<void>(limiter.move(brake ? not_a_number : asked[j], report_[index(j)]));
-      given[j] = limiter.motion().velocity;
-    }
-    return given;
-  }
-
-  [[nodiscard]] Vector limit_effort(const State& state, const Vector& asked) noexcept {
-    return started_ ? limiter_.limit(state, asked, report_) : Vector(Vector::Zero());
-  }
-
-  [[nodiscard]] Command limit_multi_mode(const State& state, const Command& asked) noexcept {
-    const Vector asked_total = spring_pull(asked, state) + asked.effort;
-    if (!is_finite(asked_total) || !is_finite(asked)) {  // nothing but the effort that brakes
-      Command braking;
-      braking.effort = told(asked_total, limit_effort(state, Vector::Constant(not_a_number)));
-      return braking;
-    }
-    Command given = asked;
-    given.position = given.position.cwiseMax(limits_.lower).cwiseMin(limits_.upper);
-    given.velocity = given.velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity);
-    given.stiffness = given.stiffness.cwiseMax(0);
-    given.damping = given.damping.cwiseMax(0);
-    const Vector total = spring_pull(given, state) + asked.effort;
-    const Vector effort =
-        started_ ? limiter_.limit(state, total, report_, given.stiffness, given.damping)
-                 : Vector(Vector::Zero());
-    for (int j = 0; j < joint_count; ++j) {
-      JointLimitReport& report = report_[index(j)];
-      report.position = report.position || given.position[j] != asked.position[j];
-      report.velocity = report.velocity || given.velocity[j] != asked.velocity[j];
-      report.stiffness = given.stiffness[j] != asked.stiffness[j];
-      report.damping = given.damping[j] != asked.damping[j];
-      if (effort[j] == total[j] && std::abs(asked.effort[j]) <= limits_.effort[j]) continue;
-      set_total(given, state, j, effort[j], limits_.effort[j]);
-    }
-    static_cast<void>(told(asked_total, effort));
-    return given;
-  }
-
-  ControllerType controller_;
+  C controller_;
   CommandLimits<joint_count> limits_;
-  Limiter limiter_;
+  detail::CommandLimiter<R, Command> limiter_;
   LimitReport<joint_count> report_{};
-  double period_ = 1e-3;
-  Vector last_given_ = Vector::Zero();  ///< before the first update, if it goes on from there
-  int unasked_cycles_ = 0;              ///< in a row, counted to one more than are borne with
-  bool goes_on_ = false;
-  bool started_ = false;
-  bool failed_ = false;
+  Vector given_ = Vector::Zero();  ///< numbers of the last command
+  Vector clip_ = Vector::Zero();   ///< of the controller's last command, by these limits
+  bool passes_cut_ = false;        ///< the last command was the controller's, within limits
+  int braked_cycles_ = 0;          ///< without a reference, counted to one more than are borne
 };
 
 }  // namespace articula

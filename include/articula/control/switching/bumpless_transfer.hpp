@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Commands that go on where the last one left off.
+/// @file Bumpless transfer between the commands of two controllers.
 #pragma once
 
 #include "articula/control/laws/command_numbers.hpp"
-#include "articula/control/laws/sum_controller.hpp"
+#include "articula/control/laws/command_range.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
@@ -44,16 +44,13 @@ class BumplessTransfer {
   /// @param robot  within whose limits commands are kept
   /// @param slew   r, how fast differences decay [unit of the command per s], N x 1
   /// @throws std::invalid_argument naming the joint whose slew is not a number > 0
-  BumplessTransfer(const R& robot, const Vector& slew) : slew_(slew) {
+  BumplessTransfer(const R& robot, const Vector& slew)
+      : slew_(slew), range_(detail::finite_range<C>(robot, huge)) {
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(slew[j]) && slew[j] > 0) continue;
       detail::refuse({"switch: slew ", slew[j], " of joint '",
                       joint_names(robot)[static_cast<std::size_t>(j)], "' is not a number > 0"});
     }
-    // Infinite limits are taken for huge ones, so that no sum or difference overflows.
-    const auto range = detail::command_range<C>(robot);
-    lowest_ = range.lowest.cwiseMax(-huge);
-    highest_ = range.highest.cwiseMin(huge);
   }
 
   /// The default slew: from 0 to the drive's limit within 0.1 s, for efforts and velocities; a
@@ -78,11 +75,8 @@ class BumplessTransfer {
   /// Lets the next command go on from the last one. Real-time: yes.
   void take_over() noexcept { takes_over_ = true; }
 
-  /// Hears what was given in the end in place of the last command, or by others, N x 1; not what is
-  /// not finite. Real-time: yes.
-  void set_given(const Vector& given) noexcept {
-    if (is_finite(given)) given_ = bounded(given);
-  }
+  /// Sets what was applied in the end in place of the last command, finite, N x 1. Real-time: yes.
+  void set_applied(const Vector& numbers) noexcept { given_ = bounded(numbers); }
 
   /// Whether a command can be passed on: whether its numbers are finite. Real-time: yes.
   [[nodiscard]] static bool passable(const C& command, const State& state) noexcept {
@@ -92,14 +86,14 @@ class BumplessTransfer {
   /// The command that is given.
   /// @param command  the controller's own, passable
   /// @param state    measured joints
-  /// @param period   dt [s]; one that is no time lets nothing decay
+  /// @param period   dt [s]
   /// Real-time: yes.
   [[nodiscard]] C pass(const C& command, const State& state, double period) noexcept {
     const Vector own = bounded(numbers_of(command, state));
     if (takes_over_) {
       carried_ = given_ - own;
     } else {
-      const Vector step = slew_ * (is_finite(period) && period > 0 ? period : 0);
+      const Vector step = slew_ * period;
       carried_ -= carried_.cwiseMax(-step).cwiseMin(step);
     }
     takes_over_ = false;
@@ -108,10 +102,7 @@ class BumplessTransfer {
     return with_total(command, own, state);
   }
 
-  /// Hears what was cut off from the last command afterwards. Real-time: yes.
-  void limited(const Vector& excess) noexcept { set_given(given_ - excess); }
-
-  /// What was given last, N x 1. Real-time: yes.
+  /// The numbers that the next command goes on from, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& given() const noexcept { return given_; }
   /// c, what is still carried, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& carried() const noexcept { return carried_; }
@@ -124,10 +115,10 @@ class BumplessTransfer {
   }
 
  private:
-  static constexpr double huge = 1e300;
+  static constexpr double huge = 1e300;  ///< in place of infinite limits: no sum overflows
 
   [[nodiscard]] Vector bounded(const Vector& values) const noexcept {
-    return values.cwiseMax(lowest_).cwiseMin(highest_);
+    return values.cwiseMax(range_.lowest).cwiseMin(range_.highest);
   }
 
   /// The command with what is given in place of its own number.
@@ -138,7 +129,7 @@ class BumplessTransfer {
       const Vector springs = spring_pull(command, state);
       for (int j = 0; j < joint_count; ++j) {
         if (given_[j] == own[j]) continue;
-        given.effort[j] = std::clamp(given_[j] - springs[j], lowest_[j], highest_[j]);
+        given.effort[j] = std::clamp(given_[j] - springs[j], range_.lowest[j], range_.highest[j]);
         const double share = springs[j] != 0 ? (given_[j] - given.effort[j]) / springs[j] : 1;
         given.position[j] = state.position[j] + share * (command.position[j] - state.position[j]);
         given.velocity[j] = state.velocity[j] + share * (command.velocity[j] - state.velocity[j]);
@@ -149,7 +140,8 @@ class BumplessTransfer {
     }
   }
 
-  Vector slew_, lowest_, highest_;
+  Vector slew_;
+  detail::CommandRange<joint_count> range_;
   Vector given_ = Vector::Zero();    ///< y
   Vector carried_ = Vector::Zero();  ///< c
   bool takes_over_ = false;

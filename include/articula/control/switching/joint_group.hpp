@@ -2,6 +2,7 @@
 /// @file Groups of a robot's joints.
 #pragma once
 
+#include "articula/core/joint_array.hpp"
 #include "articula/core/name.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
@@ -26,9 +27,9 @@ struct JointGroup {
 ///         groups or in none, the divisor below 1, the name that is empty or there twice
 /// Real-time: no (allocates).
 template <Robot R, std::size_t GroupCount>
-[[nodiscard]] std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> group_of_each_joint(
+[[nodiscard]] JointArray<std::size_t, joint_count<R>> group_of_each_joint(
     const R& robot, const std::array<JointGroup, GroupCount>& groups) {
-  std::array<std::size_t, static_cast<std::size_t>(joint_count<R>)> owners;
+  JointArray<std::size_t, joint_count<R>> owners;
   owners.fill(GroupCount);
   for (std::size_t g = 0; g < GroupCount; ++g) {
     const JointGroup& group = groups[g];
@@ -43,7 +44,7 @@ template <Robot R, std::size_t GroupCount>
           {"groups: divisor ", group.divisor, " of group '", group.name.view(), "' is below 1"});
     }
     for (const Name& joint : group.joints) {
-      std::size_t& owner = owners[static_cast<std::size_t>(joint_index(robot, joint.view()))];
+      std::size_t& owner = owners[joint_index(robot, joint.view())];
       if (owner != GroupCount) {
         detail::refuse({"groups: joint '", joint.view(), "' of group '", group.name.view(),
                         "' is in group '", groups[owner].name.view(), "' already"});

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Several controllers in one, as Switch and Groups hold them.
+#pragma once
+
+#include "articula/control/laws/valid_gains.hpp"
+
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace articula {
+
+/// The controllers of a Switch or of Groups.
+template <class... Controllers>
+class ControllerTuple {
+ public:
+  /// One of the controllers, by its place in the list or its type.
+  template <std::size_t I>
+  [[nodiscard]] auto& member() noexcept {
+    return std::get<I>(controllers_);
+  }
+  template <class C>
+  [[nodiscard]] C& member() noexcept {
+    return std::get<C>(controllers_);
+  }
+  template <class C>
+  [[nodiscard]] const C& member() const noexcept {
+    return std::get<C>(controllers_);
+  }
+
+  /// A compile-time error: several controllers take such gains. (As it may throw, TakesGains is
+  /// false.)
+  template <class Gains>
+    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) > 1)
+  void set_gains(const Gains&) {
+    static_assert(
+        sizeof(Gains) == 0,
+        "several controllers take such gains: write member<I>().set_gains(gains) for the one "
+        "that is meant");
+  }
+
+  /// Goes on with other gains of the one controller that takes them. Where several do, write
+  /// `member<I>().set_gains(gains)`. Real-time: yes.
+  template <class Gains>
+    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) == 1)
+  void set_gains(const Gains& gains) noexcept {
+    for_each([&](auto& controller, std::size_t) noexcept {
+      if constexpr (TakesGains<decltype(controller), Gains>) controller.set_gains(gains);
+    });
+  }
+
+ protected:
+  explicit ControllerTuple(Controllers... controllers) : controllers_(std::move(controllers)...) {}
+
+  /// Calls function(controller, place) for each of the controllers.
+  void for_each(auto&& function) noexcept { visit(controllers_, function); }
+  void for_each(auto&& function) const { visit(controllers_, function); }
+
+ private:
+  static void visit(auto& controllers, auto& function) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (function(std::get<I>(controllers), I), ...);
+    }(std::index_sequence_for<Controllers...>());
+  }
+
+  std::tuple<Controllers...> controllers_;
+};
+
+}  // namespace articula
