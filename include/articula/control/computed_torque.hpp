@@ -42,9 +42,9 @@ class ComputedTorqueLaw {
   JointVector<joint_count> start(const ControlInput<joint_count>& in) noexcept {
     ControlInput<joint_count> inner{in.state, in.reference, in.period, in.applied};
     if (!in.applied.reached_drives()) return feedback_.start(inner);
-    inner.applied.numbers = forward_dynamics(robot_, in.state.position, in.state.velocity,
-                                             in.applied.numbers) -
-                            in.reference.acceleration;
+    inner.applied.numbers =
+        forward_dynamics(robot_, in.state.position, in.state.velocity, in.applied.numbers) -
+        in.reference.acceleration;
     const JointVector<joint_count> acceleration =
         in.reference.acceleration + feedback_.start(inner);
     return inverse_dynamics(robot_, in.state.position, in.state.velocity, acceleration);

@@ -32,8 +32,7 @@ class DriveImpedance {
       : DriveImpedance(R(), gains) {}
 
   /// The springs, dampers and efforts for the coming period. Real-time: yes.
-  [[nodiscard]] MultiModeCommand<joint_count> update(
-      const ControlInput<joint_count>& in) noexcept {
+  [[nodiscard]] MultiModeCommand<joint_count> update(const ControlInput<joint_count>& in) noexcept {
     MultiModeCommand<joint_count> command{.position = in.reference.position,
                                           .velocity = in.reference.velocity};
     for (int j = 0; j < joint_count; ++j) {

@@ -14,17 +14,15 @@ namespace articula {
 namespace detail {
 
 template <class C, int N>
-concept HasUpdate = requires(C& controller, const ControlInput<N>& input) {
-  controller.update(input);
-};
+concept HasUpdate =
+    requires(C& controller, const ControlInput<N>& input) { controller.update(input); };
 
 template <class C, int N>
 concept IsCallable = requires(C& controller, const ControlInput<N>& input) { controller(input); };
 
 template <class C, int N>
-concept HasStart = requires(C& controller, const ControlInput<N>& input) {
-  controller.start(input);
-};
+concept HasStart =
+    requires(C& controller, const ControlInput<N>& input) { controller.start(input); };
 
 /// A type with a member `start` that does not take the input would never be started.
 template <class C, int N>

@@ -7,52 +7,35 @@
 
 #include <concepts>
 #include <exception>
-#include <utility>
 
 namespace articula::detail {
 
-template <class C, int N>
-concept Startable = requires(C controller, const JointState<N>& state) { controller.start(state); };
-
-template <class C, int N>
-concept Updatable =
-    requires(C controller, const JointState<N>& state, const JointReference<N>& reference,
-             double period) { controller.update(state, reference, period); };
-
-/// What is asserted of a type that can be updated.
+/// What is asserted of a type that can be called.
 /// @tparam N  number of joints
-template <class C, int N, bool = Updatable<C, N>>
+template <class C, int N, bool = HasUpdate<C, N> || IsCallable<C, N>>
 struct CheckedUpdate {
-  using Command = decltype(std::declval<C&>().update(
-      std::declval<const JointState<N>&>(), std::declval<const JointReference<N>&>(), double()));
-  static_assert(noexcept(std::declval<C&>().update(std::declval<const JointState<N>&>(),
-                                                   std::declval<const JointReference<N>&>(),
-                                                   double())),
-                "update of the controller must be noexcept");
+  using Command = CommandOf<C, N>;
+  static_assert(update_is_noexcept<C, N>(), "update of the controller must be noexcept");
   static_assert(JointCommand<Command, N>,
                 "update of the controller must return a command for N joints by value, such as "
-                "EffortCommand<N>, see core/joint_command.hpp");
+                "EffortCommand<N>, or an Outcome of one, see core/controller.hpp");
 };
 template <class C, int N>
 struct CheckedUpdate<C, N, false> {
   using Command = EffortCommand<N>;  // so that the message below is the first
-  static_assert(Updatable<C, N>,
-                "the controller has no update(JointState<N>, JointReference<N>, double period) for "
-                "the N joints of this robot, see core/controller.hpp");
+  static_assert(HasUpdate<C, N>,
+                "the controller has no update(const ControlInput<N>&) for the N joints of this "
+                "robot, see core/controller.hpp");
 };
 
-/// Asserts all that the concept Controller wants, one thing at a time.
+/// Asserts all that the concept Controller demands, one thing at a time.
 /// @tparam N  number of joints
-template <class C, int N, bool = Startable<C, N>>
-struct CheckedController : CheckedUpdate<C, N> {
-  static_assert(noexcept(std::declval<C&>().start(std::declval<const JointState<N>&>())),
-                "start of the controller must be noexcept");
-};
 template <class C, int N>
-struct CheckedController<C, N, false> : CheckedUpdate<C, N> {
-  static_assert(Startable<C, N>,
-                "the controller has no start(JointState<N>) for the N joints of this robot, see "
-                "core/controller.hpp");
+struct CheckedController : CheckedUpdate<C, N> {
+  static_assert(StartFits<C, N>,
+                "start of the controller must take a const ControlInput<N>& for the N joints of "
+                "this robot, see core/controller.hpp");
+  static_assert(start_is_noexcept<C, N>(), "start of the controller must be noexcept");
 };
 
 /// Hardware that is written such commands, whatever else it may lack.

@@ -48,8 +48,8 @@ class OnJoints {
   auto start(const ControlInput<N>& in) noexcept
     requires detail::StartsLaw<Law, N>
   {
-    const ControlInput<N> own{in.state, in.reference, in.period,
-                              {chosen(in.applied.numbers), in.applied.held}};
+    const ControlInput<N> own{
+        in.state, in.reference, in.period, {chosen(in.applied.numbers), in.applied.held}};
     if constexpr (detail::SharesApplied<Law, N>) {
       return chosen(law_.start(own));
     } else {
@@ -59,8 +59,7 @@ class OnJoints {
 
   /// The law's output on its joints, 0 on the others, N x 1. Real-time: yes, if the law's is.
   [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) noexcept {
-    return chosen(
-        law_.output({in.state, in.reference, in.period, in.applied, chosen(in.cut)}));
+    return chosen(law_.output({in.state, in.reference, in.period, in.applied, chosen(in.cut)}));
   }
 
   /// Goes on with other gains. Real-time: yes.

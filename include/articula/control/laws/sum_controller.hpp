@@ -37,8 +37,7 @@ class SumController {
 
   /// @param robot  whose limits hold
   /// @param laws   ready for use
-  explicit SumController(const R& robot, Laws... laws)
-      : range_(robot), laws_(std::move(laws)...) {}
+  explicit SumController(const R& robot, Laws... laws) : range_(robot), laws_(std::move(laws)...) {}
 
   /// Starts all laws. If a command was applied, laws that can, such as a PID, begin with what it
   /// holds beyond the other laws. Real-time: yes, if the laws' are.
@@ -56,7 +55,8 @@ class SumController {
     });
     for_each_law([&](auto& law) noexcept {
       using Law = std::remove_reference_t<decltype(law)>;
-      if constexpr (detail::SharesApplied<Law, joint_count>) rest.applied.numbers -= law.start(rest);
+      if constexpr (detail::SharesApplied<Law, joint_count>)
+        rest.applied.numbers -= law.start(rest);
     });
   }
 

@@ -62,7 +62,8 @@ class CommandLimiter<R, PositionCommand<joint_count<R>>>
   using Vector = JointVector<N>;
 
  public:
-  CommandLimiter(const R&, const CommandLimits<N>& limits) : CommandLimiter::LimitersOfJoints(limits) {}
+  CommandLimiter(const R&, const CommandLimits<N>& limits)
+      : CommandLimiter::LimitersOfJoints(limits) {}
 
   Vector start(const ControlInput<N>& in) noexcept {
     this->start_all(in);
@@ -91,7 +92,8 @@ class CommandLimiter<R, VelocityCommand<joint_count<R>>>
   using Vector = JointVector<N>;
 
  public:
-  CommandLimiter(const R&, const CommandLimits<N>& limits) : CommandLimiter::LimitersOfJoints(limits) {}
+  CommandLimiter(const R&, const CommandLimits<N>& limits)
+      : CommandLimiter::LimitersOfJoints(limits) {}
 
   Vector start(const ControlInput<N>& in) noexcept {
     this->start_all(in);
@@ -158,8 +160,7 @@ class CommandLimiter<R, EffortCommand<joint_count<R>>> : public LimiterOfEfforts
 
   Vector limit(const ControlInput<N>& in, const Vector& last, EffortCommand<N>& command,
                LimitReport<N>& report) noexcept {
-    return command.effort =
-               this->limiter(in.period, last).limit(in.state, command.effort, report);
+    return command.effort = this->limiter(in.period, last).limit(in.state, command.effort, report);
   }
   Vector brake(const ControlInput<N>& in, const Vector& last, EffortCommand<N>& command,
                LimitReport<N>& report) noexcept {

@@ -4,8 +4,8 @@
 
 #include "articula/control/safety/damping_effort.hpp"
 #include "articula/control/safety/safe_command.hpp"
-#include "articula/core/finite.hpp"
 #include "articula/core/control_input.hpp"
+#include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/refuse.hpp"
 

@@ -62,7 +62,8 @@ class Switch : public ControllerSelector<R, Controllers...> {
       : Selector(robot, options, std::move(controllers)...),
         transfer_(robot, options.slew.value_or(Transfer::default_slew(robot))) {}
   /// For a robot known at compile time.
-  explicit Switch(const SwitchOptions<articula::joint_count<R>>& options, Controllers... controllers)
+  explicit Switch(const SwitchOptions<articula::joint_count<R>>& options,
+                  Controllers... controllers)
     requires DescribedRobot<R>
       : Switch(R(), options, std::move(controllers)...) {}
 
@@ -89,7 +90,8 @@ class Switch : public ControllerSelector<R, Controllers...> {
     if (this->switches()) {
       this->activate(this->planned());
       inner.cut.setZero();
-      inner.applied = {transfer_.given(), begun_ ? Held::push : std::min(in.applied.held, Held::unsure)};
+      inner.applied = {transfer_.given(),
+                       begun_ ? Held::push : std::min(in.applied.held, Held::unsure)};
       start_one(this->active_index(), inner);
       if (begun_) transfer_.take_over();
     }
@@ -107,9 +109,8 @@ class Switch : public ControllerSelector<R, Controllers...> {
   {
     Outcome<Command> outcome = Outcome<Command>::failed();
     const Input inner = inner_input(in);
-    this->visit(this->active_index(), [&](auto& controller) noexcept {
-      outcome = brake_controller(controller, inner);
-    });
+    this->visit(this->active_index(),
+                [&](auto& controller) noexcept { outcome = brake_controller(controller, inner); });
     return passed(outcome, in);
   }
 

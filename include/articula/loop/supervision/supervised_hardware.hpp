@@ -103,7 +103,7 @@ class SupervisedHardware {
       if (!trusted) return command;
       CommandType damped{
           damping_effort(robot(), state_.position, state_.velocity, options_.damping_time)};
-      return is_finite(damped) ? limited(robot(), damped) : CommandType{};
+      return is_finite(damped) ? within_effort_limits(robot(), damped) : CommandType{};
     } else if constexpr (std::same_as<CommandType, MultiModeCommand<joint_count>>) {
       return options_.behaviour == SafeBehaviour::zero_effort ? CommandType{} : command;
     } else if constexpr (std::same_as<CommandType, PositionCommand<joint_count>>) {

@@ -17,7 +17,7 @@
 
 namespace articula {
 
-/// A Loop under supervision:
+/// A ControlLoop under supervision:
 ///
 ///     inactive --request_activation--> starting --good state--> active --too much--> fault
 ///        ^---------- request_deactivation -------------------------'                   |
@@ -28,28 +28,27 @@ namespace articula {
 /// if need be; those that come while the loop is not active are dropped and never used later. What
 /// is a fault, and what the joints do then, is in SupervisionOptions; docs/realtime.md has a table.
 ///
-/// It is a layer around Loop, and Loop knows nothing of it. It stays where it was made.
-/// @tparam HardwareType        satisfies Hardware
-/// @tparam ControllerTemplate  makes a Controller of the hardware's robot
-template <class HardwareType, template <class> class ControllerTemplate>
-class SupervisedLoop {
+/// It is a layer around ControlLoop, which does not depend on it. It stays where it was made.
+/// @tparam HardwareType  satisfies Hardware
+/// @tparam C             satisfies Controller
+template <class HardwareType, class C>
+class SupervisedControlLoop {
  public:
   using RobotType = typename HardwareType::RobotType;
-  using ControllerType = ControllerTemplate<RobotType>;
+  using ControllerType = C;
   static constexpr int joint_count = articula::joint_count<RobotType>;
   using State = JointState<joint_count>;
   using Reference = JointReference<joint_count>;
-  using Command = typename Loop<HardwareType, ControllerTemplate>::Command;
+  using Command = typename ControlLoop<HardwareType, C>::Command;
 
   /// Default hardware and controller.
-  explicit SupervisedLoop(const SupervisionOptions& options = {})
+  explicit SupervisedControlLoop(const SupervisionOptions& options = {})
     requires std::default_initializable<HardwareType>
-      : SupervisedLoop(HardwareType(), detail::default_controller<ControllerType>(), options) {}
+      : SupervisedControlLoop(HardwareType(), detail::default_controller<C>(), options) {}
 
   /// Given hardware under the default controller.
-  explicit SupervisedLoop(HardwareType hardware, const SupervisionOptions& options = {})
-      : SupervisedLoop(std::move(hardware), detail::default_controller<ControllerType>(), options) {
-  }
+  explicit SupervisedControlLoop(HardwareType hardware, const SupervisionOptions& options = {})
+      : SupervisedControlLoop(std::move(hardware), detail::default_controller<C>(), options) {}
 
   /// Does not activate the hardware.
   /// @param hardware    the joints
@@ -57,17 +56,17 @@ class SupervisedLoop {
   /// @param options     what is tolerated
   /// @param period      as Loop's
   /// @throws std::invalid_argument if the period or an option makes no sense
-  SupervisedLoop(HardwareType hardware, ControllerType controller,
-                 const SupervisionOptions& options = {}, double period = 1e-3)
+  SupervisedControlLoop(HardwareType hardware, C controller, const SupervisionOptions& options = {},
+                        double period = 1e-3)
       : options_(options),
         loop_(Gate(std::move(hardware), options), std::move(controller), period) {
     validate(options, loop_.period());
   }
 
   /// Active hardware is stopped.
-  ~SupervisedLoop() { static_cast<void>(stop()); }
-  SupervisedLoop(const SupervisedLoop&) = delete;
-  SupervisedLoop& operator=(const SupervisedLoop&) = delete;
+  ~SupervisedControlLoop() { static_cast<void>(stop()); }
+  SupervisedControlLoop(const SupervisedControlLoop&) = delete;
+  SupervisedControlLoop& operator=(const SupervisedControlLoop&) = delete;
 
   /// One cycle.
   /// @return Status::ok, or what is wrong with this cycle; in a fault its cause; Status::inactive
@@ -148,8 +147,8 @@ class SupervisedLoop {
   [[nodiscard]] double period() const noexcept { return loop_.period(); }
   /// As Loop's. Real-time: no (allocates).
   [[nodiscard]] std::vector<std::string> notices() const { return loop_.notices(); }
-  [[nodiscard]] ControllerType& controller() noexcept { return loop_.controller(); }
-  [[nodiscard]] const ControllerType& controller() const noexcept { return loop_.controller(); }
+  [[nodiscard]] C& controller() noexcept { return loop_.controller(); }
+  [[nodiscard]] const C& controller() const noexcept { return loop_.controller(); }
   [[nodiscard]] HardwareType& hardware() noexcept { return gate().hardware(); }
   [[nodiscard]] const HardwareType& hardware() const noexcept { return gate().hardware(); }
 
@@ -187,7 +186,8 @@ class SupervisedLoop {
   [[nodiscard]] Status start() noexcept {
     if (gate().verdict() == Status::ok) {
       hold_here();
-      loop_.controller().start(loop_.state());
+      start_controller(loop_.controller(),
+                       ControlInput<joint_count>{loop_.state(), loop_.reference(), loop_.period()});
       reference_age_ = 0;
       enter(LoopMode::active, Passage::command, Status::ok);
     } else if ((waited_ += loop_.period()) > options_.start_time) {
@@ -214,9 +214,8 @@ class SupervisedLoop {
                                        cause == Status::overrun;
     hold_here();
     // Damping knows no limits of position. A controller that keeps them brakes as it should.
-    const bool holds =
-        options_.behaviour == SafeBehaviour::hold ||
-        (options_.behaviour == SafeBehaviour::damp && BrakesWithoutReference<ControllerType>);
+    const bool holds = options_.behaviour == SafeBehaviour::hold ||
+                       (options_.behaviour == SafeBehaviour::damp && Brakes<C, joint_count>);
     if (holds && controller_is_trusted) {
       enter(LoopMode::fault, Passage::command, Status::ok);
     } else {
@@ -236,7 +235,7 @@ class SupervisedLoop {
   }
 
   SupervisionOptions options_;
-  Loop<Gate, ControllerTemplate> loop_;
+  ControlLoop<Gate, C> loop_;
   LoopMode mode_ = LoopMode::inactive;
   std::uint64_t cycles_ = 0;
   int bad_cycles_ = 0;
@@ -249,6 +248,17 @@ class SupervisedLoop {
   std::atomic<LoopMode> shared_mode_ = LoopMode::inactive;
   std::atomic<Status> fault_ = Status::ok;
   LatestValue<Reference> posted_;
+};
+
+/// A SupervisedControlLoop whose controller is made from the hardware's robot, see Loop.
+/// @tparam HardwareType        satisfies Hardware
+/// @tparam ControllerTemplate  makes a Controller of the hardware's robot
+template <class HardwareType, template <class> class ControllerTemplate>
+class SupervisedLoop
+    : public SupervisedControlLoop<HardwareType,
+                                   ControllerTemplate<typename HardwareType::RobotType>> {
+ public:
+  using SupervisedLoop::SupervisedControlLoop::SupervisedControlLoop;
 };
 
 }  // namespace articula
