@@ -37,13 +37,13 @@ template <template <class> class ControllerTemplate>
 void controller_update(benchmark::State& bench) {
   const auto states = make_states();
   ControllerTemplate<Q2d> controller;
-  controller.start(states[0]);
+  controller.start({states[0], {}, 1e-3});
   JointReference<2> reference;
   reference.effort = {1, 1};
   std::size_t i = 0;
   for (auto _ : bench) {
     benchmark::DoNotOptimize(reference);
-    EffortCommand<2> command = controller.update(states[i++ % states.size()], reference, 1e-3);
+    EffortCommand<2> command = controller.update({states[i++ % states.size()], reference, 1e-3});
     benchmark::DoNotOptimize(command);
   }
 }

@@ -33,7 +33,7 @@ ControlToolboxPidLaw<1> law_of(ControlToolbox version, const PidGains& gains = c
 double output(ControlToolboxPidLaw<1>& law, double error, double period = 1e-3) {
   JointReference<1> reference;
   reference.position[0] = error;
-  return law.effort({}, reference, period)[0];
+  return law.output({{}, reference, period})[0];
 }
 
 std::string printed(double x) {
@@ -103,12 +103,12 @@ TEST_CASE("our own law has humble's outputs without the kick, and no windup") {
   reference.position[0] = 0.01;
   const char* const expected[] = {"23.1464", "23.1928", "23.2392"};
   for (const char* text : expected) {
-    CHECK(printed(law.effort({}, reference, 1e-3)[0]) == text);
+    CHECK(printed(law.output({{}, reference, 1e-3})[0]) == text);
   }
-  for (int k = 3; k < 2000; ++k) static_cast<void>(law.effort({}, reference, 1e-3));
+  for (int k = 3; k < 2000; ++k) static_cast<void>(law.output({{}, reference, 1e-3}));
   CHECK(law.integral()[0] == 27.94);
   reference.position[0] = -0.01;
-  static_cast<void>(law.effort({}, reference, 1e-3));
+  static_cast<void>(law.output({{}, reference, 1e-3}));
   CHECK(law.integral()[0] < 27.94);
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("the current law's ways against windup") {
     JointReference<1> reference;
     reference.position[0] = -0.01;
     reference.velocity[0] = 1;  // 100 - 0.1 is cut off, while the error asks for less
-    CHECK(law.effort(state, reference, 0.1)[0] == 1);
+    CHECK(law.output({state, reference, 0.1})[0] == 1);
     CHECK(law.integral()[0] == Approx(0.1 * 100 * -0.01).epsilon(1e-15));
   }
 }
@@ -175,7 +175,7 @@ TEST_CASE("the given derivative is used where it is asked for") {
     JointState<1> state;
     state.velocity[0] = 2;
     reference.velocity[0] = 3;
-    CHECK(law.effort(state, reference, 1e-3)[0] == 0.299);
+    CHECK(law.output({state, reference, 1e-3})[0] == 0.299);
   }
 }
 
@@ -202,7 +202,7 @@ TEST_CASE("start forgets the past") {
     auto law = law_of(version);
     const double first = output(law, 0.01);
     static_cast<void>(output(law, 0.01));
-    law.start({});
+    law.start({{}, {}, 1e-3});
     CHECK(output(law, 0.01) == first);
   }
 }
@@ -234,13 +234,13 @@ TEST_CASE("start leaves the integrals of joints that keep them") {
     ControlToolboxPidLaw<2> law(version, {course, course}, {"shoulder", "elbow"}, {true, false});
     JointReference<2> reference;
     reference.position = JointVector<2>::Constant(0.01);
-    for (int k = 0; k < 10; ++k) static_cast<void>(law.effort({}, reference, 1e-3));
+    for (int k = 0; k < 10; ++k) static_cast<void>(law.output({{}, reference, 1e-3}));
     const double kept = law.integral()[0];
     REQUIRE(kept == Approx(0.464).epsilon(1e-12));  // 10 cycles of 0.0464 N m
-    law.start({});
+    law.start({{}, {}, 1e-3});
     CHECK(law.integral()[0] == kept);
     CHECK(law.integral()[1] == 0);
-    const auto next = law.effort({}, reference, 1e-3);
+    const auto next = law.output({{}, reference, 1e-3});
     // Both have the kick of e/dt again, since all else is forgotten.
     CHECK(next[0] - next[1] == Approx(kept).epsilon(1e-12));
   }
@@ -310,15 +310,15 @@ TEST_CASE("a velocity that is no number changes nothing but one output") {
         JointState<1> state;
         JointReference<1> reference;
         reference.position[0] = 1e-3;
-        static_cast<void>(law.effort(state, reference, 1e-3));
+        static_cast<void>(law.output({state, reference, 1e-3}));
         const double before = law.integral()[0];
         state.velocity[0] = wrong;
-        const double output = law.effort(state, reference, 1e-3)[0];
+        const double output = law.output({state, reference, 1e-3})[0];
         CAPTURE(static_cast<int>(version), static_cast<int>(way), wrong);
         CHECK((version == ControlToolbox::current ? std::isnan(output) : output == 0));
         CHECK(law.integral()[0] == before);
         state.velocity[0] = 0;
-        CHECK(is_finite(law.effort(state, reference, 1e-3)));
+        CHECK(is_finite(law.output({state, reference, 1e-3})));
       }
     }
   }

@@ -113,7 +113,7 @@ TEST_CASE("the effort is M a + h + D v + f sign(v), plus feed-forward") {
   const Vector expected = mass_matrix(robot, state.position) * a +
                           nonlinear_effects(robot, state.position, state.velocity) +
                           Vector(29.7914 * -1.5 - 0.7, 2.6404 * 2.5 + 0.7) + reference.effort;
-  const Vector effort = controller.update(state, reference, 1e-3).effort;
+  const Vector effort = controller.update({state, reference, 1e-3}).effort;
   CHECK((effort - expected).cwiseAbs().maxCoeff() < 1e-12);  // of some 50 N m
 }
 
@@ -132,10 +132,10 @@ TEST_CASE("the effort is limited, and no integral winds up meanwhile") {
     far.position = {10, elbow};
     bool limited = true;
     for (int k = 0; k < 10; ++k) {
-      limited = limited && controller.update({}, far, 1e-3).effort == limit;
+      limited = limited && controller.update({{}, far, 1e-3}).effort == limit;
     }
     CHECK(limited);
-    CHECK(controller.update({}, near, 1e-3).effort == fresh.update({}, near, 1e-3).effort);
+    CHECK(controller.update({{}, near, 1e-3}).effort == fresh.update({{}, near, 1e-3}).effort);
   }
 }
 
@@ -149,7 +149,8 @@ TEST_CASE("the default is critically damped at 20 rad/s") {
   ComputedTorque<Q2d> by_default, given(gains);
   JointReference<2> reference;
   reference.position = {0.01, -0.02};
-  CHECK(by_default.update({}, reference, 1e-3).effort == given.update({}, reference, 1e-3).effort);
+  CHECK(by_default.update({{}, reference, 1e-3}).effort ==
+        given.update({{}, reference, 1e-3}).effort);
 }
 
 TEST_CASE("an overflow is over in the next cycle") {
@@ -157,8 +158,8 @@ TEST_CASE("an overflow is over in the next cycle") {
                                   PidGains{.proportional = 400, .integral = 1e3}});
   JointReference<2> wild, calm;
   wild.position = {1e308, -1e308};
-  static_cast<void>(controller.update({}, wild, 1e-3));
-  CHECK(is_finite(controller.update({}, calm, 1e-3)));
+  static_cast<void>(controller.update({{}, wild, 1e-3}));
+  CHECK(is_finite(controller.update({{}, calm, 1e-3})));
 }
 
 // What was lost is an acceleration, M(q)^-1 excess, at the position of that cycle, whatever gravity
@@ -174,11 +175,10 @@ TEST_CASE("integrals are told the acceleration that was lost") {
     JointState<2> state;
     state.position = random.vector<2>(3);
     const Vector error = random.vector<2>(3), excess = random.vector<2>(1);
-    law.start(state);
+    law.start({state, {}, 1e-3});
     JointReference<2> reference;
     reference.position = state.position + error;
-    static_cast<void>(law.effort(state, reference, period));
-    law.limited(excess);
+    static_cast<void>(law.output({state, reference, period}));
 
     const Vector lost = mass_matrix(robot, state.position).inverse() * excess;
     Vector integral = error * period;
@@ -188,6 +188,6 @@ TEST_CASE("integrals are told the acceleration that was lost") {
     reference.position = state.position;  // no error: nothing is added
     const Vector expected = inverse_dynamics(robot, state.position, state.velocity, integral);
     // The integrals are some 1e-3 rad/s^2 and the efforts of gravity some 10 N m.
-    CHECK((law.effort(state, reference, period) - expected).norm() < 1e-13);
+    CHECK((law.output({state, reference, period, {}, excess}) - expected).norm() < 1e-13);
   }
 }

@@ -16,9 +16,8 @@ struct ConstantEffort {
   int starts = 0;
   int updates = 0;
 
-  void start(const articula::JointState<n>&) noexcept { ++starts; }
-  articula::EffortCommand<n> update(const articula::JointState<n>&,
-                                    const articula::JointReference<n>&, double) noexcept {
+  void start(const articula::ControlInput<n>&) noexcept { ++starts; }
+  articula::EffortCommand<n> update(const articula::ControlInput<n>&) noexcept {
     ++updates;
     return {articula::JointVector<n>::Constant(effort)};
   }
@@ -29,11 +28,8 @@ template <articula::Robot R>
 struct PositionForward {
   static constexpr int n = articula::joint_count<R>;
 
-  void start(const articula::JointState<n>&) noexcept {}
-  articula::PositionCommand<n> update(const articula::JointState<n>&,
-                                      const articula::JointReference<n>& reference,
-                                      double) noexcept {
-    return {reference.position};
+  articula::PositionCommand<n> update(const articula::ControlInput<n>& in) noexcept {
+    return {in.reference.position};
   }
 };
 
@@ -44,11 +40,8 @@ struct VelocityApproach {
 
   double rate = 10;  // [1/s]
 
-  void start(const articula::JointState<n>&) noexcept {}
-  articula::VelocityCommand<n> update(const articula::JointState<n>& state,
-                                      const articula::JointReference<n>& reference,
-                                      double) noexcept {
-    return {rate * (reference.position - state.position)};
+  articula::VelocityCommand<n> update(const articula::ControlInput<n>& in) noexcept {
+    return {rate * (in.reference.position - in.state.position)};
   }
 };
 

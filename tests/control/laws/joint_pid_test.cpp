@@ -64,7 +64,7 @@ TEST_CASE("back-calculation follows what the caller cuts off, and never beyond i
   PidGains g{.integral = 1, .anti_windup = AntiWindup::back_calculation, .tracking_time = 1e-6};
   JointPid pid;
   CHECK(pid.update(g, error_of(5), 1) == 5);
-  pid.limited(g, 2);
+  pid.limit_windup(g, 2);
   CHECK(pid.integral() == 3);  // the whole of it, though dt is far above T_t
 }
 
@@ -147,20 +147,20 @@ TEST_CASE("weights take the reference out of proportional and derivative terms")
   JointState<1> state;
   JointReference<1> reference;
   state.position[0] = reference.position[0] = 100;  // counted from here
-  CHECK(law.effort(state, reference, 1e-3)[0] == 0);
+  CHECK(law.output({state, reference, 1e-3})[0] == 0);
   reference.position[0] = 101;
   reference.velocity[0] = 1e3;
-  CHECK(law.effort(state, reference, 1e-3)[0] == 2 * 0.25);
+  CHECK(law.output({state, reference, 1e-3})[0] == 2 * 0.25);
   state.position[0] = 100.5;
   state.velocity[0] = 3;
-  CHECK(law.effort(state, reference, 1e-3)[0] == Approx(2 * (0.25 - 0.5) - 3).epsilon(rounding));
+  CHECK(law.output({state, reference, 1e-3})[0] == Approx(2 * (0.25 - 0.5) - 3).epsilon(rounding));
 
   g = {.derivative = 1, .derivative_of = DerivativeOf::error, .velocity_weight = 0};
   PidLaw<1> measured({g}, {"joint"});
-  static_cast<void>(measured.effort(state, reference, 0.5));
+  static_cast<void>(measured.output({state, reference, 0.5}));
   reference.position[0] = 200;  // no kick, though no velocity is measured
   state.position[0] = 101.5;
-  CHECK(measured.effort(state, reference, 0.5)[0] == -2);
+  CHECK(measured.output({state, reference, 0.5})[0] == -2);
 }
 
 TEST_CASE("feed-forward gains act on the reference's velocity and acceleration") {
@@ -168,7 +168,7 @@ TEST_CASE("feed-forward gains act on the reference's velocity and acceleration")
   JointReference<1> reference;
   reference.velocity[0] = 3;
   reference.acceleration[0] = -4;
-  CHECK(law.effort({}, reference, 1e-3)[0] == 4);
+  CHECK(law.output({{}, reference, 1e-3})[0] == 4);
 }
 
 TEST_CASE("a continuous joint takes the short way round, another one does not") {
@@ -186,11 +186,11 @@ TEST_CASE("a continuous joint takes the short way round, another one does not") 
     reference.position[0] = random.number(-100, 100);
     CAPTURE(state.position[0], reference.position[0]);
     const double error = reference.position[0] - state.position[0];
-    const double way = turning.effort(state, reference, 1e-3)[0];
+    const double way = turning.output({state, reference, 1e-3})[0];
     CHECK(std::abs(way) <= std::numbers::pi);
     CHECK(std::cos(way) == Approx(std::cos(error)).margin(1e-12));
     CHECK(std::sin(way) == Approx(std::sin(error)).margin(1e-12));
-    CHECK(swinging.effort(state, reference, 1e-3)[0] == error);
+    CHECK(swinging.output({state, reference, 1e-3})[0] == error);
   }
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("the derivative of a continuous joint's error has no jump where the wa
   JointReference<1> reference;
   for (int k = 0; k < 10000; ++k) {
     reference.position[0] = next_angle(0, 0.01 * k);
-    const double rate = law.effort(state, reference, 0.01)[0];
+    const double rate = law.output({state, reference, 0.01})[0];
     if (k > 0) REQUIRE(rate == Approx(1).epsilon(1e-9));
   }
 }
@@ -212,13 +212,13 @@ TEST_CASE("a PID of the velocity has no kick when its reference steps, unless it
         {PidGains{.proportional = 10, .derivative = 0.25, .derivative_of = of}}, {"joint"});
     JointState<1> state;
     JointReference<1> reference;
-    static_cast<void>(law.effort(state, reference, 0.5));
+    static_cast<void>(law.output({state, reference, 0.5}));
     reference.velocity[0] = 1;
     const double kick = of == DerivativeOf::error ? 0.5 : 0;
-    CHECK(law.effort(state, reference, 0.5)[0] == 10 + kick);
-    CHECK(law.effort(state, reference, 0.5)[0] == 10);
+    CHECK(law.output({state, reference, 0.5})[0] == 10 + kick);
+    CHECK(law.output({state, reference, 0.5})[0] == 10);
     state.velocity[0] = 0.5;  // and damping in both
-    CHECK(law.effort(state, reference, 0.5)[0] == 5 - 0.25);
+    CHECK(law.output({state, reference, 0.5})[0] == 5 - 0.25);
   }
 }
 
@@ -229,9 +229,9 @@ TEST_CASE("a PID of the velocity derives its variable by differences") {
   JointReference<1> reference;
   reference.position[0] = 1e9;  // not used
   reference.velocity[0] = 1;
-  CHECK(law.effort(state, reference, 0.5)[0] == 2 + 1.5);
+  CHECK(law.output({state, reference, 0.5})[0] == 2 + 1.5);
   state.velocity[0] = 0.5;
-  CHECK(law.effort(state, reference, 0.5)[0] == 2 * 0.5 + 1.5 + 0.75 - 0.5);
+  CHECK(law.output({state, reference, 0.5})[0] == 2 * 0.5 + 1.5 + 0.75 - 0.5);
 }
 
 TEST_CASE("new gains keep the integral's output") {
@@ -239,14 +239,14 @@ TEST_CASE("new gains keep the integral's output") {
   PidLaw<1> law({PidGains{.integral = 2}}, names);
   JointReference<1> reference;
   reference.position[0] = 1;
-  static_cast<void>(law.effort({}, reference, 0.5));
+  static_cast<void>(law.output({{}, reference, 0.5}));
   law.set_gains({{PidGains{.proportional = 4, .integral = 100}}, names});
   CHECK(law.integral()[0] == 1);
   reference.position[0] = 0;
-  CHECK(law.effort({}, reference, 0.5)[0] == 1);
+  CHECK(law.output({{}, reference, 0.5})[0] == 1);
   law.set_gains({{PidGains{.integral = 1, .integral_clamp_max = 0.25}}, names});
   reference.position[0] = 1;
-  CHECK(law.effort({}, reference, 0.5)[0] == 0.25);
+  CHECK(law.output({{}, reference, 0.5})[0] == 0.25);
 }
 
 TEST_CASE("each new gain is refused where it makes no sense, naming joint, gain and value") {
@@ -309,7 +309,7 @@ TEST_CASE("hostile inputs leave nothing behind, whatever the gains") {
     double* const members[] = {&wild.error, &wild.measured, &wild.rate_error};
     *members[random.integer(0, 2)] = hostile[random.integer(0, 5)];
     static_cast<void>(pid.update(g, wild, 1e-3, random.one_in(2) ? 6.28 : 0.0));
-    pid.limited(g, hostile[random.integer(0, 5)]);
+    pid.limit_windup(g, hostile[random.integer(0, 5)]);
     CHECK(is_finite(pid.integral()));
     // The cycle after may still take its derivative from the wild one.
     static_cast<void>(pid.update(g, error_of(0.1), 1e-3));
@@ -343,7 +343,7 @@ TEST_CASE("an excess that overflowed takes the last step back, whatever the anti
       static_cast<void>(pid.update(g, error_of(1), 1e-3));
       const double before = pid.integral();
       static_cast<void>(pid.update(g, error_of(1), 1e-3));
-      pid.limited(g, excess);
+      pid.limit_windup(g, excess);
       CHECK(pid.integral() == before);
     }
   }
@@ -357,14 +357,14 @@ TEST_CASE("new clamps of the integral take force in the next cycle, also where i
     PidLaw<1> law({g}, names);
     JointReference<1> reference;
     reference.position[0] = 1;
-    static_cast<void>(law.effort({}, reference, 0.2));
+    static_cast<void>(law.output({{}, reference, 0.2}));
     CHECK(law.integral()[0] == 20);
     g.integral_clamp_max = 5;
     law.set_gains({{g}, names});
     reference.position[0] = error;
-    CHECK(law.effort({}, reference, 0.2)[0] == 5);
-    law.limited(JointVector<1>(-1.0));  // behind the other limit: what the clamp took is no step
-    CHECK(law.integral()[0] == 5);
+    CHECK(law.output({{}, reference, 0.2})[0] == 5);
+    // Behind the other limit: what the clamp took is no step.
+    CHECK(law.output({{}, reference, 0.2, {}, JointVector<1>(-1.0)})[0] == 5);
   }
 }
 
@@ -373,12 +373,12 @@ TEST_CASE("an integral whose gain becomes 0 stays as a constant until the start"
   PidLaw<1> law({PidGains{.integral = 2}}, names);
   JointReference<1> reference;
   reference.position[0] = 1;
-  static_cast<void>(law.effort({}, reference, 0.5));
+  static_cast<void>(law.output({{}, reference, 0.5}));
   law.set_gains({{PidGains{}}, names});
   reference.position[0] = -1;
-  for (int k = 0; k < 10; ++k) CHECK(law.effort({}, reference, 0.5)[0] == 1);
-  law.start({});
-  CHECK(law.effort({}, reference, 0.5)[0] == 0);
+  for (int k = 0; k < 10; ++k) CHECK(law.output({{}, reference, 0.5})[0] == 1);
+  law.start({{}, {}, 0.5});
+  CHECK(law.output({{}, reference, 0.5})[0] == 0);
 }
 
 TEST_CASE("a first measurement that is no number is not where the joint was at the start") {
@@ -437,13 +437,13 @@ TEST_CASE("the largest finite inputs give finite outputs that push the right way
       support::Random random(3);
       JointState<1> state;
       JointReference<1> reference;
-      pid.start(state);
+      pid.start({state, reference, 1e-3});
       for (int k = 0; k < 1000; ++k) {
         for (auto* number : {&state.position, &state.velocity, &reference.position,
                              &reference.velocity, &reference.acceleration, &reference.effort}) {
           (*number)[0] = big * random.integer(-1, 1);
         }
-        REQUIRE(is_finite(pid.update(state, reference, 1e-3)));
+        REQUIRE(is_finite(pid.update({state, reference, 1e-3})));
       }
     }
   }
@@ -452,8 +452,8 @@ TEST_CASE("the largest finite inputs give finite outputs that push the right way
   JointReference<1> reference;
   reference.position[0] = reference.velocity[0] = big;
   state.position[0] = state.velocity[0] = -big;
-  CHECK(pid.update(state, reference, 1e-3).effort[0] > 1e299);
-  CHECK(pid.update({}, {}, 1e-3).effort[0] == 0);
+  CHECK(pid.update({state, reference, 1e-3}).effort[0] > 1e299);
+  CHECK(pid.update({{}, {}, 1e-3}).effort[0] == 0);
 }
 
 TEST_CASE("a joint that turns for ever takes its way from angles that overflow, too") {

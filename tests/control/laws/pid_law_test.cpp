@@ -21,10 +21,16 @@ double output(PidLaw<1>& law, double position, double velocity, double period) {
   JointReference<1> reference;
   reference.position[0] = position;
   reference.velocity[0] = velocity;
-  return law.effort({}, reference, period)[0];
+  return law.output({{}, reference, period})[0];
 }
 
 JointVector<1> one(double x) { return JointVector<1>::Constant(x); }
+
+/// Tells a law what was cut off from its last output, and asks for nothing more.
+template <int N>
+void cut_off(PidLaw<N>& law, const JointVector<N>& cut) {
+  static_cast<void>(law.output({{}, {}, 0.125, {}, cut}));
+}
 
 constexpr PidGains gains{.proportional = 2,
                          .integral = 3,
@@ -49,7 +55,7 @@ TEST_CASE("each term of the PID is what its gain says") {
   reference.acceleration = {1e6, 1e6};  // not used
   reference.effort = {1e6, 1e6};        // not used
 
-  const JointVector<2> u = law.effort(state, reference, 0.1);
+  const JointVector<2> u = law.output({state, reference, 0.1});
   CHECK(u[0] == Approx(2 * 0.5 + 3 * 0.5 * 0.1 + 0.5 * 2.0).epsilon(rounding));
   CHECK(u[1] == 14.0);
   CHECK(law.integral()[0] == Approx(0.15).epsilon(rounding));
@@ -86,7 +92,7 @@ TEST_CASE("a step of the reference position gives no derivative kick") {
 TEST_CASE("start forgets the integral") {
   auto law = law_with(gains);
   static_cast<void>(output(law, 1, 0, 0.1));
-  law.start({});
+  law.start({{}, {}, 1e-3});
   CHECK(law.integral()[0] == 0.0);
   CHECK(output(law, 0, 0, 0.1) == 0.0);
 }
@@ -96,19 +102,19 @@ TEST_CASE("while the total is limited the integral moves only away from the limi
     CAPTURE(side);
     auto law = law_with({.integral = 1});
     static_cast<void>(output(law, side, 0, 0.125));
-    law.limited(one(0));
+    cut_off(law, one(0));
     CHECK(law.integral()[0] == side * 0.125);
 
     static_cast<void>(output(law, side, 0, 0.125));
-    law.limited(one(side * 1e-9));  // pushes further: taken back
+    cut_off(law, one(side * 1e-9));  // pushes further: taken back
     CHECK(law.integral()[0] == side * 0.125);
 
     static_cast<void>(output(law, side, 0, 0.125));
-    law.limited(one(side * -1e-9));  // the other limit: kept
+    cut_off(law, one(side * -1e-9));  // the other limit: kept
     CHECK(law.integral()[0] == side * 0.25);
 
     static_cast<void>(output(law, -side, 0, 0.125));
-    law.limited(one(side * 1e-9));  // comes back from the limit: kept
+    cut_off(law, one(side * 1e-9));  // comes back from the limit: kept
     CHECK(law.integral()[0] == side * 0.125);
   }
 }
@@ -116,7 +122,7 @@ TEST_CASE("while the total is limited the integral moves only away from the limi
 TEST_CASE("an excess too small to be multiplied still stops the integral") {
   auto law = law_with({.integral = 1});
   static_cast<void>(output(law, 1e-160, 0, 1e-3));
-  law.limited(one(1e-200));
+  cut_off(law, one(1e-200));
   CHECK(law.integral()[0] == 0.0);
 }
 
@@ -124,8 +130,8 @@ TEST_CASE("joints do not share their integrals") {
   PidLaw<2> law({gains, gains}, {"a", "b"});
   JointReference<2> reference;
   reference.position = {0.1, -0.1};
-  static_cast<void>(law.effort({}, reference, 0.1));
-  law.limited({1.0, 1.0});  // pushes joint a further, and joint b back
+  static_cast<void>(law.output({{}, reference, 0.1}));
+  cut_off<2>(law, {1.0, 1.0});  // pushes joint a further, and joint b back
   CHECK(law.integral()[0] == 0.0);
   CHECK(law.integral()[1] == Approx(-0.03).epsilon(rounding));
 }
@@ -159,8 +165,8 @@ TEST_CASE("an overflow does not poison the integral") {
                              .integral = integral_gain,
                              .integral_clamp_min = -clamp,
                              .integral_clamp_max = clamp});
-        static_cast<void>(law.effort(state, reference, 1e-3));
-        law.limited(one(excess));
+        static_cast<void>(law.output({state, reference, 1e-3}));
+        cut_off(law, one(excess));
         CHECK(is_finite(law.integral()[0]));
         CHECK(is_finite(output(law, 0, 0, 1e-3)));
       }
