@@ -13,7 +13,7 @@ struct SpringDamper {
   static constexpr int joint_count = articula::joint_count<R>;
   double stiffness = 50, damping = 5;  // N m/rad, N m s/rad
 
-  void start(const JointState<joint_count>&) noexcept {}  // nothing to forget
+  void start(const ControlInput<joint_count>&) noexcept {}  // nothing to forget
 
   EffortCommand<joint_count> update(const JointState<joint_count>& state,
                                     const JointReference<joint_count>& reference,

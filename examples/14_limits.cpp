@@ -11,7 +11,7 @@
 using namespace articula;
 
 template <class R>
-using Careful = Limited<R, PidPlusGravity>;
+using Careful = Limited<R, PidPlusGravity<R>>;
 
 int main() {
   CommandLimits<2> limits = command_limits(Q2d());  // position, velocity, effort: the description's

@@ -37,7 +37,7 @@ constexpr QuanserModules<2> modules{{
 }};
 
 template <class R>
-using Careful = Limited<R, PidPlusGravity>;
+using Careful = Limited<R, PidPlusGravity<R>>;
 
 const Vector small_error(1e-3, -1e-3);
 
@@ -58,8 +58,9 @@ Vector growth_while_inactive(LoopType& loop) {
   REQUIRE(loop.hardware().activate() == Status::ok);
   REQUIRE(loop.update() == Status::ok);
   PidPlusGravity<Q2d> fresh;
-  fresh.start(loop.state());
-  return loop.command().effort - fresh.update(loop.state(), loop.reference(), loop.period()).effort;
+  fresh.start({loop.state(), loop.reference(), loop.period()});
+  return loop.command().effort -
+         fresh.update({loop.state(), loop.reference(), loop.period()}).effort;
 }
 
 }  // namespace

@@ -215,7 +215,7 @@ template <class R>
 using SwitchedSlowlyIntegrating = Switch<R, SlowlyIntegrating<R>>;
 
 template <class R>
-using CarefulPosition = Limited<R, support::PositionForward>;
+using CarefulPosition = Limited<R, support::PositionForward<R>>;
 
 /// Lets a loop have so many cycles with a status of the hardware, or a NaN in its reference.
 template <class LoopType>
@@ -250,8 +250,8 @@ TEST_CASE("after many bad cycles, or one without hardware, the controller starts
   auto loop = running_loop<Integrating>();
   const auto fresh_command = [&] {
     Integrating<TiltedQ2d> fresh;
-    fresh.start(loop.hardware().measured);
-    return fresh.update(loop.hardware().measured, loop.reference(), loop.period()).effort;
+    fresh.start({loop.hardware().measured, loop.reference(), loop.period()});
+    return fresh.update({loop.hardware().measured, loop.reference(), loop.period()}).effort;
   };
   SECTION("stale") { have_bad_cycles(loop, Status::stale_state, 4); }
   SECTION("stale for long") { have_bad_cycles(loop, Status::stale_state, 4000); }

@@ -39,11 +39,9 @@ class Impedance {
   explicit Impedance(double stiffness = 30, double damping = 1)
       : stiffness_(stiffness), damping_(damping) {}
 
-  void start(const JointState<n>&) noexcept {}
-
-  EffortCommand<n> update(const JointState<n>& state, const JointReference<n>& reference,
-                          double) noexcept {
-    return {stiffness_ * (reference.position - state.position) - damping_ * state.velocity};
+  EffortCommand<n> update(const ControlInput<n>& in) noexcept {
+    return {stiffness_ * (in.reference.position - in.state.position) -
+            damping_ * in.state.velocity};
   }
 
  private:

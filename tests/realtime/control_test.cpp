@@ -61,15 +61,15 @@ std::size_t heap_calls_of(C controller) {
 }
 
 template <class R>
-using LimitedBypass = Limited<R, Bypass>;
+using LimitedBypass = Limited<R, Bypass<R>>;
 template <class R>
-using LimitedPid = Limited<R, PidPlusGravity>;
+using LimitedPid = Limited<R, PidPlusGravity<R>>;
 template <class R>
-using LimitedPosition = Limited<R, ForwardPosition>;
+using LimitedPosition = Limited<R, ForwardPosition<R>>;
 template <class R>
-using LimitedVelocity = Limited<R, ForwardVelocity>;
+using LimitedVelocity = Limited<R, ForwardVelocity<R>>;
 template <class R>
-using LimitedSprings = Limited<R, DriveImpedance>;
+using LimitedSprings = Limited<R, DriveImpedance<R>>;
 
 }  // namespace
 

@@ -6,7 +6,7 @@
 using namespace articula;
 
 template <class R>
-using CarefulPid = Limited<R, PidPlusGravity>;
+using CarefulPid = Limited<R, PidPlusGravity<R>>;
 
 extern "C" bool cycle(Loop<Q2dSim, CarefulPid>& loop) noexcept {
   return loop.update() == Status::ok;

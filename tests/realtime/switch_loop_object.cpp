@@ -7,7 +7,7 @@ using namespace articula;
 template <class R>
 using Both = Switch<R, PidPlusGravity<R>, ComputedTorque<R>>;
 template <class R>
-using Parts = Groups<R, Both<R>, Limited<R, Both>>;
+using Parts = Groups<R, Both<R>, Limited<R, Both<R>>>;
 
 extern "C" bool cycle(Loop<Q2dSim, Parts>& loop, SwitchExchange<4>& exchange) noexcept {
   exchange.apply(loop.controller());

@@ -21,7 +21,7 @@ namespace {
 template <class R>
 using Controllers = Switch<R, support::ConstantEffort<R>, PidPlusGravity<R>, ComputedTorque<R>>;
 template <class R>
-using Careful = Limited<R, Controllers>;
+using Careful = Limited<R, Controllers<R>>;
 template <class R>
 using Everything = Groups<R, Careful<R>, Controllers<R>>;
 

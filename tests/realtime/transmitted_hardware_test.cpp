@@ -25,7 +25,7 @@ using Motors =
 using Geared = TransmittedHardware<Motors, Arm, SimpleTransmission, DifferentialTransmission>;
 
 template <Robot R>
-using Careful = Limited<R, ForwardPosition>;
+using Careful = Limited<R, ForwardPosition<R>>;
 
 constexpr Link ball(const char* name) {
   return {.name = name,

@@ -56,9 +56,9 @@ static_assert(std::same_as<Positions<Loaded>::Command, PositionCommand<2>>);
 template <Robot R>
 using Velocities = MockHardware<R, VelocityCommand<2>>;
 template <class R>
-using LimitedPosition = Limited<R, ForwardPosition>;
+using LimitedPosition = Limited<R, ForwardPosition<R>>;
 template <class R>
-using LimitedVelocity = Limited<R, ForwardVelocity>;
+using LimitedVelocity = Limited<R, ForwardVelocity<R>>;
 
 template class articula::TrajectoryFollower<Scara>;
 template class articula::TrajectoryFollower<Loaded>;

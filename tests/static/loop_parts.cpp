@@ -98,7 +98,7 @@ int main() {
   Loop<MockHardware<Q2d>, ForwardPosition> mistake;
 #endif
 #ifdef LIMITED_WITHOUT_CONTROLLER
-  Limited<Bare, PidPlusGravity> mistake(command_limits(Bare()));
+  Limited<Bare, PidPlusGravity<Bare>> mistake(command_limits(Bare()));
 #endif
 #ifdef ROBOT_AS_HARDWARE
   Loop<Q2d, PidPlusGravity> mistake;

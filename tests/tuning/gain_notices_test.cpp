@@ -26,7 +26,7 @@ namespace {
 template <class R>
 using Controllers = Switch<R, Pid<R>, PidPlusGravity<R>>;
 template <class R>
-using CarefulPid = Limited<R, Pid>;
+using CarefulPid = Limited<R, Pid<R>>;
 template <class R>
 using Parts = Groups<R, Pid<R>, PidPlusGravity<R>>;
 

@@ -24,20 +24,19 @@ using support::not_a_number;
 namespace {
 
 template <class R>
-using LimitedBypass = Limited<R, Bypass>;
+using LimitedBypass = Limited<R, Bypass<R>>;
 template <class R>
-using LimitedPid = Limited<R, PidPlusGravity>;
+using LimitedPid = Limited<R, PidPlusGravity<R>>;
 template <class R>
-using LimitedImpedance = Limited<R, DriveImpedance>;
+using LimitedImpedance = Limited<R, DriveImpedance<R>>;
 
 /// Springs and dampers as a test wants them.
 template <class R>
 struct AnySprings {
   MultiModeCommand<joint_count<R>> command{};
-  void start(const JointState<joint_count<R>>&) noexcept {}
-  [[nodiscard]] MultiModeCommand<joint_count<R>> update(const JointState<joint_count<R>>&,
-                                                        const JointReference<joint_count<R>>&,
-                                                        double) noexcept {
+  void start(const ControlInput<joint_count<R>>&) noexcept {}
+  [[nodiscard]] MultiModeCommand<joint_count<R>> update(
+      const ControlInput<joint_count<R>>&) noexcept {
     return command;
   }
 };
@@ -157,7 +156,7 @@ TEST_CASE("the finer the cycle, the closer the limits are kept") {
     CommandLimits<1> limits = command_limits(robot);
     limits.upper[0] = 0.5;
     limits.acceleration[0] = 20;
-    Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
+    Limited<Model<1>, Bypass<Model<1>>> controller(robot, limits, Bypass<Model<1>>(robot));
     Simulator<Model<1>> simulator(robot, {.period = period});
     JointState<1> state;
     JointReference<1> reference;
@@ -184,7 +183,7 @@ TEST_CASE("a joint at its limit comes back as soon as the effort says so") {
   CommandLimits<1> limits;
   limits.upper[0] = 0.5;
   limits.deceleration[0] = 10;
-  Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
+  Limited<Model<1>, Bypass<Model<1>>> controller(robot, limits, Bypass<Model<1>>(robot));
   JointState<1> state;
   state.position[0] = 0.5;
   controller.start(state);
@@ -270,7 +269,7 @@ TEST_CASE("after a start efforts change no faster than asked for from what was g
   CommandLimits<1> limits;
   limits.effort[0] = 20;
   limits.effort_rate[0] = 1000;
-  Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
+  Limited<Model<1>, Bypass<Model<1>>> controller(robot, limits, Bypass<Model<1>>(robot));
   const JointVector<1> last(7.0), bad(not_a_number);
   JointReference<1> reference;
   reference.effort[0] = 10;
@@ -298,7 +297,7 @@ TEST_CASE("where efforts change slowly, a jerk that they can follow lets joints 
     limits.effort[0] = 100;
     limits.effort_rate[0] = 1000;
     if (jerk) limits.jerk[0] = 1000.0 / 2;
-    Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
+    Limited<Model<1>, Bypass<Model<1>>> controller(robot, limits, Bypass<Model<1>>(robot));
     Simulator<Model<1>> simulator(robot);
     JointState<1> state;
     JointReference<1> reference;
@@ -327,8 +326,8 @@ TEST_CASE("a feedback comes to rest if the jerk limit is twice A p/d, and may no
     CommandLimits<1> limits;
     limits.acceleration[0] = acceleration;
     limits.jerk[0] = factor * acceleration * gains.proportional / gains.derivative;
-    Limited<Model<1>, PidPlusGravity> controller(robot, limits,
-                                                 PidPlusGravity<Model<1>>(robot, {gains}));
+    Limited<Model<1>, PidPlusGravity<Model<1>>> controller(
+        robot, limits, PidPlusGravity<Model<1>>(robot, {gains}));
     Simulator<Model<1>> simulator(robot);
     JointState<1> state;
     JointReference<1> reference;
@@ -500,7 +499,7 @@ TEST_CASE("multi-mode: a negative spring or damper does not pass, and is reporte
   for (const double position : {1.0, 0.0}) {  // also where it pulls nothing
     for (const bool spring : {true, false}) {
       CAPTURE(position, spring);
-      Limited<Model<1>, AnySprings> controller(robot, limits, {});
+      Limited<Model<1>, AnySprings<Model<1>>> controller(robot, limits, {});
       MultiModeCommand<1>& asked = controller.controller().command;
       asked.stiffness[0] = spring ? -10 : 10;
       asked.damping[0] = spring ? 1 : -1;
@@ -524,7 +523,7 @@ TEST_CASE("a state that is no number is reported, also where no effort was asked
   const Model<1> robot = support::slider();
   CommandLimits<1> limits;
   limits.acceleration[0] = 10;
-  Limited<Model<1>, Bypass> controller(robot, limits, Bypass<Model<1>>(robot));
+  Limited<Model<1>, Bypass<Model<1>>> controller(robot, limits, Bypass<Model<1>>(robot));
   JointState<1> state;
   controller.start(state);
   static_cast<void>(controller.update(state, {}, dt));

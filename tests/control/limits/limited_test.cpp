@@ -23,8 +23,8 @@ namespace {
 constexpr double dt = 1e-3;
 
 using Slider = Model<1>;
-using Positions = Limited<Slider, ForwardPosition>;
-using Velocities = Limited<Slider, ForwardVelocity>;
+using Positions = Limited<Slider, ForwardPosition<Slider>>;
+using Velocities = Limited<Slider, ForwardVelocity<Slider>>;
 
 /// Limits of one joint, some of them infinite.
 CommandLimits<1> random_limits(support::Random& random) {
@@ -614,7 +614,7 @@ TEST_CASE("the controller is told what was cut off, and does not wind up") {
   const Slider robot = support::slider();
   CommandLimits<1> limits;
   limits.velocity[0] = 1;
-  using Approach = Limited<Slider, PositionByVelocity>;
+  using Approach = Limited<Slider, PositionByVelocity<Slider>>;
   Approach controller(
       robot, limits,
       PositionByVelocity<Slider>(robot, {PidGains{.proportional = 5, .integral = 2}}));
@@ -702,7 +702,7 @@ TEST_CASE("limits that make no sense are refused, naming joint, limit and value"
   limits.deceleration[0] = 2;
   CHECK_THROWS_WITH(Positions(robot, limits, ForwardPosition<Slider>(robot)),
                     Catch::Matchers::Contains("deceleration 2 is above the limit 1"));
-  CHECK_NOTHROW(Limited<Q2d, ForwardPosition>());  // the description's
+  CHECK_NOTHROW(Limited<Q2d, ForwardPosition<Q2d>>());  // the description's
 
   // Soft limits that are all beyond the others leave no way.
   for (const double side : {1.0, -1.0}) {

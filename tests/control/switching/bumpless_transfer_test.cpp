@@ -45,11 +45,11 @@ struct Watched : C {
   int starts = 0;
   bool fails = false;
 
-  void start(const State& state) noexcept {
+  void start(const ControlInput<2>& in) noexcept {
     ++starts;
     C::start(state);
   }
-  Command update(const State& state, const Reference& reference, double period) noexcept {
+  Command update(const ControlInput<2>& in) noexcept {
     own = C::update(state, reference, period);
     if (fails) own.*first_member() = Vector::Constant(not_a_number);
     return own;
@@ -380,10 +380,8 @@ namespace {
 struct Climbing {
   double effort_now = 0;
 
-  void start(const State&) noexcept { effort_now = 0; }
-  Vector effort(const State&, const Reference&, double) noexcept {
-    return Vector::Constant(++effort_now);
-  }
+  void start(const ControlInput<2>&) noexcept { effort_now = 0; }
+  Vector output(const ControlInput<2>&) noexcept { return Vector::Constant(++effort_now); }
 };
 
 }  // namespace

@@ -43,9 +43,8 @@ struct Counter {
   JointReference<N> reference{};
   JointVector<N> excess = JointVector<N>::Zero();
 
-  void start(const JointState<N>&) noexcept { ++starts; }
-  EffortCommand<N> update(const JointState<N>&, const JointReference<N>& wish,
-                          double time) noexcept {
+  void start(const ControlInput<N>&) noexcept { ++starts; }
+  EffortCommand<N> update(const ControlInput<N>& in) noexcept {
     ++updates;
     reference = wish;
     period = time;
@@ -63,10 +62,8 @@ template <class R>
 struct Faltering {
   double bad = 0;
 
-  void start(const JointState<2>&) noexcept {}
-  EffortCommand<2> update(const JointState<2>&, const JointReference<2>&, double) noexcept {
-    return {Vector::Constant(bad)};
-  }
+  void start(const ControlInput<2>&) noexcept {}
+  EffortCommand<2> update(const ControlInput<2>&) noexcept { return {Vector::Constant(bad)}; }
 };
 
 template <class R>
@@ -190,7 +187,7 @@ TEST_CASE("the joints of a group that fails are braked, within limits around the
   CommandLimits<2> limits;
   limits.acceleration = {100, 100};
   Parting<Free> groups = bare();
-  Limited<Free, Parting> limited(robot, limits, bare());
+  Limited<Free, Parting<Free>> limited(robot, limits, bare());
   const auto speed_after = [&](auto& controller, auto& failing) {
     Simulator<Free> arm(robot, SimulatorOptions<2>{.initial_velocity = Vector(0, -1)});
     JointState<2> state;
@@ -228,10 +225,10 @@ TEST_CASE("where state or reference are to blame there is no command, and no gro
 }
 
 TEST_CASE("a limited controller brakes its group, and a switch in one goes on from what was safe") {
-  using Parts = Groups<Arm, Limited<Arm, Faltering>, Switch<Arm, Faltering<Arm>>>;
+  using Parts = Groups<Arm, Limited<Arm, Faltering<Arm>>, Switch<Arm, Faltering<Arm>>>;
   CommandLimits<2> limits = command_limits(Arm());
   limits.acceleration = {20, 40};
-  using Alone = Limited<Arm, Faltering>;
+  using Alone = Limited<Arm, Faltering<Arm>>;
   Parts parts({{{"s", {shoulder}}, {"e", {elbow}}}}, Alone(limits), Switch<Arm, Faltering<Arm>>());
   Alone alone(limits);
   JointState<2> state;
@@ -356,7 +353,7 @@ TEST_CASE("groups are switched on their own, by the group's name, or together") 
 }
 
 TEST_CASE("switches of groups make no step, and their limited ones can be reached") {
-  using Careful = Limited<Arm, Two>;
+  using Careful = Limited<Arm, Two<Arm>>;
   using Parts = Groups<Arm, Two<Arm>, Careful>;
   static_assert(Parts::controller_count == 4);
   CommandLimits<2> limits = command_limits(Arm());

@@ -39,10 +39,8 @@ struct Moody {
   int starts = 0;
   Vector excess = Vector::Zero();
 
-  void start(const JointState<2>&) noexcept { ++starts; }
-  EffortCommand<2> update(const JointState<2>&, const JointReference<2>&, double) noexcept {
-    return {Vector::Constant(effort)};
-  }
+  void start(const ControlInput<2>&) noexcept { ++starts; }
+  EffortCommand<2> update(const ControlInput<2>&) noexcept { return {Vector::Constant(effort)}; }
   void limited(const Vector& cut_off) noexcept { excess = cut_off; }
   [[nodiscard]] bool failed() const noexcept { return has_failed; }
 };
@@ -88,7 +86,7 @@ TEST_CASE("controllers go by their own names, or by those that are given") {
 
   CommandLimits<2> limits = command_limits(Q2d());
   limits.acceleration = {20, 20};
-  using Careful = Limited<Q2d, PidPlusGravity>;
+  using Careful = Limited<Q2d, PidPlusGravity<Q2d>>;
   const Switch<Q2d, Careful, Bypass<Q2d>> limited({}, Careful(limits), Bypass<Q2d>());
   CHECK(limited.name_of(0) == "pid_plus_gravity");
 }
@@ -353,7 +351,7 @@ namespace {
 /// A Moody of a robot, for a Limited one.
 template <class>
 struct MoodyOf : Moody {};
-using CarefulMoody = Limited<TiltedQ2d, MoodyOf>;
+using CarefulMoody = Limited<TiltedQ2d, MoodyOf<TiltedQ2d>>;
 template <class R>
 using OfMoody = Switch<R, Moody>;
 
@@ -415,7 +413,7 @@ TEST_CASE("without a fallback the limited controller brakes, and that is told") 
 TEST_CASE("limits around a switch: what is good again goes on from the effort that braked") {
   for (const bool says_so : {false, true}) {
     CAPTURE(says_so);
-    using One = Limited<TiltedQ2d, OfMoody>;
+    using One = Limited<TiltedQ2d, OfMoody<TiltedQ2d>>;
     One controllers(careful_limits());
     auto& member = controllers.controller().member<0>();
     JointState<2> state;

@@ -17,7 +17,7 @@ using namespace articula;
 namespace {
 
 template <class R>
-using CarefulPid = Limited<R, PidPlusGravity>;
+using CarefulPid = Limited<R, PidPlusGravity<R>>;
 
 JointPidGains<2> all(double x) {
   const PidGains g{.proportional = x, .integral = x, .derivative = x};
@@ -68,7 +68,7 @@ TEST_CASE("whatever takes gains can be given them") {
   CHECK(impedance.apply(springs));
   JointReference<2> reference;
   reference.position = {0.5, 0.25};
-  CHECK(springs.update({}, reference, 1e-3).effort == JointVector<2>(5, 5));
+  CHECK(springs.update({{}, reference, 1e-3}).effort == JointVector<2>(5, 5));
   CHECK_THROWS_AS(impedance.offer({{{-1, 0}, {20, 0}}}), std::invalid_argument);
 }
 

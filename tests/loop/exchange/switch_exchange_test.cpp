@@ -24,7 +24,7 @@ namespace {
 template <class R>
 using Controllers = Switch<R, ConstantEffort<R>, PidPlusGravity<R>, ComputedTorque<R>>;
 template <class R>
-using Careful = Limited<R, Controllers>;
+using Careful = Limited<R, Controllers<R>>;
 using Parts = Groups<Q2d, Controllers<Q2d>, Controllers<Q2d>>;
 
 const SwitchOptions<2> options{.names = {"constant", "pid", "computed"},
@@ -32,7 +32,7 @@ const SwitchOptions<2> options{.names = {"constant", "pid", "computed"},
 
 Controllers<Q2d> controllers() { return Controllers<Q2d>(options, {}, {}, {}); }
 
-void cycle(Controllers<Q2d>& c) { static_cast<void>(c.update({}, {}, 1e-3)); }
+void cycle(Controllers<Q2d>& c) { static_cast<void>(c.update({{}, {}, 1e-3})); }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ TEST_CASE("requests are passed on in order, and each has its outcome") {
   CHECK(exchange.request({.start = {"nonsense"}, .replace = true}) == 3);
   exchange.apply(c);
   CHECK_FALSE(exchange.outcome());  // the cycle in which they are done comes first
-  c.start({});
+  c.start({{}, {}, 1e-3});
   cycle(c);
   CHECK(exchange.apply(c));
   CHECK(exchange.list()[1].status == ControllerStatus::active);
@@ -71,7 +71,7 @@ TEST_CASE("switches, failures and fallbacks are listed and reported") {
   CHECK(exchange.list()[0].status == ControllerStatus::active);
   CHECK_FALSE(exchange.apply(c));
   CHECK_FALSE(exchange.event());
-  c.start({});
+  c.start({{}, {}, 1e-3});
   c.member<0>().effort = support::not_a_number;
   cycle(c);
   CHECK(exchange.apply(c));
@@ -119,7 +119,7 @@ TEST_CASE("groups and limited switches have an exchange as well") {
   CHECK(of_groups.list()[4].name == "e/pid");
   of_groups.request({.start = {"e/pid"}, .replace = true});
   of_groups.apply(parts);
-  parts.start({});
+  parts.start({{}, {}, 1e-3});
   CHECK(of_groups.apply(parts));
   CHECK(of_groups.list()[4].status == ControllerStatus::active);
 
@@ -129,7 +129,7 @@ TEST_CASE("groups and limited switches have an exchange as well") {
   SwitchExchange of_limited(careful);
   of_limited.request({.start = {"computed"}, .replace = true});
   of_limited.apply(careful);
-  careful.start({});
+  careful.start({{}, {}, 1e-3});
   CHECK(careful.controller().active() == "computed");
 }
 
@@ -137,10 +137,10 @@ TEST_CASE("of a group with a divisor the outcome comes first, then the list show
   Parts parts({{{"s", {"shoulder_active_joint"}}, {"e", {"elbow_active_joint"}, 10}}},
               controllers(), controllers());
   SwitchExchange exchange(parts);
-  parts.start({});
+  parts.start({{}, {}, 1e-3});
   const auto cycle = [&] {
     exchange.apply(parts);
-    static_cast<void>(parts.update({}, {}, 1e-3));
+    static_cast<void>(parts.update({{}, {}, 1e-3}));
   };
   cycle();
   exchange.request({.start = {"e/pid"}, .replace = true});

@@ -51,11 +51,7 @@ void activate(AnyLoop& loop) {
 
 template <class>
 struct FollowVelocity {
-  void start(const JointState<2>&) noexcept {}
-  VelocityCommand<2> update(const JointState<2>&, const JointReference<2>& reference,
-                            double) noexcept {
-    return {reference.velocity};
-  }
+  VelocityCommand<2> update(const ControlInput<2>& in) noexcept { return {in.reference.velocity}; }
 };
 
 // The mock stands still, so what a PD holds it with is the weight.
