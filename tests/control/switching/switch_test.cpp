@@ -11,12 +11,15 @@
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/control/safety/standby.hpp>
 #include <articula/control/switching/switch.hpp>
+#include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <stdexcept>
 #include <string>
 
+#include "by_hand.hpp"
 #include "catch.hpp"
+#include "fake_hardware.hpp"
 #include "numbers.hpp"
 #include "test_controllers.hpp"
 #include "test_robots.hpp"
@@ -32,22 +35,22 @@ namespace {
 using Vector = JointVector<2>;
 constexpr double dt = 1e-3;
 
-/// Asks for one effort, or whatever is put in its place; can say that it has failed.
+/// Commands one effort, or whatever is put in its place, with the verdict that is set.
 struct Moody {
   double effort = 0;
-  bool has_failed = false;
+  Verdict verdict = Verdict::fine;
   int starts = 0;
-  Vector excess = Vector::Zero();
+  Vector cut = Vector::Zero();
 
   void start(const ControlInput<2>&) noexcept { ++starts; }
-  EffortCommand<2> update(const ControlInput<2>&) noexcept { return {Vector::Constant(effort)}; }
-  void limited(const Vector& cut_off) noexcept { excess = cut_off; }
-  [[nodiscard]] bool failed() const noexcept { return has_failed; }
+  Outcome<EffortCommand<2>> update(const ControlInput<2>& in) noexcept {
+    cut = in.cut;
+    return {{Vector::Constant(effort)}, verdict};
+  }
 };
 
-using Three = Switch<TiltedQ2d, Moody, Moody, Moody>;
-static_assert(Controller<Three, 2>);
-static_assert(LimitAware<Three, 2>);
+using Three = support::ByHand<Switch<TiltedQ2d, Moody, Moody, Moody>>;
+static_assert(Controller<Switch<TiltedQ2d, Moody, Moody, Moody>, 2>);
 static_assert(Switching<Three>);
 static_assert(Controller<Switch<Q2d, ForwardPosition<Q2d>, ForwardPosition<Q2d>>, 2>);
 
@@ -209,16 +212,19 @@ TEST_CASE("a fallback in the first cycle gives its own command") {
 }
 
 TEST_CASE("no controller is started from a state that is none: the switch waits") {
-  Three controllers = three();
-  controllers.start({});
-  CHECK(controllers.update({}, {}, dt).effort == Vector(1, 1));
+  using OfThree = Switch<TiltedQ2d, Moody, Moody, Moody>;
+  Loop loop{support::FakeHardware<TiltedQ2d>(), OfThree(abc, Moody{1}, Moody{2}, Moody{3})};
+  OfThree& controllers = loop.controller();
+  CHECK(loop.update() == Status::ok);
+  CHECK(loop.command().effort == Vector(1, 1));
   CHECK(controllers.request({.stop = {"a"}, .start = {"b"}}).answer == SwitchAnswer::done);
-  JointState<2> state;
-  state.velocity[1] = infinity;
-  CHECK(controllers.update(state, {}, dt).effort == Vector(1, 1));
+  loop.hardware().measured.velocity[1] = infinity;
+  CHECK(loop.update() == Status::non_finite_state);
   CHECK(controllers.active() == "a");
   CHECK(controllers.member<1>().starts == 0);
-  CHECK(settled(controllers) == Vector(2, 2));
+  loop.hardware().measured = {};
+  for (int k = 0; k < 1000; ++k) CHECK(loop.update() == Status::ok);
+  CHECK(loop.command().effort == Vector(2, 2));
 }
 
 TEST_CASE("a controller is started anew whenever it becomes active, and no other time") {
@@ -257,10 +263,10 @@ TEST_CASE("with nothing active the command is the safe one that is declared") {
   state.velocity = {1e9, -1e9};  // more than the drives can do
   controllers.start(state);
   CHECK(controllers.update(state, {}, dt).effort.cwiseAbs() == Vector(27.94, 13.62));
-  state.velocity.setConstant(not_a_number);
+  state.velocity.setConstant(support::largest);  // the damping overflows
   CHECK(controllers.update(state, {}, dt).effort == Vector(0, 0));
 
-  Switch<Q2d, ForwardVelocity<Q2d>, ForwardVelocity<Q2d>> velocities;
+  support::ByHand<Switch<Q2d, ForwardVelocity<Q2d>, ForwardVelocity<Q2d>>> velocities;
   JointReference<2> reference;
   reference.velocity = {1, -1};
   velocities.start({});
@@ -270,7 +276,7 @@ TEST_CASE("with nothing active the command is the safe one that is declared") {
   CHECK(velocities.update({}, reference, dt).velocity == Vector(0, 0));
 
   // Positions: where the joints were told to be, not where they are.
-  Switch<Q2d, ForwardPosition<Q2d>, ForwardPosition<Q2d>> positions;
+  support::ByHand<Switch<Q2d, ForwardPosition<Q2d>, ForwardPosition<Q2d>>> positions;
   reference.position = {0.5, -0.5};
   state = {};
   positions.start(state);
@@ -291,7 +297,7 @@ TEST_CASE("a fallback takes over in the same cycle from a controller that fails"
       controllers.start({});
       CHECK(controllers.update({}, {}, dt).effort == Vector(1, 1));
       controllers.member<0>().effort = bad;
-      controllers.member<0>().has_failed = bad == 1.0;
+      if (bad == 1.0) controllers.member<0>().verdict = Verdict::failed;
       CHECK(controllers.update({}, {}, dt).effort == Vector(1, 1));  // goes on from the last
       CHECK(states(controllers) == "a failed; b active; c inactive; ");
       CHECK(controllers.member<1>().starts == 1);
@@ -324,36 +330,48 @@ TEST_CASE("a fallback takes over in the same cycle from a controller that fails"
 }
 
 TEST_CASE("without a fallback a failure is passed on, and what is good again goes on from safety") {
-  for (const bool says_so : {false, true}) {
-    CAPTURE(says_so);
+  for (const bool by_verdict : {false, true}) {
+    CAPTURE(by_verdict);
     Three controllers = three({.names = {"a", "b", "c"}, .fallbacks = {{"a", {"b"}}}});
     JointState<2> state;
     state.position = {0.4, -0.3};
     controllers.start(state);
     static_cast<void>(controllers.update(state, {}, dt));
     controllers.member<1>().effort = not_a_number;  // nor does the fallback help
-    controllers.member<0>().effort = says_so ? 1 : not_a_number;
-    controllers.member<0>().has_failed = says_so;
-    CHECK_FALSE(is_finite(controllers.update(state, {}, dt)));
-    CHECK_FALSE(is_finite(controllers.update(state, {}, dt)));
+    controllers.member<0>().effort = by_verdict ? 1 : not_a_number;
+    if (by_verdict) controllers.member<0>().verdict = Verdict::failed;
+    const Vector weight = gravity(TiltedQ2d(), state.position);
+    for (int k = 0; k < 2; ++k) {
+      static_cast<void>(controllers.update(state, {}, dt));
+      CHECK(controllers.verdict == Verdict::failed);
+      controllers.apply(weight);  // as a loop does
+    }
     CHECK(controllers.active() == "a");
     CHECK(controllers.list()[0].status == ControllerStatus::failed);
     controllers.member<0>() = {1};
-    const Vector weight = gravity(TiltedQ2d(), state.position);
     CHECK((controllers.update(state, {}, dt).effort - weight).norm() < 1e-12);  // rounding
     CHECK(controllers.list()[0].status == ControllerStatus::active);
     CHECK(settled(controllers, state) == Vector(1, 1));
   }
 }
 
+TEST_CASE("a degraded command counts where no fallback is better") {
+  Three controllers = three({.names = {"a", "b", "c"}, .fallbacks = {{"a", {"b"}}}});
+  controllers.start({});
+  static_cast<void>(controllers.update({}, {}, dt));
+  controllers.member<0>() = {1, Verdict::degraded};
+  controllers.member<1>().verdict = Verdict::degraded;
+  CHECK(controllers.update({}, {}, dt).effort == Vector(1, 1));
+  CHECK(controllers.verdict == Verdict::degraded);
+  CHECK(states(controllers) == "a failed; b failed; c inactive; ");
+  controllers.member<1>().verdict = Verdict::fine;
+  CHECK(settled(controllers) == Vector(2, 2));
+  CHECK(controllers.verdict == Verdict::fine);
+}
+
 namespace {
 
-/// A Moody of a robot, for a Limited one.
-template <class>
-struct MoodyOf : Moody {};
-using CarefulMoody = Limited<TiltedQ2d, MoodyOf<TiltedQ2d>>;
-template <class R>
-using OfMoody = Switch<R, Moody>;
+using CarefulMoody = Limited<TiltedQ2d, Moody>;
 
 CommandLimits<2> careful_limits() {
   CommandLimits<2> limits = command_limits(TiltedQ2d());
@@ -364,17 +382,17 @@ CommandLimits<2> careful_limits() {
 }  // namespace
 
 TEST_CASE("a fallback takes over from a limited controller that fails, though that one brakes") {
-  for (const bool says_so : {false, true}) {
-    CAPTURE(says_so);
-    using C = Switch<TiltedQ2d, CarefulMoody, Moody>;
+  for (const bool by_verdict : {false, true}) {
+    CAPTURE(by_verdict);
+    using C = support::ByHand<Switch<TiltedQ2d, CarefulMoody, Moody>>;
     C controllers({.names = {"a", "b"}, .fallbacks = {{"a", {"b"}}}},
                   CarefulMoody(careful_limits()), Moody{2});
     controllers.start({});
     static_cast<void>(controllers.update({}, {}, dt));
-    CHECK_FALSE(controllers.member<0>().failed());
-    controllers.member<0>().controller().effort = says_so ? 1 : not_a_number;
-    controllers.member<0>().controller().has_failed = says_so;
-    // Not where state or reference are to blame.
+    CHECK(controllers.verdict == Verdict::fine);
+    controllers.member<0>().controller().effort = by_verdict ? 1 : not_a_number;
+    if (by_verdict) controllers.member<0>().controller().verdict = Verdict::failed;
+    // Not where the reference is to blame.
     JointReference<2> bad;
     bad.effort[0] = not_a_number;
     static_cast<void>(controllers.update({}, bad, dt));
@@ -382,17 +400,17 @@ TEST_CASE("a fallback takes over from a limited controller that fails, though th
     CHECK(is_finite(controllers.update({}, {}, dt)));
     CHECK(controllers.active() == "b");
     CHECK(controllers.status_of(0) == ControllerStatus::failed);
-    CHECK_FALSE(controllers.failed());
+    CHECK(controllers.verdict == Verdict::fine);
     CHECK(settled(controllers) == Vector(2, 2));
   }
 }
 
-TEST_CASE("without a fallback the limited controller brakes, and that is told") {
-  using C = Switch<TiltedQ2d, CarefulMoody, Moody>;
+TEST_CASE("without a fallback the limited controller brakes, and the verdict is degraded") {
+  using C = support::ByHand<Switch<TiltedQ2d, CarefulMoody, Moody>>;
   // A fallback that fails as well must not be in the way of braking.
   C controllers({.names = {"a", "b"}, .fallbacks = {{"a", {"b"}}}}, CarefulMoody(careful_limits()),
                 Moody{not_a_number});
-  CarefulMoody alone(careful_limits());
+  support::ByHand<CarefulMoody> alone(careful_limits());
   JointState<2> state;
   state.velocity = {1, -1};
   controllers.start(state);
@@ -402,18 +420,18 @@ TEST_CASE("without a fallback the limited controller brakes, and that is told") 
     const Vector braking = alone.update(state, {}, dt).effort;
     REQUIRE(braking.cwiseAbs().minCoeff() > 0.1);
     CHECK(controllers.update(state, {}, dt).effort == braking);
-    CHECK(controllers.failed());
+    CHECK(controllers.verdict == Verdict::degraded);
     state.velocity *= 0.9;
   }
   controllers.member<0>().controller().effort = 0;
   static_cast<void>(controllers.update(state, {}, dt));
-  CHECK_FALSE(controllers.failed());
+  CHECK(controllers.verdict == Verdict::fine);
 }
 
 TEST_CASE("limits around a switch: what is good again goes on from the effort that braked") {
-  for (const bool says_so : {false, true}) {
-    CAPTURE(says_so);
-    using One = Limited<TiltedQ2d, OfMoody<TiltedQ2d>>;
+  for (const bool by_verdict : {false, true}) {
+    CAPTURE(by_verdict);
+    using One = support::ByHand<Limited<TiltedQ2d, Switch<TiltedQ2d, Moody>>>;
     One controllers(careful_limits());
     auto& member = controllers.controller().member<0>();
     JointState<2> state;
@@ -421,16 +439,16 @@ TEST_CASE("limits around a switch: what is good again goes on from the effort th
     controllers.start(state);
     member.effort = -1;
     for (int k = 0; k < 5; ++k) static_cast<void>(controllers.update(state, {}, dt));
-    member.effort = says_so ? -1 : not_a_number;
-    member.has_failed = says_so;
+    member.effort = by_verdict ? -1 : not_a_number;
+    if (by_verdict) member.verdict = Verdict::failed;
     Vector braking;
     for (int k = 0; k < 5; ++k) braking = controllers.update(state, {}, dt).effort;
-    CHECK(controllers.failed());
+    CHECK(controllers.verdict == Verdict::degraded);
     member = {-1};
     const Vector own = Vector::Constant(-1);
     REQUIRE((braking - own).cwiseAbs().minCoeff() > 1);  // else there were nothing to jump
     CHECK((controllers.update(state, {}, dt).effort - braking).norm() < 1e-12);
-    CHECK_FALSE(controllers.failed());
+    CHECK(controllers.verdict == Verdict::fine);
     const Vector step = controllers.controller().slew() * dt;
     const Vector next = controllers.update(state, {}, dt).effort;
     CHECK(((next - braking).cwiseAbs() - step).maxCoeff() < 1e-12);
@@ -439,28 +457,31 @@ TEST_CASE("limits around a switch: what is good again goes on from the effort th
 
 TEST_CASE("a state or reference that is not finite is no controller's failure") {
   using Two = Switch<TiltedQ2d, PidPlusGravity<TiltedQ2d>, Moody>;
-  Two controllers({.fallbacks = {{"pid_plus_gravity", {"controller_2"}}}});
-  controllers.start({});
-  JointState<2> state;
-  JointReference<2> reference;
-  reference.velocity[1] = not_a_number;
-  CHECK_FALSE(is_finite(controllers.update(state, reference, dt)));
-  state.position[0] = infinity;
-  CHECK_FALSE(is_finite(controllers.update(state, {}, dt)));
-  CHECK(controllers.active() == "pid_plus_gravity");
-  CHECK(controllers.list()[0].status == ControllerStatus::active);
-  CHECK(is_finite(controllers.update({}, {}, dt)));
+  Loop loop{support::FakeHardware<TiltedQ2d>(),
+            Two({.fallbacks = {{"pid_plus_gravity", {"controller_2"}}}})};
+  CHECK(loop.update() == Status::ok);
+  loop.reference().velocity[1] = not_a_number;
+  CHECK(loop.update() == Status::non_finite_reference);
+  loop.hardware().measured.position[0] = infinity;
+  CHECK(loop.update() == Status::non_finite_state);
+  CHECK(loop.controller().active() == "pid_plus_gravity");
+  CHECK(loop.controller().list()[0].status == ControllerStatus::active);
+  loop.hardware().measured = {};
+  loop.reference() = {};
+  CHECK(loop.update() == Status::ok);
 }
 
-TEST_CASE("commands are kept within the drives' limits, and the controller is told") {
+TEST_CASE("commands are kept within the drives' limits, and the controller gets the cut") {
   Three controllers = three();
   controllers.start({});
   controllers.member<0>().effort = 30;
   CHECK(controllers.update({}, {}, dt).effort == Vector(27.94, 13.62));
-  CHECK((controllers.member<0>().excess - Vector(30 - 27.94, 30 - 13.62)).norm() < 1e-14);
-  controllers.limited(Vector(1, 2));
-  CHECK(controllers.member<0>().excess == Vector(1, 2));
-  CHECK(controllers.member<1>().excess == Vector(0, 0));
+  controllers.cut_off(Vector(1, 2));
+  static_cast<void>(controllers.update({}, {}, dt));
+  // What the switch took, and what was taken after it.
+  const Vector cut = Vector(30 - 27.94, 30 - 13.62) + Vector(1, 2);
+  CHECK((controllers.member<0>().cut - cut).norm() < 1e-14);
+  CHECK(controllers.member<1>().cut == Vector(0, 0));
 }
 
 TEST_CASE("gains reach the one controller that takes them") {
