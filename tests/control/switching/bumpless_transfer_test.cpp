@@ -13,13 +13,16 @@
 #include <articula/control/position_by_velocity.hpp>
 #include <articula/control/safety/standby.hpp>
 #include <articula/control/switching/switch.hpp>
+#include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <array>
 #include <cmath>
 #include <string_view>
 
+#include "by_hand.hpp"
 #include "catch.hpp"
+#include "fake_hardware.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
 #include "test_robots.hpp"
@@ -39,7 +42,7 @@ constexpr double dt = 1e-3;
 template <class C>
 struct Watched : C {
   using C::C;
-  using Command = decltype(std::declval<C&>().update(State(), Reference(), dt));
+  using Command = CommandOf<C, 2>;
 
   Command own{};
   int starts = 0;
@@ -47,10 +50,10 @@ struct Watched : C {
 
   void start(const ControlInput<2>& in) noexcept {
     ++starts;
-    C::start(state);
+    start_controller<C, 2>(*this, in);
   }
   Command update(const ControlInput<2>& in) noexcept {
-    own = C::update(state, reference, period);
+    own = C::update(in);
     if (fails) own.*first_member() = Vector::Constant(not_a_number);
     return own;
   }
@@ -66,6 +69,11 @@ struct Watched : C {
     }
   }
 };
+
+/// What a law begins with of a command, in its start.
+Vector primed(PidLaw<2>& law, const Vector& last, Held held = Held::push) {
+  return law.start({{}, {}, dt, {last, held}});
+}
 
 /// The number of a command that must not jump.
 Vector number(const EffortCommand<2>& c, const State&) { return c.effort; }
@@ -106,7 +114,7 @@ void check_steps(Controllers controllers, support::Random& random, double size) 
   // What the standby wants: a constant, but for efforts.
   Standby<Arm, typename Controllers::Command> standby;
   const auto standby_own = [&](const State& now) {
-    return number(standby.update(now, {}, dt), now);
+    return number(standby.update({now, {}, dt}), now);
   };
   Vector own_before, given_before;
   int starts_before = 0;
@@ -180,8 +188,9 @@ TEST_CASE("effort: no switch, start, stop or fallback makes a step beyond what i
   constexpr unsigned seed = 61;
   CAPTURE(seed);
   support::Random random(seed);
-  using C = Switch<Arm, Watched<PidPlusGravity<Arm>>, Watched<Pid<Arm>>, Watched<Bypass<Arm>>,
-                   Watched<ComputedTorque<Arm>>, Watched<JointImpedance<Arm>>>;
+  using C = support::ByHand<
+      Switch<Arm, Watched<PidPlusGravity<Arm>>, Watched<Pid<Arm>>, Watched<Bypass<Arm>>,
+             Watched<ComputedTorque<Arm>>, Watched<JointImpedance<Arm>>>>;
   for (int k = 0; k < 12; ++k) {
     CAPTURE(k);
     SwitchOptions<2> options{.fallbacks = {{"pid_plus_gravity", {"pid"}}}};
@@ -202,10 +211,12 @@ TEST_CASE("velocity, position and springs in the drives: likewise") {
   const auto spring = [&] {
     return ImpedanceGains{.stiffness = random.number(0, 100), .damping = random.number(0, 10)};
   };
-  using Velocities = Switch<Arm, Watched<ForwardVelocity<Arm>>, Watched<PositionByVelocity<Arm>>>;
-  using Positions = Switch<Arm, Watched<ForwardPosition<Arm>>, Watched<ForwardPosition<Arm>>>;
+  using Velocities =
+      support::ByHand<Switch<Arm, Watched<ForwardVelocity<Arm>>, Watched<PositionByVelocity<Arm>>>>;
+  using Positions =
+      support::ByHand<Switch<Arm, Watched<ForwardPosition<Arm>>, Watched<ForwardPosition<Arm>>>>;
   using Spring = Watched<DriveImpedance<Arm>>;
-  using Springs = Switch<Arm, Spring, Spring, Spring>;
+  using Springs = support::ByHand<Switch<Arm, Spring, Spring, Spring>>;
   for (int k = 0; k < 6; ++k) {
     CAPTURE(k);
     check_steps(Velocities({.fallbacks = {{"forward_velocity", {"position_by_velocity"}}}}, {},
@@ -251,7 +262,7 @@ TEST_CASE("velocity, position and springs in the drives: likewise") {
 }
 
 TEST_CASE("a difference is gone after a while, and then commands pass to the last bit") {
-  using C = Switch<Arm, Bypass<Arm>, Pid<Arm>>;
+  using C = support::ByHand<Switch<Arm, Bypass<Arm>, Pid<Arm>>>;
   C controllers({.slew = Vector(100, 50)});
   Pid<Arm> alone;
   Reference reference;
@@ -272,13 +283,16 @@ TEST_CASE("a difference is gone after a while, and then commands pass to the las
   for (int k = 0; k < 40; ++k) static_cast<void>(controllers.update({}, reference, dt));
   CHECK(controllers.carried().isZero(0));
   reference.position = {0.123456789, -0.987654321};
-  CHECK(controllers.update({}, reference, dt).effort == alone.update({}, reference, dt).effort);
+  CHECK(controllers.update({}, reference, dt).effort == alone.update({{}, reference, dt}).effort);
 }
 
-TEST_CASE("a period that is none lets nothing decay") {
-  using C = Switch<Arm, Bypass<Arm>, Bypass<Arm>>;
+TEST_CASE("in a period of 0 nothing decays; a loop has none, nor one that is no number") {
+  using C = support::ByHand<Switch<Arm, Bypass<Arm>, Bypass<Arm>>>;
   for (const double bad : {0.0, -1.0, not_a_number, support::infinity}) {
     C controllers;
+    CHECK_THROWS_WITH((Loop{support::FakeHardware<Arm>(), Bypass<Arm>(), bad}),
+                      Catch::Matchers::Contains("is not a positive number"));
+    if (bad != 0) continue;
     Reference reference;
     reference.effort = {10, 10};
     controllers.start({});
@@ -294,7 +308,7 @@ TEST_CASE("a period that is none lets nothing decay") {
 
 TEST_CASE("huge numbers are carried without an overflow") {
   const Model<2> arm = support::free_arm<Arm>();  // without limits
-  using C = Switch<Model<2>, Bypass<Model<2>>, Bypass<Model<2>>>;
+  using C = support::ByHand<Switch<Model<2>, Bypass<Model<2>>, Bypass<Model<2>>>>;
   C controllers(arm, {.slew = Vector(1, 1)}, Bypass<Model<2>>(arm), Bypass<Model<2>>(arm));
   Reference reference;
   controllers.start({});
@@ -310,21 +324,21 @@ TEST_CASE("huge numbers are carried without an overflow") {
 }
 
 TEST_CASE("what was cut off afterwards counts: it is gone on from what was given") {
-  using C = Switch<Arm, Bypass<Arm>, Bypass<Arm>>;
+  using C = support::ByHand<Switch<Arm, Bypass<Arm>, Bypass<Arm>>>;
   C controllers;
   Reference reference;
   reference.effort = {10, -10};
   controllers.start({});
   static_cast<void>(controllers.update({}, reference, dt));
-  controllers.limited(Vector(4, -3));
-  controllers.limited(Vector(1, 0));  // of one limit after the other
+  controllers.cut_off(Vector(4, -3));
+  controllers.cut_off(Vector(1, 0));  // by one limit after the other
   CHECK(controllers.request({.start = {"bypass_2"}, .replace = true}).answer == SwitchAnswer::done);
   CHECK(controllers.update({}, reference, dt).effort == Vector(5, -7));
 }
 
 TEST_CASE("an integral begins with the load, so that a held arm stays where it is") {
   // Without gravity compensation the integral is what carries the arm.
-  using C = Switch<Arm, JointImpedance<Arm>, Pid<Arm>>;
+  using C = support::ByHand<Switch<Arm, JointImpedance<Arm>, Pid<Arm>>>;
   const Vector place(0.5, -0.4);
   const Vector weight = gravity(Arm(), place);
   REQUIRE(weight.norm() > 1);
@@ -347,17 +361,20 @@ TEST_CASE(
       PidGains{.integral = 100, .integral_clamp_min = -2, .integral_clamp_max = 3},
       PidGains{.proportional = 5}};
   PidLaw<2> law(gains, joint_names(Arm()));
-  law.start({});
-  CHECK(law.prime({}, {}, dt, Vector(10, 10)) == Vector(3, 0));
-  CHECK(law.prime({}, {}, dt, Vector(-10, -10)) == Vector(-2, 0));
-  CHECK(law.prime({}, {}, dt, Vector(1, 1)) == Vector(1, 0));
+  CHECK(primed(law, Vector(10, 10)) == Vector(3, 0));
+  CHECK(primed(law, Vector(-10, -10)) == Vector(-2, 0));
+  CHECK(primed(law, Vector(1, 1)) == Vector(1, 0));
   for (const double bad : {not_a_number, support::infinity}) {
-    CHECK(law.prime({}, {}, dt, Vector(bad, bad)) == Vector(1, 0));
+    CHECK(primed(law, Vector(bad, bad)) == Vector(0, 0));
   }
-  law.limited(Vector(1, 1));  // anti-windup takes back a step, not what it began with
+  CHECK(primed(law, Vector(1, 1)) == Vector(1, 0));
+  // Anti-windup takes back a step, not what it began with.
+  static_cast<void>(law.output({{}, {}, dt, {}, Vector(1, 1)}));
   CHECK(law.integral() == Vector(1, 0));
-  law.start({});
-  CHECK(law.integral() == Vector(0, 0));
+  for (const Held held : {Held::nothing, Held::unsure}) {
+    CHECK(primed(law, Vector(1, 1), held) == Vector(0, 0));
+    CHECK(law.integral() == Vector(0, 0));
+  }
 }
 
 TEST_CASE("an integral that could not take back soon what was no load begins with 0") {
@@ -365,13 +382,13 @@ TEST_CASE("an integral that could not take back soon what was no load begins wit
   PidLaw<2> law({PidGains{.proportional = 1000, .integral = 100},
                  PidGains{.proportional = 1000, .integral = 99.9}},
                 joint_names(Arm()));
-  law.start({});
-  CHECK(law.prime({}, {}, dt, Vector(5, -5)) == Vector(5, 0));
+  CHECK(primed(law, Vector(5, -5)) == Vector(5, 0));
   CHECK(law.integral() == Vector(5, 0));
   const PidGains alone{.integral = 1e-6};  // no p that it would have to outgrow
   PidLaw<2> slow({alone, alone}, joint_names(Arm()));
-  slow.start({});
-  CHECK(slow.prime({}, {}, dt, Vector(5, -5)) == Vector(5, -5));
+  CHECK(primed(slow, Vector(5, -5)) == Vector(5, -5));
+  // A load is taken over, however slow the integral is.
+  CHECK(primed(law, Vector(5, -5), Held::load) == Vector(5, -5));
 }
 
 namespace {
@@ -390,10 +407,10 @@ TEST_CASE("laws that are asked what they leave to an integral start as if they h
   JointPidGains<2> gains{};
   gains[0].integral = gains[1].integral = 10;
   EffortController<Arm, Climbing, PidLaw<2>> sum(Arm(), {}, PidLaw<2>(gains, joint_names(Arm())));
-  sum.start({});
-  CHECK(sum.prime({}, {}, dt, Vector(5, 5)) == Vector(4, 4));
-  CHECK(sum.update({}, {}, dt).effort == Vector(5, 5));
-  CHECK(sum.update({}, {}, dt).effort == Vector(6, 6));
+  sum.start({{}, {}, dt, {Vector(5, 5), Held::push}});
+  CHECK(sum.part<PidLaw<2>>().integral() == Vector(4, 4));
+  CHECK(sum.update({{}, {}, dt}).effort == Vector(5, 5));
+  CHECK(sum.update({{}, {}, dt}).effort == Vector(6, 6));
 }
 
 TEST_CASE("in a sum the integral takes what the other laws leave, each joint by its own law") {
@@ -408,10 +425,10 @@ TEST_CASE("in a sum the integral takes what the other laws leave, each joint by 
   reference.velocity = {0.5, 0.25};
   reference.effort = {0.5, 0.25};
   const Vector last(6, 3), weight = gravity(Arm(), state.position);
+  const Applied<2> applied{last, Held::push};
 
   PidPlusGravity<Arm> sum(gains);
-  sum.start(state);
-  sum.prime(state, reference, dt, last);
+  sum.start({state, reference, dt, applied});
   const Vector expected = last - weight - reference.effort - Vector(2 * 0.5, 0);
   CHECK((sum.part<PidLaw<2>>().integral() - expected).norm() < 1e-12);
 
@@ -419,15 +436,22 @@ TEST_CASE("in a sum the integral takes what the other laws leave, each joint by 
   const std::array<std::string_view, 1> shoulder{"shoulder_active_joint"},
       elbow{"elbow_active_joint"};
   const PidLaw<2> law(gains, joint_names(Arm()));
-  EffortController<Arm, Law, Law> parts(Arm(), Law(Arm(), law, shoulder), Law(Arm(), law, elbow));
-  parts.start(state);
-  CHECK((parts.prime(state, reference, dt, last) - last).norm() < 1e-12);
+  Law of_shoulder(Arm(), law, shoulder), of_elbow(Arm(), law, elbow);
+  CHECK((of_shoulder.start({state, reference, dt, applied}) - Vector(last[0], 0)).norm() < 1e-12);
+  EffortController<Arm, Law, Law> parts(Arm(), of_shoulder, of_elbow);
+  parts.start({state, reference, dt, applied});
+  // Without errors the next command is what it begins with.
+  Reference here;
+  here.position = state.position;
+  here.velocity = reference.velocity;
+  State at_speed = state;
+  at_speed.velocity = reference.velocity;
+  CHECK((parts.update({at_speed, here, dt}).effort - last).norm() < 1e-12);
 
   // The integral of computed torque is an acceleration: M I + h + what reference and friction ask.
   gains[0].velocity_feedforward = 0;
   ComputedTorque<Arm> computed(gains);
-  computed.start(state);
-  computed.prime(state, reference, dt, last);
+  computed.start({state, reference, dt, applied});
   reference.position = state.position;  // no error, so the next command is what it begins with
-  CHECK((computed.update(state, reference, dt).effort - last).norm() < 1e-12);
+  CHECK((computed.update({state, reference, dt}).effort - last).norm() < 1e-12);
 }

@@ -8,6 +8,7 @@
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/control/switching/groups.hpp>
 #include <articula/control/switching/switch.hpp>
+#include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 #include <articula/sim/simulator.hpp>
 
@@ -17,7 +18,9 @@
 #include <string>
 #include <vector>
 
+#include "by_hand.hpp"
 #include "catch.hpp"
+#include "fake_hardware.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
 #include "random_robots.hpp"
@@ -34,27 +37,23 @@ using Vector = JointVector<2>;
 constexpr double dt = 1e-3;
 const Name shoulder = "shoulder_active_joint", elbow = "elbow_active_joint";
 
-/// Counts what it is told, and asks for the number of its updates.
+/// Commands the number of its updates, and keeps its last input.
 template <int N>
 struct Counter {
-  int starts = 0, updates = 0, told = 0;
-  bool has_failed = false;
+  int starts = 0, updates = 0;
+  Verdict verdict = Verdict::fine;
   double period = 0, bad = 0;
   JointReference<N> reference{};
-  JointVector<N> excess = JointVector<N>::Zero();
+  JointVector<N> cut = JointVector<N>::Zero();
 
   void start(const ControlInput<N>&) noexcept { ++starts; }
-  EffortCommand<N> update(const ControlInput<N>& in) noexcept {
+  Outcome<EffortCommand<N>> update(const ControlInput<N>& in) noexcept {
     ++updates;
-    reference = wish;
-    period = time;
-    return {JointVector<N>::Constant(updates + bad)};
+    reference = in.reference;
+    period = in.period;
+    cut = in.cut;
+    return {{JointVector<N>::Constant(updates + bad)}, verdict};
   }
-  void limited(const JointVector<N>& cut_off) noexcept {
-    ++told;
-    excess = cut_off;
-  }
-  [[nodiscard]] bool failed() const noexcept { return has_failed; }
 };
 
 /// Asks for nothing, or for what is no number.
@@ -62,15 +61,14 @@ template <class R>
 struct Faltering {
   double bad = 0;
 
-  void start(const ControlInput<2>&) noexcept {}
   EffortCommand<2> update(const ControlInput<2>&) noexcept { return {Vector::Constant(bad)}; }
 };
 
 template <class R>
 using Parting = Groups<R, Bypass<R>, Faltering<R>>;
 
-using Counters = Groups<Arm, Counter<2>, Counter<2>>;
-static_assert(Controller<Counters, 2> && LimitAware<Counters, 2>);
+using Counters = support::ByHand<Groups<Arm, Counter<2>, Counter<2>>>;
+static_assert(Controller<Groups<Arm, Counter<2>, Counter<2>>, 2>);
 
 Counters counters(int divisor_of_shoulder, int divisor_of_elbow) {
   return Counters({{{"s", {shoulder}, divisor_of_shoulder}, {"e", {elbow}, divisor_of_elbow}}}, {},
@@ -117,64 +115,76 @@ TEST_CASE("a group sees all joints as they are, and is asked for its own alone")
   CHECK(own.effort == Vector(0, 12));
 }
 
-TEST_CASE("a group is told what was cut off on its joints, when it has been asked") {
+TEST_CASE("a group gets what was cut off on its joints in the cycle of its last call") {
   Counters groups = counters(1, 2);
   groups.start({});
-  for (int cycle = 0; cycle < 4; ++cycle) {
+  for (int cycle = 0; cycle < 6; ++cycle) {
+    CAPTURE(cycle);
     static_cast<void>(groups.update({}, {}, dt));
-    groups.limited(Vector(1, 2));
+    CHECK(groups.member<0>().cut == Vector(cycle, 0));
+    if (cycle % 2 == 0)
+      CHECK(groups.member<1>().cut == Vector(0, cycle == 0 ? 0 : 10 * (cycle - 1)));
+    groups.cut_off(Vector(cycle + 1, 10 * (cycle + 1)));
   }
-  CHECK(groups.member<0>().told == 4);
-  CHECK(groups.member<0>().excess == Vector(1, 0));
-  CHECK(groups.member<1>().told == 2);
-  CHECK(groups.member<1>().excess == Vector(0, 2));
 }
 
-TEST_CASE("a group that fails gets the safe command, the others go on, and it is told") {
-  for (const bool says_so : {false, true}) {
-    CAPTURE(says_so);
+TEST_CASE(
+    "a group that fails gets the safe command, the others go on, and the verdict is degraded") {
+  for (const bool by_verdict : {false, true}) {
+    CAPTURE(by_verdict);
     Counters groups = counters(1, 5);
     JointState<2> state;
     state.position = {0.3, -0.7};
     const double safe = gravity(Arm(), state.position)[1];
     REQUIRE(std::abs(safe) > 0.1);
     const auto fails = [&](bool now) {
-      groups.member<1>().bad = now && !says_so ? not_a_number : 0;
-      groups.member<1>().has_failed = now && says_so;
+      groups.member<1>().bad = now && !by_verdict ? not_a_number : 0;
+      groups.member<1>().verdict = now && by_verdict ? Verdict::failed : Verdict::fine;
     };
     groups.start(state);
     for (int k = 1; k <= 5; ++k) {
       CHECK(groups.update(state, {}, dt).effort == Vector(k, 1));
-      CHECK_FALSE(groups.failed());
+      CHECK(groups.verdict == Verdict::fine);
     }
     fails(true);
     for (int k = 6; k <= 8; ++k) {
       CHECK(groups.update(state, {}, dt).effort == Vector(k, safe));
-      CHECK(groups.failed());
+      CHECK(groups.verdict == Verdict::degraded);
       CHECK(groups.status_of(0) == ControllerStatus::active);
       CHECK(groups.status_of(1) == ControllerStatus::failed);
-      // It is asked in every cycle now, each time with the time since the last one.
+      // It is called in every cycle now, each time with the time since the last call.
       CHECK(groups.member<1>().updates == k - 4);
       CHECK(groups.member<1>().period == (k == 6 ? 5 : 1) * dt);
-      groups.limited(Vector(1, 1));
-      CHECK(groups.member<1>().told == 0);  // the safe command was not its own
+      CHECK(groups.member<1>().cut == Vector(0, 0));  // the safe command was not its own
+      groups.cut_off(Vector(1, 1));
     }
     fails(false);
     for (int k = 9; k <= 13; ++k) {
       CHECK(groups.update(state, {}, dt).effort == Vector(k, 5));
-      CHECK_FALSE(groups.failed());
+      CHECK(groups.verdict == Verdict::fine);
       CHECK(groups.member<1>().period == dt);
+      CHECK(groups.member<1>().cut == Vector(0, 0));
     }
     CHECK(groups.update(state, {}, dt).effort == Vector(14, 6));
     CHECK(groups.member<1>().period == 5 * dt);
 
     fails(true);
     for (int k = 0; k < 5; ++k) static_cast<void>(groups.update(state, {}, dt));
-    CHECK(groups.failed());
+    CHECK(groups.verdict == Verdict::degraded);
     groups.start(state);
-    CHECK_FALSE(groups.failed());
+    CHECK(groups.status_of(1) == ControllerStatus::active);
     CHECK(groups.update(state, {}, dt).effort[1] == safe);
     CHECK(groups.member<1>().period == 5 * dt);
+  }
+}
+
+TEST_CASE("a degraded command of a group counts") {
+  Counters groups = counters(1, 5);
+  groups.start({});
+  groups.member<1>().verdict = Verdict::degraded;
+  for (int k = 1; k <= 3; ++k) {  // and is replaced in every cycle
+    CHECK(groups.update({}, {}, dt).effort == Vector(k, k));
+    CHECK(groups.verdict == Verdict::degraded);
   }
 }
 
@@ -186,8 +196,8 @@ TEST_CASE("the joints of a group that fails are braked, within limits around the
   };
   CommandLimits<2> limits;
   limits.acceleration = {100, 100};
-  Parting<Free> groups = bare();
-  Limited<Free, Parting<Free>> limited(robot, limits, bare());
+  support::ByHand<Parting<Free>> groups = bare();
+  support::ByHand<Limited<Free, Parting<Free>>> limited(robot, limits, bare());
   const auto speed_after = [&](auto& controller, auto& failing) {
     Simulator<Free> arm(robot, SimulatorOptions<2>{.initial_velocity = Vector(0, -1)});
     JointState<2> state;
@@ -199,7 +209,7 @@ TEST_CASE("the joints of a group that fails are braked, within limits around the
       JointReference<2> reference;
       reference.effort = gravity(robot, state.position);
       REQUIRE(arm.write(controller.update(state, reference, dt)) == Status::ok);
-      REQUIRE(controller.failed());
+      REQUIRE(controller.verdict == Verdict::degraded);
     }
     return std::abs(state.velocity[1]);
   };
@@ -209,28 +219,33 @@ TEST_CASE("the joints of a group that fails are braked, within limits around the
   CHECK(speed_after(limited, limited.controller().member<1>()) < 0.1);
 }
 
-TEST_CASE("where state or reference are to blame there is no command, and no group has failed") {
-  Counters groups = counters(1, 1);
-  groups.start({});
-  JointState<2> state;
-  state.velocity[0] = not_a_number;
+TEST_CASE("where state or reference are to blame no group is called, and none has failed") {
+  using InLoop = Groups<Arm, Counter<2>, Counter<2>>;
+  Loop loop{support::FakeHardware<Arm>(), InLoop(counters(1, 1))};
+  InLoop& groups = loop.controller();
+  CHECK(loop.update() == Status::ok);
   groups.member<0>().bad = not_a_number;
-  CHECK_FALSE(is_finite(groups.update(state, {}, dt)));
-  JointReference<2> reference;
-  reference.velocity[0] = not_a_number;
-  CHECK_FALSE(is_finite(groups.update({}, reference, dt)));
-  CHECK_FALSE(groups.failed());
+  loop.hardware().measured.velocity[0] = not_a_number;
+  CHECK(loop.update() == Status::non_finite_state);
+  loop.hardware().measured = {};
+  loop.reference().velocity[0] = not_a_number;
+  CHECK(loop.update() == Status::non_finite_reference);
+  CHECK(groups.status_of(0) == ControllerStatus::active);
+  CHECK(groups.status_of(1) == ControllerStatus::active);
   groups.member<0>().bad = 0;
-  CHECK(groups.update({}, {}, dt).effort == Vector(2, 2));  // neither is asked about a NaN
+  loop.reference() = {};
+  CHECK(loop.update() == Status::ok);
+  CHECK(loop.command().effort == Vector(2, 2));  // neither was called with a NaN
 }
 
 TEST_CASE("a limited controller brakes its group, and a switch in one goes on from what was safe") {
-  using Parts = Groups<Arm, Limited<Arm, Faltering<Arm>>, Switch<Arm, Faltering<Arm>>>;
+  using Parts =
+      support::ByHand<Groups<Arm, Limited<Arm, Faltering<Arm>>, Switch<Arm, Faltering<Arm>>>>;
   CommandLimits<2> limits = command_limits(Arm());
   limits.acceleration = {20, 40};
   using Alone = Limited<Arm, Faltering<Arm>>;
   Parts parts({{{"s", {shoulder}}, {"e", {elbow}}}}, Alone(limits), Switch<Arm, Faltering<Arm>>());
-  Alone alone(limits);
+  support::ByHand<Alone> alone(limits);
   JointState<2> state;
   state.position = {0.5, -0.4};
   state.velocity = {1, -1};
@@ -286,7 +301,8 @@ TEST_CASE("on random trees each joint gets its group's command") {
     }
     for (auto& group : groups) group.divisor = random.integer(1, 4);
     using C = Counter<5>;
-    Groups<Model<5>, C, C, C> together(robot, groups, C{.bad = 0.1}, C{.bad = 0.2}, C{.bad = 0.3});
+    support::ByHand<Groups<Model<5>, C, C, C>> together(robot, groups, C{.bad = 0.1}, C{.bad = 0.2},
+                                                        C{.bad = 0.3});
     together.start({});
     for (int cycle = 0; cycle < 12; ++cycle) {
       const auto effort = together.update({}, {}, dt).effort;
@@ -300,8 +316,8 @@ TEST_CASE("on random trees each joint gets its group's command") {
 
 TEST_CASE("springs in the drives: all numbers of a joint come from its group") {
   using C = DriveImpedance<Arm>;
-  Groups<Arm, C, C> groups({{{"s", {shoulder}}, {"e", {elbow}, 2}}}, C({{{1, 2}, {3, 4}}}),
-                           C({{{5, 6}, {7, 8}}}));
+  support::ByHand<Groups<Arm, C, C>> groups({{{"s", {shoulder}}, {"e", {elbow}, 2}}},
+                                            C({{{1, 2}, {3, 4}}}), C({{{5, 6}, {7, 8}}}));
   JointReference<2> reference;
   reference.position = {0.5, 0.25};
   groups.start({});
@@ -313,7 +329,7 @@ TEST_CASE("springs in the drives: all numbers of a joint come from its group") {
 }
 
 TEST_CASE("groups are switched on their own, by the group's name, or together") {
-  using Parts = Groups<Arm, Two<Arm>, Two<Arm>>;
+  using Parts = support::ByHand<Groups<Arm, Two<Arm>, Two<Arm>>>;
   static_assert(Switching<Parts> && Parts::controller_count == 4);
   Parts parts({{{"s", {shoulder}}, {"e", {elbow}, 5}}}, two(), two());
   const auto states = [&] {
@@ -354,7 +370,7 @@ TEST_CASE("groups are switched on their own, by the group's name, or together") 
 
 TEST_CASE("switches of groups make no step, and their limited ones can be reached") {
   using Careful = Limited<Arm, Two<Arm>>;
-  using Parts = Groups<Arm, Two<Arm>, Careful>;
+  using Parts = support::ByHand<Groups<Arm, Two<Arm>, Careful>>;
   static_assert(Parts::controller_count == 4);
   CommandLimits<2> limits = command_limits(Arm());
   limits.acceleration = {200, 400};
