@@ -69,15 +69,15 @@ TEST_CASE("gains of six joints of seven are those of a group") {
   JointReference<7> reference;
   reference.position = Vector::Constant(0.01);
   reference.effort[gripper] = 0.5;
-  parts.start(state);
-  const Vector effort = parts.update(state, reference, 0.01).effort;
+  parts.start({state, reference, 0.01});
+  const Vector effort = parts.update({state, reference, 0.01}).command.effort;
   CHECK(effort[joint_index(GripperArm(), "joint_4")] == Approx(0.4));
   CHECK(effort[gripper] == 0.5);
 
   const std::vector<std::string_view> names(arm.group.begin(), arm.group.end());
   OnJoints<7, PidLaw<7>> part(GripperArm(), PidLaw<7>(GripperArm(), arm.gains), names);
-  part.start(state);
-  CHECK(part.effort(state, reference, 0.01)[gripper] == 0);
+  part.start({state, reference, 0.01});
+  CHECK(part.output({state, reference, 0.01})[gripper] == 0);
 }
 
 TEST_CASE("of a group all joints have gains and lie in the chain") {

@@ -21,6 +21,7 @@
 #include <string_view>
 
 #include "allocation_guard.hpp"
+#include "by_hand.hpp"
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
@@ -35,7 +36,8 @@ bool volatile seen = false;  // the compiler cannot know who looks
 
 /// All of a controller's functions, with states and references from calm to hostile.
 template <int N, class C>
-std::size_t heap_calls_of(C controller) {
+std::size_t heap_calls_of(const C& any_controller) {
+  support::ByHand<C, N> controller = any_controller;
   support::Random random(3);
   JointState<N> state;
   JointReference<N> reference;

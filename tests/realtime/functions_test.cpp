@@ -67,22 +67,20 @@ std::size_t heap_calls_of_control(const R& robot) {
   ComputedTorqueLaw<R> torque_law(robot, gains);
   const JointState<2> state{q, v, effort};
   const JointReference<2> reference{v, q, a, effort};
+  const ControlInput<2> in{state, reference, 1e-3, {effort, Held::load}, effort};
   return heap_calls_in([&] {
     const auto runs = [&](auto&... controller) {
-      (controller.start(state), ...);
-      (look(controller.update(state, reference, 1e-3).effort), ...);
+      (controller.start(in), ...);
+      (look(controller.update(in).effort), ...);
     };
     runs(bypass, pid, plus_gravity, torque);
     look(pid.template part<PidLaw<2>>().integral());
-    const auto adds = [&](auto&... part) {
-      (part.start(state), ...);
-      (look(part.effort(state, reference, 1e-3)), ...);
-    };
+    const auto adds = [&](auto&... part) { (look(part.output(in)), ...); };
+    look(law.start(in));
+    look(torque_law.start(in));
     adds(law, weight, friction, feedforward, torque_law);
-    law.limited(effort);
-    torque_law.limited(effort);
     look(law.integral());
-    look(limited(robot, EffortCommand<2>{1e3 * effort}).effort);
+    look(within_effort_limits(robot, EffortCommand<2>{1e3 * effort}).effort);
     look(safe_command(robot, q, EffortCommand<2>{}).effort);
     look(safe_command(robot, q, PositionCommand<2>{}).position);
     look(safe_command(robot, q, VelocityCommand<2>{}).velocity);

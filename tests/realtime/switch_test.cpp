@@ -6,6 +6,7 @@
 #include <articula/robots/q2d.hpp>
 
 #include "allocation_guard.hpp"
+#include "by_hand.hpp"
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
@@ -55,7 +56,7 @@ TEST_CASE("switching does not touch the heap, with everything composed and hosti
   constexpr unsigned seed = 91;
   CAPTURE(seed);
   support::Random random(seed);
-  Everything<Arm> c = everything();
+  support::ByHand<Everything<Arm>> c = everything();
   SwitchExchange exchange(c);
   JointState<2> state;
   JointReference<2> reference;
@@ -77,12 +78,12 @@ TEST_CASE("switching does not touch the heap, with everything composed and hosti
       c.member<0>().controller().member<0>().effort = bad;
       c.member<1>().member<0>().effort = bad;
       if (k % 100 == 0) c.start(state);
-      if (k % 200 == 0) c.prime(state, reference, 1e-3, reference.effort);
+      if (k % 200 == 0) c.start(state, {}, {state.effort, Held::load});
       exchange.request(request);
       exchange.apply(c);
-      c.limited(c.update(state, reference, k % 50 == 0 ? 2e-3 : 1e-3).effort);
-      c.given(reference.effort);
-      failures += c.failed() ? 1 : 0;
+      c.cut_off(c.update(state, reference, k % 50 == 0 ? 2e-3 : 1e-3).effort);
+      c.apply(reference.effort);
+      failures += c.verdict != Verdict::fine ? 1 : 0;
       while (const auto outcome = exchange.outcome()) {
         done += outcome->outcome.answer == SwitchAnswer::done ? 1 : 0;
       }
@@ -124,7 +125,8 @@ TEST_CASE("nor does it in a supervised loop") {
 }
 
 TEST_CASE("nor do velocities, positions and springs in the drives") {
-  const auto heap_calls = [](auto c) {
+  const auto heap_calls = [](auto controllers) {
+    support::ByHand<decltype(controllers)> c = controllers;
     std::size_t calls = 0;
     for (std::size_t k = 0; k < 300; ++k) {
       JointReference<2> reference;

@@ -2,6 +2,7 @@
 // The concepts: the least that satisfies each, and what does not. Compiling is passing.
 #include "faulty_robots.hpp"
 
+#include <articula/control/laws/control_law.hpp>
 #include <articula/core/controller.hpp>
 #include <articula/core/finite.hpp>
 #include <articula/core/hardware.hpp>
@@ -28,32 +29,75 @@ static_assert(!JointCommand<const EffortCommand<2>&, 2> && !JointCommand<double,
 
 // Controllers: an archetype, and one property missing or wrong at a time.
 struct LeastController {
-  void start(const JointState<2>&) noexcept;
-  EffortCommand<2> update(const JointState<2>&, const JointReference<2>&, double) noexcept;
+  EffortCommand<2> update(const ControlInput<2>&) noexcept;
 };
 struct PositionController : LeastController {
-  PositionCommand<2> update(const JointState<2>&, const JointReference<2>&, double) noexcept;
+  PositionCommand<2> update(const ControlInput<2>&) noexcept;
+};
+struct WithVerdict : LeastController {
+  Outcome<EffortCommand<2>> update(const ControlInput<2>&) noexcept;
+};
+struct WithMemory : LeastController {
+  void start(const ControlInput<2>&) noexcept;
+  Outcome<EffortCommand<2>> brake(const ControlInput<2>&) noexcept;
 };
 struct StartMayThrow : LeastController {
-  void start(const JointState<2>&);
+  void start(const ControlInput<2>&);
+};
+struct StartOfAState : LeastController {
+  void start(const JointState<2>&) noexcept;
 };
 struct UpdateMayThrow : LeastController {
-  EffortCommand<2> update(const JointState<2>&, const JointReference<2>&, double);
+  EffortCommand<2> update(const ControlInput<2>&);
 };
 struct ReturnsAVector : LeastController {
-  JointVector<2> update(const JointState<2>&, const JointReference<2>&, double) noexcept;
+  JointVector<2> update(const ControlInput<2>&) noexcept;
 };
-struct WantsToChangeTheState : LeastController {
-  EffortCommand<2> update(JointState<2>&, const JointReference<2>&, double) noexcept;
+struct WantsToChangeTheInput : LeastController {
+  EffortCommand<2> update(ControlInput<2>&) noexcept;
 };
-struct WithoutPeriod : LeastController {
-  EffortCommand<2> update(const JointState<2>&, const JointReference<2>&) noexcept;
+struct OfAState : LeastController {
+  EffortCommand<2> update(const JointState<2>&, const JointReference<2>&, double) noexcept;
 };
 static_assert(Controller<LeastController, 2> && Controller<PositionController, 2>);
+static_assert(Controller<WithVerdict, 2> && Controller<WithMemory, 2>);
+static_assert(Brakes<WithMemory, 2> && !Brakes<LeastController, 2>);
+static_assert(std::is_same_v<CommandOf<WithVerdict, 2>, EffortCommand<2>>);
 static_assert(!Controller<LeastController, 3>);
 static_assert(!Controller<StartMayThrow, 2> && !Controller<UpdateMayThrow, 2>);
-static_assert(!Controller<ReturnsAVector, 2> && !Controller<WantsToChangeTheState, 2>);
-static_assert(!Controller<WithoutPeriod, 2> && !Controller<int, 2>);
+static_assert(!Controller<ReturnsAVector, 2> && !Controller<WantsToChangeTheInput, 2>);
+static_assert(!Controller<StartOfAState, 2> && !Controller<OfAState, 2> && !Controller<int, 2>);
+
+// A function is a controller, too.
+using Function = decltype([](const ControlInput<2>&) noexcept { return EffortCommand<2>(); });
+using FunctionMayThrow = decltype([](const ControlInput<2>&) { return EffortCommand<2>(); });
+using FunctionOfAState = decltype([](const JointState<2>&) noexcept { return EffortCommand<2>(); });
+static_assert(Controller<Function, 2> && !Controller<Function, 3>);
+static_assert(!Controller<FunctionMayThrow, 2> && !Controller<FunctionOfAState, 2>);
+
+// A plain command converts to an outcome.
+static_assert(std::is_convertible_v<EffortCommand<2>, Outcome<EffortCommand<2>>>);
+static_assert(!std::is_convertible_v<EffortCommand<3>, Outcome<EffortCommand<2>>>);
+
+// Laws likewise.
+struct LeastLaw {
+  JointVector<2> output(const ControlInput<2>&) noexcept;
+};
+struct LawWithMemory : LeastLaw {
+  void start(const ControlInput<2>&) noexcept;
+};
+struct LawThatShares : LeastLaw {
+  JointVector<2> start(const ControlInput<2>&) noexcept;
+};
+struct OutputMayThrow : LeastLaw {
+  JointVector<2> output(const ControlInput<2>&);
+};
+struct LawStartsFromAState : LeastLaw {
+  void start(const JointState<2>&) noexcept;
+};
+static_assert(ControlLaw<LeastLaw, 2> && ControlLaw<LawWithMemory, 2>);
+static_assert(ControlLaw<LawThatShares, 2> && !ControlLaw<LeastLaw, 3>);
+static_assert(!ControlLaw<OutputMayThrow, 2> && !ControlLaw<LawStartsFromAState, 2>);
 
 // Hardware likewise.
 struct LeastHardware {

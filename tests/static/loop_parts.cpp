@@ -46,15 +46,15 @@ using Command = EffortCommand<N>;
 template <Robot R>
 struct Limp {
   static constexpr int N = joint_count<R>;
-#ifndef CONTROLLER_WITHOUT_START
-  void start(const JointState<N>&) START_NOEXCEPT {}
-#endif
-#ifdef UPDATE_WITHOUT_PERIOD
-  Command<N> update(const JointState<N>&, const JointReference<N>&) noexcept { return {}; }
+#ifdef START_OF_A_STATE
+  void start(const JointState<N>&) noexcept {}
 #else
-  Command<N> update(const JointState<N>&, const JointReference<N>&, double) UPDATE_NOEXCEPT {
-    return {};
-  }
+  void start(const ControlInput<N>&) START_NOEXCEPT {}
+#endif
+#ifdef UPDATE_OF_A_STATE
+  Command<N> update(const JointState<N>&, const JointReference<N>&, double) noexcept { return {}; }
+#else
+  Command<N> update(const ControlInput<N>&) UPDATE_NOEXCEPT { return {}; }
 #endif
 };
 
@@ -94,6 +94,14 @@ int main() {
   Loop of_any_robot{Drives(), Limp<Q2d>(), 2e-3};
   static_assert(std::same_as<decltype(of_one_robot)::ControllerType, LimpArm>);
   static_assert(std::same_as<decltype(of_any_robot)::ControllerType, Limp<Q2d>>);
+#ifdef FUNCTION_MAY_THROW
+  Loop mistake{Drives(), [](const ControlInput<2>&) { return EffortCommand<2>(); }};
+#endif
+#ifdef FUNCTION_OF_A_STATE
+  Loop mistake{Drives(), [](const JointState<2>&) noexcept { return EffortCommand<2>(); }};
+#endif
+  Loop of_a_function{Drives(), [](const ControlInput<2>&) noexcept { return EffortCommand<2>(); }};
+  static_assert(Controller<decltype(of_a_function)::ControllerType, 2>);
 #ifdef MOCK_OF_EFFORTS
   Loop<MockHardware<Q2d>, ForwardPosition> mistake;
 #endif

@@ -83,10 +83,9 @@ double state_after(Law law, const JointPlant& plant, double dt, int cycles) {
   JointState<1> state;
   state.position[0] = 1;
   state.velocity[0] = 1 / dt;
-  law.start(state);
   double size = 0;
   for (int k = 0; k < cycles; ++k) {
-    const double u = law.effort(state, {}, dt)[0] / plant.inertia, v = state.velocity[0];
+    const double u = law.output({state, {}, dt})[0] / plant.inertia, v = state.velocity[0];
     state.position[0] += f1 * v + f2 * u;
     state.velocity[0] = e * v + f1 * u;
     const double now = dt * std::abs(state.velocity[0]);
