@@ -138,7 +138,7 @@ template <class C, int N>
   if constexpr (Brakes<C, N>) {
     return controller.brake(input);
   } else {
-    return Outcome<CommandOf<C, N>>::failed();
+    return {};
   }
 }
 

@@ -18,15 +18,14 @@ enum class Verdict : unsigned char {
 /// @tparam Command  an EffortCommand, PositionCommand, VelocityCommand or MultiModeCommand
 template <class Command>
 struct Outcome {
-  Command command;
-  Verdict verdict;
+  Command command{};
+  Verdict verdict = Verdict::failed;
 
+  /// No command. Real-time: yes.
+  Outcome() = default;
   /// Real-time: yes.
   Outcome(const Command& own, Verdict own_verdict = Verdict::fine) noexcept  // NOLINT: implicit
       : command(own), verdict(is_finite(own) ? own_verdict : Verdict::failed) {}
-
-  /// The result of a controller that has no command. Real-time: yes.
-  [[nodiscard]] static Outcome failed() noexcept { return {Command(), Verdict::failed}; }
 };
 
 }  // namespace articula

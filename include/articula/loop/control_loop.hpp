@@ -122,7 +122,7 @@ class ControlLoop {
     const bool has_reference = status == Status::ok;
     const bool calls =
         has_reference || (status == Status::non_finite_reference && Brakes<C, joint_count>);
-    Outcome<Command> outcome = Outcome<Command>::failed();
+    Outcome<Command> outcome;
     if (calls) {
       if (bad_cycles_ > borne_cycles) start(has_reference ? held_ : std::min(held_, Held::unsure));
       const ControlInput<joint_count> in{state_, reference_, period_, applied_, cut_};

@@ -150,7 +150,7 @@ void check_steps(Controllers controllers, support::Random& random, double size) 
     const auto look = [&](auto& member, std::size_t i) {
       starts += member.starts;
       if (controllers.list()[i].status != ControllerStatus::active) return;
-      own = number(member.own, state).cwiseMax(range.lowest).cwiseMin(range.highest);
+      own = range.clamp(number(member.own, state));
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (look(controllers.template member<I>(), I), ...);

@@ -84,8 +84,8 @@ class PidLaw {
     JointVector<N> output;
     for (int j = 0; j < N; ++j) {
       const PidGains& g = gains_[j];
-      const double q = in.state.position[j], v = in.state.velocity[j];
       if (in.cut[j] != 0) pids_[j].limit_windup(g, in.cut[j]);
+      const double q = in.state.position[j], v = in.state.velocity[j];
       PidInput input{.velocity_reference = in.reference.velocity[j],
                      .acceleration_reference = in.reference.acceleration[j]};
       if constexpr (Variable == PidOf::position) {

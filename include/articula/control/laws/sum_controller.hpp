@@ -8,7 +8,6 @@
 #include "articula/core/joint_command.hpp"
 #include "articula/model/robot.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
@@ -61,18 +60,14 @@ class SumController {
   }
 
   /// The limited total for the coming period. Real-time: yes, if the laws' are.
-  [[nodiscard]] Command update(const Input& in) noexcept {
+  [[nodiscard, gnu::always_inline]] Command update(const Input& in) noexcept {
     const Input inner{in.state, in.reference, in.period, in.applied, clip_ + in.cut};
     Vector total = Vector::Zero();
     for_each_law([&](auto& law) noexcept { total += law.output(inner); });
-    const auto& range = range_();
-    Vector command;
-    for (int j = 0; j < joint_count; ++j) {
-      // A NaN passes, so that the loop finds it, and does not turn into a limit. A sum that
-      // overflows has a direction, as any that is too large.
-      command[j] = std::clamp(total[j], range.lowest[j], range.highest[j]);
-    }
-    clip_ = total - command;
+    // A NaN passes, so that the loop finds it, and does not turn into a limit. A sum that overflows
+    // has a direction, as any that is too large.
+    const Vector command = range_().clamp(total);
+    clip_ = for_each_joint<joint_count>([&](int j) { return total[j] - command[j]; });
     return {command};
   }
 

@@ -45,7 +45,7 @@ class BumplessTransfer {
   /// @param slew   r, how fast differences decay [unit of the command per s], N x 1
   /// @throws std::invalid_argument naming the joint whose slew is not a number > 0
   BumplessTransfer(const R& robot, const Vector& slew)
-      : slew_(slew), range_(detail::finite_range<C>(robot, huge)) {
+      : slew_(slew), range_(detail::command_range<C>(robot, huge)) {
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(slew[j]) && slew[j] > 0) continue;
       detail::refuse({"switch: slew ", slew[j], " of joint '",
@@ -61,8 +61,9 @@ class BumplessTransfer {
     if constexpr (std::same_as<C, PositionCommand<joint_count>>) {
       return joint_values(robot, [](const JointProperties& j) { return j.limits.velocity / 4; });
     } else {
-      return detail::command_range<C>(robot).highest.unaryExpr(
-          [](double limit) { return limit > 0 ? limit / 0.1 : 1; });
+      const auto range = detail::command_range<C>(robot);
+      return for_each_joint<joint_count>(
+          [&](int j) { return range.highest[j] > 0 ? range.highest[j] / 0.1 : 1; });
     }
   }
 
@@ -117,9 +118,7 @@ class BumplessTransfer {
  private:
   static constexpr double huge = 1e300;  ///< in place of infinite limits: no sum overflows
 
-  [[nodiscard]] Vector bounded(const Vector& values) const noexcept {
-    return values.cwiseMax(range_.lowest).cwiseMin(range_.highest);
-  }
+  [[nodiscard]] Vector bounded(const Vector& values) const noexcept { return range_.clamp(values); }
 
   /// The command with what is given in place of its own number.
   [[nodiscard]] C with_total(const C& command, const Vector& own,

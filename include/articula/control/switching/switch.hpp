@@ -107,7 +107,7 @@ class Switch : public ControllerSelector<R, Controllers...> {
   [[nodiscard]] Outcome<Command> brake(const Input& in) noexcept
     requires(Brakes<Controllers, articula::joint_count<R>> || ...)
   {
-    Outcome<Command> outcome = Outcome<Command>::failed();
+    Outcome<Command> outcome;
     const Input inner = inner_input(in);
     this->visit(this->active_index(),
                 [&](auto& controller) noexcept { outcome = brake_controller(controller, inner); });
@@ -128,7 +128,7 @@ class Switch : public ControllerSelector<R, Controllers...> {
   }
 
   [[nodiscard]] Outcome<Command> update_one(std::size_t index, const Input& in) noexcept {
-    Outcome<Command> outcome = Outcome<Command>::failed();
+    Outcome<Command> outcome;
     this->visit(index, [&](auto& controller) noexcept {
       outcome = update_controller(controller, in);
       if (!Transfer::passable(outcome.command, in.state)) outcome.verdict = Verdict::failed;
@@ -168,7 +168,7 @@ class Switch : public ControllerSelector<R, Controllers...> {
     own_counts_ = own.verdict != Verdict::failed;
     if (!own_counts_) {
       transfer_.take_over();
-      return Outcome<Command>::failed();
+      return {};
     }
     clip_ = transfer_.excess(own.command, in.state);
     return {transfer_.pass(own.command, in.state, in.period), own.verdict};
