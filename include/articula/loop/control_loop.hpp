@@ -202,7 +202,7 @@ class ControlLoop {
   }
 
   /// The first cycle with a good state. Joints of which no reference was set stay there.
-  void begin() noexcept {
+  [[gnu::cold]] void begin() noexcept {
     for (int j = 0; j < joint_count; ++j) {
       const bool untouched = is_finite(initial_position_[j])
                                  ? reference_.position[j] == initial_position_[j]
@@ -217,7 +217,7 @@ class ControlLoop {
 
   /// Starts the controller with what the last command has done. Where the reference is not finite, it
   /// starts with that of joints that stay.
-  void start(Held held) noexcept {
+  [[gnu::cold]] void start(Held held) noexcept {
     applied_ = {};
     if (held != Held::nothing) applied_ = {numbers_of(command_, state_), held};
     cut_.setZero();

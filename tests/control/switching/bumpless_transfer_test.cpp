@@ -150,7 +150,8 @@ void check_steps(Controllers controllers, support::Random& random, double size) 
     const auto look = [&](auto& member, std::size_t i) {
       starts += member.starts;
       if (controllers.list()[i].status != ControllerStatus::active) return;
-      own = range.clamp(number(member.own, state));
+      own = number(member.own, state);
+      for (int j = 0; j < 2; ++j) own[j] = range.clamp(own[j], j);
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) {
       (look(controllers.template member<I>(), I), ...);

@@ -17,10 +17,9 @@ template <int N>
 struct CommandRange {
   JointArray<double, N> lowest{}, highest{};
 
-  /// The nearest values in the range, N x 1. A NaN stays one. Real-time: yes.
-  [[nodiscard]] JointVector<N> clamp(const JointVector<N>& values) const noexcept {
-    return for_each_joint<N>(
-        [&](int j) { return std::min(std::max(values[j], lowest[j]), highest[j]); });
+  /// The nearest value in the range of a joint. A NaN stays one. Real-time: yes.
+  [[nodiscard]] double clamp(double value, int joint) const noexcept {
+    return std::clamp(value, lowest[joint], highest[joint]);
   }
 };
 
@@ -43,30 +42,5 @@ template <class Command, Robot R>
   }
   return range;
 }
-
-/// The range that a controller keeps. A sum that overflows is limited to the largest number where
-/// the joint has no limit.
-template <class Command, Robot R>
-class KeptRange {
- public:
-  explicit KeptRange(const R& robot)
-      : range_(command_range<Command>(robot, std::numeric_limits<double>::max())) {}
-  [[nodiscard]] const CommandRange<joint_count<R>>& operator()() const noexcept { return range_; }
-
- private:
-  CommandRange<joint_count<R>> range_;
-};
-
-/// That of a described robot takes no memory: it is a constant of the compiler.
-template <class Command, DescribedRobot R>
-class KeptRange<Command, R> {
- public:
-  explicit KeptRange(const R&) {}
-  [[nodiscard]] const CommandRange<joint_count<R>>& operator()() const noexcept { return range; }
-
- private:
-  static constexpr CommandRange<joint_count<R>> range =
-      command_range<Command>(R(), std::numeric_limits<double>::max());
-};
 
 }  // namespace articula::detail

@@ -9,6 +9,7 @@
 #include "articula/model/robot.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -36,7 +37,9 @@ class SumController {
 
   /// @param robot  whose limits hold
   /// @param laws   ready for use
-  explicit SumController(const R& robot, Laws... laws) : range_(robot), laws_(std::move(laws)...) {}
+  explicit SumController(const R& robot, Laws... laws)
+      : range_(detail::command_range<C>(robot, std::numeric_limits<double>::max())),
+        laws_(std::move(laws)...) {}
 
   /// Starts all laws. If a command was applied, laws that can, such as a PID, begin with what it
   /// holds beyond the other laws. Real-time: yes, if the laws' are.
@@ -64,10 +67,13 @@ class SumController {
     const Input inner{in.state, in.reference, in.period, in.applied, clip_ + in.cut};
     Vector total = Vector::Zero();
     for_each_law([&](auto& law) noexcept { total += law.output(inner); });
-    // A NaN passes, so that the loop finds it, and does not turn into a limit. A sum that overflows
-    // has a direction, as any that is too large.
-    const Vector command = range_().clamp(total);
-    clip_ = for_each_joint<joint_count>([&](int j) { return total[j] - command[j]; });
+    Vector command;
+    for (int j = 0; j < joint_count; ++j) {
+      // A NaN passes, so that the loop finds it, and does not turn into a limit. A sum that overflows
+      // has a direction, as any that is too large.
+      command[j] = range_.clamp(total[j], j);
+      clip_[j] = total[j] - command[j];
+    }
     return {command};
   }
 
@@ -105,7 +111,7 @@ class SumController {
     }(std::index_sequence_for<Laws...>());
   }
 
-  [[no_unique_address]] detail::KeptRange<C, R> range_;
+  detail::CommandRange<joint_count> range_;
   std::tuple<Laws...> laws_;
   Vector clip_ = Vector::Zero();  ///< of the last command, by the range
 };

@@ -118,7 +118,9 @@ class BumplessTransfer {
  private:
   static constexpr double huge = 1e300;  ///< in place of infinite limits: no sum overflows
 
-  [[nodiscard]] Vector bounded(const Vector& values) const noexcept { return range_.clamp(values); }
+  [[nodiscard]] Vector bounded(const Vector& values) const noexcept {
+    return for_each_joint<joint_count>([&](int j) { return range_.clamp(values[j], j); });
+  }
 
   /// The command with what is given in place of its own number.
   [[nodiscard]] C with_total(const C& command, const Vector& own,
