@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A controller of your own: a spring and a damper in each joint, in a loop like any other.
+// A controller of your own: a spring and a damper in each joint, in a loop.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -32,7 +32,7 @@ int main() {
     std::printf("%g s: (%.2f, %.2f) rad, (%.2f, %.2f) N m\n", loop.time(), loop.state().position[0],
                 loop.state().position[1], loop.command().effort[0], loop.command().effort[1]);
   }
-  // The loop keeps what it asks for within the drives' limits: 50 N m for 1 rad are too much.
+  // The loop limits the efforts to the drives' limits: 50 N m for 1 rad exceed them.
 }
 // 0 s: (0.00, 0.00) rad, (27.94, -13.62) N m
 // 1 s: (0.74, -0.50) rad, (11.31, -0.03) N m

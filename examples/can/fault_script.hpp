@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Faults on request: what goes wrong at the drives' end of the bus, and when.
+/// @file Scripted faults of the drives on the bus: kinds and times.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace articula::examples {
 
-/// What can go wrong.
+/// Kinds of faults.
 enum class FaultKind {
   silence,  ///< a drive's frames are not sent
   garbage,  ///< a drive's feedback is replaced by frames of random bytes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The two protocols that the played drives speak.
+/// @file The two protocols of the simulated drives.
 #pragma once
 
 #include "articula/hardware/can/can_codec.hpp"
