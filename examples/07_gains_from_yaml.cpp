@@ -30,7 +30,7 @@ int main() try {
   // A file for another robot is an error with file, line and column.
   return static_cast<int>(
       load_pid_gains(Q2d(), ConfigSource::text("joint: elbow", "slip")).gains.size());
-} catch (const ConfigError& error) {
+} catch (const FileError& error) {
   std::printf("%s\n", error.what());
 }
 // pid_plus_gravity_controller at 1000 Hz, gravity -9.8 m/s^2, priority 99

@@ -21,7 +21,7 @@ namespace {
 std::string complaint(const std::string& text, const std::string& name = "") {
   try {
     static_cast<void>(load_pid_gains(Q2d(), yaml(text), name));
-  } catch (const ConfigError& error) {
+  } catch (const FileError& error) {
     return error.what();
   }
   return "none";
@@ -45,7 +45,8 @@ TEST_CASE("what is not one YAML map is refused with its place") {
   CHECK_THAT(complaint("gains: \"\\q\"\n"), Contains("it is not YAML"));
   CHECK_THAT(complaint("a: *nobody\n"), Contains("test:1:4: it is not YAML"));
   CHECK(complaint("gains:\n\tp: 1\n") == "test:2:1: a tab in the indentation, expected spaces");
-  CHECK(complaint(std::string("a: 1\nb\0: 2", 10)) == "test:2:2: a NUL character, expected text");
+  CHECK(complaint(std::string("a: 1\nb\0: 2", 10)) ==
+        "test:2:2: a NUL character, expected UTF-8 text (UTF-16 is not supported)");
   // A tab elsewhere, blank lines with tabs and Windows line ends do no harm.
   CHECK(complaint("gains:\r\n  shoulder_active_joint:\t{p:\t1}\r\n\t\r\n"
                   "  elbow_active_joint: {p: 1}\t# fine\r\n") == "none");
@@ -106,16 +107,17 @@ TEST_CASE("what grows without end is stopped") {
 }
 
 TEST_CASE("unknown keys are answered with the known ones, the nearest first") {
-  CHECK_THAT(
-      complaint(gains + "gravitiy: {z: -9.8}\n"),
-      Contains("test:4:1: gravitiy: unknown key 'gravitiy', expected 'gravity'? One of gravity"));
+  CHECK_THAT(complaint(gains + "gravitiy: {z: -9.8}\n"),
+             Contains("test:4:1: gravitiy: unknown key 'gravitiy', expected one of gravity, gains, "
+                      "priority, ...; did you mean 'gravity'?"));
   CHECK_THAT(
       complaint(joints + "shoulder_active_joint: {p: 1, iclamp: 3}\nelbow_active_joint: {p: 1}"),
       Contains("test:2:31: shoulder_active_joint.iclamp: unknown key 'iclamp', expected "
-               "'i_clamp'? One of i_clamp, i_clamp_m"));
+               "one of i_clamp, i_clamp_min, i_clamp_max, ...; did you mean 'i_clamp'?"));
   CHECK_THAT(complaint("joints: [shoulder_active_joint]\n" + gains),
              Contains("test:4:3: gains.elbow_active_joint: unknown key"));
-  CHECK_THAT(complaint(gains + "chain: {rot: origin_link}\n"), Contains("expected 'root'?"));
+  CHECK_THAT(complaint(gains + "chain: {rot: origin_link}\n"),
+             Contains("expected one of root, tip; did you mean 'root'?"));
   CHECK_THAT(complaint(gains + "gravity: {z: -9.8, w: 1}\n"),
              Contains("gravity.w: unknown key 'w'"));
   CHECK_THAT(complaint(gains + "constraints: {elbow: {goal: 1}}\n"),
@@ -133,7 +135,8 @@ TEST_CASE("missing and superfluous joints are named") {
              Contains("test:3:21: elbow_active_joint: the key 'p' is missing"));
   CHECK_THAT(complaint("gains: {shoulder_active_joint: {p: 1}, elbo_active_joint: {p: 1}}"),
              Contains("gains.elbo_active_joint: robot 'q2d' has no joint 'elbo_active_joint', "
-                      "expected 'elbow_active_joint'?"));
+                      "expected one of shoulder_active_joint, elbow_active_joint; did you mean "
+                      "'elbow_active_joint'?"));
   CHECK_THAT(complaint("joints: [elbow_active_joint, elbow_active_joint]\ngains: {}\n"),
              Contains("test:1:30: joints[1]: 'elbow_active_joint' a second time"));
   CHECK_THAT(complaint(joints + "dof_names: [elbow_active_joint]\n" + gains),
@@ -208,7 +211,7 @@ TEST_CASE("the controller manager's rate, types and thread") {
   REQUIRE(bare.notes.size() == 1);
   CHECK_THAT(bare.notes[0], Contains("no update_rate is given: 100 Hz"));
   CHECK_THROWS_WITH(load_controller_manager(yaml("controller_manager: {update_rat: 5}")),
-                    Contains("expected 'update_rate'?"));
+                    Contains("did you mean 'update_rate'?"));
 }
 
 TEST_CASE("constraints of the joint trajectory controller are tolerances") {

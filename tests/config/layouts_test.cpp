@@ -24,7 +24,7 @@ PidConfig<2> loaded(const std::string& text, const std::string& name = "") {
 std::string complaint(const std::string& text, const std::string& name = "") {
   try {
     static_cast<void>(loaded(text, name));
-  } catch (const ConfigError& error) {
+  } catch (const FileError& error) {
     return error.what();
   }
   return "none";

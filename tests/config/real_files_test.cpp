@@ -34,7 +34,7 @@ template <class F>
 std::string complaint_of(F load) {
   try {
     static_cast<void>(load());
-  } catch (const ConfigError& error) {
+  } catch (const FileError& error) {
     return error.what();
   }
   return "none";

@@ -115,7 +115,7 @@ TEST_CASE("waveforms that cannot be are refused") {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
       static_cast<void>(load_signals(Q2d(), yaml(text)));
-    } catch (const ConfigError& error) {
+    } catch (const FileError& error) {
       return error.what();
     }
     return "none";
@@ -153,7 +153,7 @@ TEST_CASE("waveforms of one joint may not add up to more than its drive gives") 
   const auto complaint = [](const std::string& waves) -> std::string {
     try {
       static_cast<void>(load_signals(Q2d(), yaml("waveforms:\n  elbow_active_joint:\n" + waves)));
-    } catch (const ConfigError& error) {
+    } catch (const FileError& error) {
       return error.what();
     }
     return "none";

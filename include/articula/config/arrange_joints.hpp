@@ -19,7 +19,7 @@
 namespace articula::detail {
 
 /// The joints of a configuration in the order of a robot's, nullptr where one is not configured.
-/// @throws ConfigError if the robot lacks a joint
+/// @throws FileError if the robot lacks a joint
 template <Robot R>
 [[nodiscard]] std::array<const ConfiguredJoint*, static_cast<std::size_t>(joint_count<R>)>
 arranged_joints(const ControllerConfig& config, const R& robot) {
@@ -31,27 +31,27 @@ arranged_joints(const ControllerConfig& config, const R& robot) {
   return arranged;
 }
 
-/// @throws ConfigError: the joint that is not configured
+/// @throws FileError: the joint that is not configured
 template <Robot R>
 [[noreturn]] void refuse_missing(const ControllerConfig& config, const R& robot, std::size_t joint,
                                  const std::string& what) {
-  throw ConfigError(config.place,
-                    robot_text(robot) + " has the joint '" +
-                        std::string(joint_names(robot)[joint]) + "', which is missing",
-                    what + " for each of its " + std::to_string(joint_count<R>) + " joints");
+  throw FileError(config.place,
+                  robot_text(robot) + " has the joint '" + std::string(joint_names(robot)[joint]) +
+                      "', which is missing",
+                  what + " for each of its " + std::to_string(joint_count<R>) + " joints");
 }
 
-/// @throws ConfigError if the robot has no such link
+/// @throws FileError if the robot has no such link
 template <Robot R>
 [[nodiscard]] const LinkFrame& link_of_chain(const R& robot, const std::string& name,
-                                             const ConfigPlace& place) {
+                                             const FilePlace& place) {
   std::vector<std::string> names;
   for (const LinkFrame& link : model_of(robot).links) {
     if (link.name.view() == name) return link;
     names.emplace_back(link.name.view());
   }
-  throw ConfigError(place, robot_text(robot) + " has no link '" + shown(name) + "'",
-                    choice_text(names, name));
+  throw FileError(place, robot_text(robot) + " has no link '" + shown(name) + "'",
+                  one_of_words(name, names));
 }
 
 /// A chain must begin at the base and have all joints of the configuration in it.
@@ -59,8 +59,8 @@ template <Robot R>
 void check_chain(const ControllerConfig& config, const R& robot) {
   const std::string &root = config.chain_root, &tip = config.chain_tip;
   if (!root.empty() && link_of_chain(robot, root, config.chain_root_place).body >= 0) {
-    throw ConfigError(config.chain_root_place, "the link '" + shown(root) + "' moves",
-                      "a link of the base of " + robot_text(robot));
+    throw FileError(config.chain_root_place, "the link '" + shown(root) + "' moves",
+                    "a link of the base of " + robot_text(robot));
   }
   if (tip.empty()) return;
   const auto& model = model_of(robot);
@@ -72,10 +72,10 @@ void check_chain(const ControllerConfig& config, const R& robot) {
   }
   for (const ConfiguredJoint& joint : config.joints) {
     if (std::find(chain.begin(), chain.end(), joint.name) != chain.end()) continue;
-    throw ConfigError(config.chain_tip_place,
-                      "the chain to '" + shown(tip) + "' of " + robot_text(robot) +
-                          " leaves joint '" + shown(joint.name) + "' out",
-                      "a tip beyond all joints");
+    throw FileError(config.chain_tip_place,
+                    "the chain to '" + shown(tip) + "' of " + robot_text(robot) +
+                        " leaves joint '" + shown(joint.name) + "' out",
+                    "a tip beyond all joints");
   }
 }
 
@@ -98,7 +98,7 @@ void check_gravity(const ControllerConfig& config, const R& robot) {
          << robot_text(robot);
   expected << "(" << own.x << ", " << own.y << ", " << own.z
            << ") in the frame of its base, or a robot that is described otherwise";
-  throw ConfigError(config.gravity_place, reason.str(), expected.str());
+  throw FileError(config.gravity_place, reason.str(), expected.str());
 }
 
 }  // namespace articula::detail

@@ -51,10 +51,8 @@ namespace detail {
 /// Adds what another controller says to a configuration. There is one robot and one control thread:
 /// what both say about them must be the same.
 inline void put_together(ControllerConfig& config, ControllerConfig more) {
-  const auto refuse = [&](const ConfigPlace& place, const std::string& what,
-                          const std::string& expected) {
-    throw ConfigError(place, what, expected);
-  };
+  const auto refuse = [&](const FilePlace& place, const std::string& what,
+                          const std::string& expected) { throw FileError(place, what, expected); };
   const std::string several = "the name or the type of the controllers that are meant";
   if (more.type != config.type) {
     refuse(more.place,
@@ -62,8 +60,8 @@ inline void put_together(ControllerConfig& config, ControllerConfig more) {
                std::to_string(config.place.line) + " is '" + shown(config.type) + "'",
            several);
   }
-  const auto same = [&](const std::string& what, auto& first, ConfigPlace& first_place,
-                        const auto& second, const ConfigPlace& second_place) {
+  const auto same = [&](const std::string& what, auto& first, FilePlace& first_place,
+                        const auto& second, const FilePlace& second_place) {
     if (second_place.file.empty()) return;
     if (first_place.file.empty()) {
       first = second;
@@ -165,8 +163,8 @@ inline void keep_declared(const std::string& file, std::vector<ConfigSection>& s
   }
   if (chosen.size() > 1 && !single_joints) {
     const ConfigSection& second = chosen[1];
-    throw ConfigError({all.file, second.line(), second.parameters.key_mark.column, second.path},
-                      "there are several: " + found, choice_text(names, "") + " by name");
+    throw FileError({all.file, second.line(), second.parameters.key_mark.column, second.path},
+                    "there are several: " + found, one_of_words("", names) + " by name");
   }
   ControllerConfig config = ControllerReader(all.file, chosen.front(), robot, signs).take();
   for (std::size_t k = 1; k < chosen.size(); ++k) {
@@ -193,7 +191,7 @@ inline void keep_declared(const std::string& file, std::vector<ConfigSection>& s
 ///                need not be given where there is but one
 /// @param signs   which p, i and d may have; with `any` output clamps need not contain 0: for
 ///                ControlToolboxPidLaw
-/// @throws ConfigError with file, line, key and what was expected: no YAML, no such controller or
+/// @throws FileError with file, line, key and what was expected: no YAML, no such controller or
 ///         several, an unknown or missing key, a wrong type, a value out of range
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ControllerConfig load_controller(const ConfigSource& source,

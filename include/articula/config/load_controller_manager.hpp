@@ -75,7 +75,7 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
 ///     Loop<Q2dSim, PidPlusGravity> loop(Q2dSim({.period = manager.period()}));
 ///
 /// @param source  a file, or a ConfigSource::text
-/// @throws ConfigError with file, line, key and what was expected
+/// @throws FileError with file, line, key and what was expected
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ControllerManagerConfig load_controller_manager(const ConfigSource& source) {
   using detail::ConfigMap;
@@ -89,21 +89,21 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
       continue;
     }
     if (section != nullptr) {
-      throw ConfigError({all.file, each.line(), each.parameters.key_mark.column, each.path},
-                        "there are several controller managers, another one in line " +
-                            std::to_string(section->line()),
-                        "one");
+      throw FileError({all.file, each.line(), each.parameters.key_mark.column, each.path},
+                      "there are several controller managers, another one in line " +
+                          std::to_string(section->line()),
+                      "one");
     }
     section = &each;
   }
   if (section == nullptr) {
     const auto slip = std::find_if(all.sections.begin(), all.sections.end(), [](const auto& each) {
-      return detail::distance_of("controller_manager", each.name).value_or(3) <= 2;
+      return detail::is_near("controller_manager", each.name);
     });
-    throw ConfigError({.file = all.file}, "there is no controller_manager in it",
-                      slip == all.sections.end()
-                          ? "one"
-                          : "one, in place of '" + detail::shown(slip->name) + "'");
+    throw FileError({.file = all.file}, "there is no controller_manager in it",
+                    slip == all.sections.end()
+                        ? "one"
+                        : "one, in place of '" + detail::shown(slip->name) + "'");
   }
 
   section->check();

@@ -34,7 +34,7 @@ struct PidConfig : ControllerConfig {
 /// @param robot   whose joints they are
 /// @param config  from load_controller
 /// @param whose   gains there must be
-/// @throws ConfigError if the robot lacks a joint of the file, a joint of it has no gains, the
+/// @throws FileError if the robot lacks a joint of the file, a joint of it has no gains, the
 ///         chain leaves a joint out, or the file's gravity is not the robot's
 /// Real-time: no (allocates, throws).
 template <Robot R>
@@ -49,8 +49,8 @@ template <Robot R>
       detail::refuse_missing(config, robot, j, "gains");
     }
     if (!joint->gains) {
-      throw ConfigError(joint->place, "joint '" + detail::shown(joint->name) + "' has no gains",
-                        "them, such as " + detail::shown(joint->name) + ": {p: ...}");
+      throw FileError(joint->place, "joint '" + detail::shown(joint->name) + "' has no gains",
+                      "them, such as " + detail::shown(joint->name) + ": {p: ...}");
     }
     result.gains[j] = *joint->gains;
     result.keeps_integral[j] = joint->keeps_integral;
@@ -90,7 +90,7 @@ template <Robot R>
 /// @param whose   gains there must be
 /// @param signs   which p, i and d may have; with `any` output clamps need not contain 0: for
 ///                ControlToolboxPidLaw
-/// @throws ConfigError with file, line, key and what was expected, see load_controller and
+/// @throws FileError with file, line, key and what was expected, see load_controller and
 /// pid_gains
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>

@@ -27,7 +27,7 @@ namespace articula {
 /// @param robot   whose joints they are for
 /// @param source  a file, or a ConfigSource::text
 /// @param name    of the section; need not be given where all waveforms of the file are meant
-/// @throws ConfigError with file, line, key and what was expected: an unknown joint or key, a
+/// @throws FileError with file, line, key and what was expected: an unknown joint or key, a
 ///         signal that cannot be evaluated, an effort beyond the drive's limit, alone or summed up,
 ///         or no waveform at all
 /// Real-time: no (reads a file, allocates, throws).

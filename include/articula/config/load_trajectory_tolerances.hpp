@@ -30,7 +30,7 @@ struct TrajectoryConfig : ControllerConfig {
 /// @param robot   whose joints they are
 /// @param source  a file, or a ConfigSource::text
 /// @param name    of the controller; need not be given where there is but one with constraints
-/// @throws ConfigError with file, line, key and what was expected
+/// @throws FileError with file, line, key and what was expected
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] TrajectoryConfig<joint_count<R>> load_trajectory_tolerances(

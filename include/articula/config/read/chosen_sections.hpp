@@ -27,7 +27,7 @@ namespace articula::detail {
 /// @param notes     receives what was left out
 /// @param narrow    takes those away that are not likely to be meant where several are relevant, and
 ///                  adds a note on each; none: all count
-/// @throws ConfigError if there is none
+/// @throws FileError if there is none
 [[nodiscard]] inline std::vector<ConfigSection> chosen_sections(
     const ConfigSections& all, std::string_view name,
     const std::function<bool(const ConfigSection&)>& relevant, const std::string& what,
@@ -74,12 +74,11 @@ namespace articula::detail {
       if (!names[k].empty()) list += (list.empty() ? "" : ", ") + shown(names[k]);
     }
     if (names.size() > most) list += ", ...";
-    throw ConfigError({.file = all.file}, "there is no " + what + " in it",
-                      list.empty() ? "one" : "one besides " + list);
+    throw FileError({.file = all.file}, "there is no " + what + " in it",
+                    list.empty() ? "one" : "one besides " + list);
   }
-  throw ConfigError({.file = all.file},
-                    "there is no " + what + " called '" + shown(name) + "' in it",
-                    names.empty() ? "one" : choice_text(names, name));
+  throw FileError({.file = all.file}, "there is no " + what + " called '" + shown(name) + "' in it",
+                  names.empty() ? "one" : one_of_words(name, names));
 }
 
 }  // namespace articula::detail

@@ -2,10 +2,10 @@
 /// @file What a configuration file says about a controller, whichever robot it is for.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
 #include "articula/control/laws/pid_gains.hpp"
 #include "articula/model/vector3.hpp"
 #include "articula/reference/trajectory/trajectory.hpp"
+#include "articula/text/file_error.hpp"
 
 #include <optional>
 #include <string>
@@ -22,8 +22,8 @@ struct ConfiguredJoint {
   /// angle_wraparound: the error is that of the short way round
   std::optional<bool> short_way{};
   bool keeps_integral = false;  ///< save_i_term, for ControlToolboxPidLaw
-  ConfigPlace place{};
-  ConfigPlace short_way_place{};
+  FilePlace place{};
+  FilePlace short_way_place{};
 };
 
 /// A controller's parameters as a file has them. What is not in the file keeps its default.
@@ -46,11 +46,11 @@ struct ControllerConfig {
   /// What the file says and nothing here does, one line each with file, line and key.
   std::vector<std::string> notes{};
 
-  ConfigPlace place{};  ///< where the parameters stand
-  ConfigPlace gravity_place{};
-  ConfigPlace chain_root_place{};
-  ConfigPlace chain_tip_place{};
-  ConfigPlace priority_place{};
+  FilePlace place{};  ///< where the parameters stand
+  FilePlace gravity_place{};
+  FilePlace chain_root_place{};
+  FilePlace chain_tip_place{};
+  FilePlace priority_place{};
 };
 
 }  // namespace articula

@@ -149,8 +149,8 @@ class SectionFinder {
   [[nodiscard]] ConfigNode inherited(const WrittenSection& section) {
     nodes_ += node_count(section.parameters);
     if (nodes_ > ConfigBuilder::most_nodes) {
-      throw ConfigError({.file = found_.file}, "it is too large, wildcards included",
-                        "at most " + std::to_string(ConfigBuilder::most_nodes) + " values");
+      throw FileError({.file = found_.file}, "it is too large, wildcards included",
+                      "at most " + std::to_string(ConfigBuilder::most_nodes) + " values");
     }
     ConfigNode parameters = section.parameters;
     mark_inherited(parameters, section.path);
@@ -204,7 +204,7 @@ class SectionFinder {
 
 /// All sections of a file.
 /// @param wanted  a controller that may be there by a wildcard alone; empty: none
-/// @throws ConfigError if it is no YAML, or not of the kind that has sections
+/// @throws FileError if it is no YAML, or not of the kind that has sections
 [[nodiscard]] inline ConfigSections find_sections(const ConfigSource& source,
                                                   std::string_view wanted = {}) {
   return SectionFinder(source, wanted).take();

@@ -12,14 +12,14 @@
 namespace articula::detail {
 
 /// Reads gravity, chain and priority.
-/// @throws ConfigError if one of them has the wrong type or is out of range
+/// @throws FileError if one of them has the wrong type or is out of range
 inline void read_mechanics(ConfigMap& map, ControllerConfig& config) {
   if (const auto value = map.find("gravity")) {
     config.gravity = read_vector(*value, config.notes);
     config.gravity_place = value->place();
   }
   if (auto chain = map.find_map("chain")) {
-    const auto read = [&](std::string_view key, std::string& to, ConfigPlace& place) {
+    const auto read = [&](std::string_view key, std::string& to, FilePlace& place) {
       const auto value = chain->find(key);
       if (value) to = value->name(), place = value->place();
     };

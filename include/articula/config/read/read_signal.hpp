@@ -32,12 +32,10 @@ namespace articula::detail {
 
 /// A key of a section that was to be `waveforms`; nullptr if there is none.
 [[nodiscard]] inline const ConfigNode* misspelt_waveforms(const ConfigNode& section) {
-  constexpr std::size_t farthest = 2;
   if (section.find("waveforms") != nullptr) return nullptr;
   const auto found =
-      std::find_if(section.items.begin(), section.items.end(), [](const ConfigNode& item) {
-        return distance_of("waveforms", item.key).value_or(farthest + 1) <= farthest;
-      });
+      std::find_if(section.items.begin(), section.items.end(),
+                   [](const ConfigNode& item) { return is_near("waveforms", item.key); });
   return found == section.items.end() ? nullptr : &*found;
 }
 
@@ -54,7 +52,7 @@ class SignalShapeReader {
   /// @param limit  of its values
   SignalShapeReader(ConfigMap& map, double limit) : map_(map), limit_(limit) {}
 
-  /// @throws ConfigError if there is a key that the shape does not have, or a value out of range
+  /// @throws FileError if there is a key that the shape does not have, or a value out of range
   [[nodiscard]] Signal read() {
     std::size_t shape = 0;
     if (const auto type = map_.find("type")) {

@@ -40,14 +40,14 @@ class SignalReader {
                   Inherited::may_be_unknown);
     const ConfigNode& node = map.value().node();
     if (const ConfigNode* joint = misplaced_waveforms(node, robot_)) {
-      throw ConfigError(
+      throw FileError(
           {file_, joint->key_mark.line, joint->key_mark.column, map.value().at(*joint).place().key},
           "waveforms below '" + shown(joint->key) + "'",
           "'waveforms' in the section itself, and the joints below it: waveforms: {" +
               shown(joint->key) + ": {amplitude: ..., frequency: ...}}");
     }
     if (const ConfigNode* slip = misspelt_waveforms(node)) {
-      throw ConfigError(
+      throw FileError(
           {file_, slip->key_mark.line, slip->key_mark.column, map.value().at(*slip).place().key},
           "unknown key '" + shown(slip->key) + "'", "'waveforms'");
     }
@@ -77,10 +77,10 @@ class SignalReader {
                                       [&](const Joint& each) { return each.name == joint.name; });
       static_cast<void>(robot_.index(joint.name, joint.place));
       if (!joints.empty() && !listed) {
-        throw ConfigError(joint.place,
-                          "joint '" + shown(joint.name) + "' is not the section's, see line " +
-                              std::to_string(joints.front().place.line),
-                          "one of its joints");
+        throw FileError(joint.place,
+                        "joint '" + shown(joint.name) + "' is not the section's, see line " +
+                            std::to_string(joints.front().place.line),
+                        "one of its joints");
       }
       read_signal(std::move(one), joint, target);
     };
@@ -115,11 +115,11 @@ class SignalReader {
     }
   }
 
-  /// @throws ConfigError if there was no waveform at all, or those of a joint are beyond its drive
+  /// @throws FileError if there was no waveform at all, or those of a joint are beyond its drive
   void finish() {
     constexpr const char* wanted = "waveforms, such as <joint>: {amplitude: ..., frequency: ...}";
     for (const auto& [place, what] : empty_) {
-      if (config_.signals.empty()) throw ConfigError(place, what, wanted);
+      if (config_.signals.empty()) throw FileError(place, what, wanted);
       config_.notes.push_back(file_ + ":" + std::to_string(place.line) + ": " + place.key +
                               ": there is no waveform in it");
     }
@@ -137,18 +137,18 @@ class SignalReader {
       std::ostringstream reason;
       reason << "the signals on joint '" << robot_.names[j] << "' add up to " << highest
              << " N m or N";
-      throw ConfigError(drives_[j].last, reason.str(), at_most(limits_[j]));
+      throw FileError(drives_[j].last, reason.str(), at_most(limits_[j]));
     }
   }
 
   struct Joint {
     std::string name;
-    ConfigPlace place;
+    FilePlace place;
   };
   /// What a joint's drive has to do.
   struct Drive {
     std::vector<Signal> signals{};
-    ConfigPlace last{};
+    FilePlace last{};
     SignalValue effort{};  ///< sum of the peaks
     SignalValue motion{};  ///< likewise
   };
@@ -225,7 +225,7 @@ class SignalReader {
   std::vector<double> limits_;
   std::vector<Drive> drives_;
   std::string file_;
-  std::vector<std::pair<ConfigPlace, std::string>> empty_{};  ///< lists and maps of no waveforms
+  std::vector<std::pair<FilePlace, std::string>> empty_{};  ///< lists and maps of no waveforms
   SignalConfig config_{};
 };
 

@@ -2,10 +2,10 @@
 /// @file The joints of a robot by name, whichever type it has.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/scalar.hpp"
 #include "articula/model/joint.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/text/file_error.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -31,17 +31,17 @@ struct RobotJoints {
     return std::find(names.begin(), names.end(), name) != names.end();
   }
   /// The index of a joint.
-  /// @throws ConfigError if it cannot be commanded, saying why
-  [[nodiscard]] std::size_t index(const std::string& name, const ConfigPlace& place) const {
+  /// @throws FileError if it cannot be commanded, saying why
+  [[nodiscard]] std::size_t index(const std::string& name, const FilePlace& place) const {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     const auto other = others.find(name);
-    throw ConfigError(place,
-                      other == others.end()
-                          ? robot + " has no joint '" + shown(name) + "'" +
-                                (has_placeholder(name) ? ", a placeholder" : "")
-                          : "joint '" + shown(name) + "' of " + robot + " " + other->second,
-                      choice_text(names, name) + value_hint(name));
+    throw FileError(place,
+                    other == others.end()
+                        ? robot + " has no joint '" + shown(name) + "'" +
+                              (has_placeholder(name) ? ", a placeholder" : "")
+                        : "joint '" + shown(name) + "' of " + robot + " " + other->second,
+                    one_of_words(name, names) + value_hint(name));
   }
 };
 

@@ -2,8 +2,8 @@
 /// @file The parameters of one controller as they stand in a configuration file.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/node.hpp"
+#include "articula/text/file_error.hpp"
 
 #include <optional>
 #include <string>
@@ -21,15 +21,15 @@ struct ConfigSection {
   bool is_listed = false;    ///< the controller manager gives its type
   bool is_declared = false;  ///< it has ros__parameters, or a plugin's type of its own
   ConfigNode parameters{};
-  std::optional<ConfigError> fault{};  ///< why it cannot be used; no matter to who does not ask
-  std::vector<std::string> notes{};    ///< on what another section has changed
+  std::optional<FileError> fault{};  ///< why it cannot be used; no matter to who does not ask
+  std::vector<std::string> notes{};  ///< on what another section has changed
 
   [[nodiscard]] std::string full_name() const { return group.empty() ? name : group + "/" + name; }
   /// Where it begins, for messages.
   [[nodiscard]] int line() const noexcept { return parameters.key_mark.line; }
-  /// @throws ConfigError if it cannot be used
+  /// @throws FileError if it cannot be used
   void check() const {
-    if (fault) throw ConfigError(*fault);
+    if (fault) throw FileError(*fault);
   }
 };
 

@@ -24,7 +24,7 @@ struct WrittenSection {
   SectionName name{};
   std::string path{};  ///< the keys from the top
   ConfigNode parameters{};
-  std::optional<ConfigError> fault{};  ///< why it cannot be used
+  std::optional<FileError> fault{};  ///< why it cannot be used
 };
 
 /// Finds the sections of a file, in the order in which ROS 2 takes them: that of their parameters.
@@ -53,14 +53,14 @@ class SectionSearch {
   void check_spelling(const ConfigNode& map, const std::string& path) const {
     for (const ConfigNode& item : map.items) {
       const std::string here = joined(path, shown(item.key));
-      const std::size_t apart = distance_of(ros_parameters, item.key).value_or(3);
-      const ConfigPlace place{file_, item.key_mark.line, item.key_mark.column, here};
+      const std::size_t apart = edit_distance(ros_parameters, item.key);
+      const FilePlace place{file_, item.key_mark.line, item.key_mark.column, here};
       const std::string expected = "'" + std::string(ros_parameters) + "'";
       if (apart <= 2 && item.key != ros_parameters) {
-        throw ConfigError(place, "unknown key '" + shown(item.key) + "'", expected);
+        throw FileError(place, "unknown key '" + shown(item.key) + "'", expected);
       }
       if (apart == 0 && path.empty()) {
-        throw ConfigError(place, expected + " at the top", "it below a controller's name, or /**");
+        throw FileError(place, expected + " at the top", "it below a controller's name, or /**");
       }
       check_spelling(item, here);
     }
@@ -118,16 +118,16 @@ class SectionSearch {
     WrittenSection section{name, path, parameters, {}};
     section.parameters.kind = ConfigNode::Kind::map;
     section.parameters.items.clear();
-    const ConfigPlace place{file_, parameters.mark.line, parameters.mark.column, path};
+    const FilePlace place{file_, parameters.mark.line, parameters.mark.column, path};
     if (!parameters.is_map() && !says_nothing) {
       section.fault =
-          ConfigError(place, what_is(parameters), "a map of parameters, further to the right");
+          FileError(place, what_is(parameters), "a map of parameters, further to the right");
     }
     try {
       for (const ConfigNode& item : parameters.items) {
         if (parameters.is_map()) insert_dotted(place, section.parameters, item.key, item);
       }
-    } catch (const ConfigError& error) {
+    } catch (const FileError& error) {
       section.fault = error;
     }
     const auto same = std::find_if(found_.begin(), found_.end(),

@@ -2,9 +2,9 @@
 /// @file The characters of a YAML file.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
-#include "articula/config/yaml/placeholder.hpp"
 #include "articula/config/yaml/scalar.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/placeholder.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,45 +22,28 @@ namespace articula::detail {
   return text;
 }
 
-/// True if a text is ASCII in UTF-16, of which every other byte is 0.
-[[nodiscard]] inline bool is_bare_utf16(std::string_view text) {
-  if (text.size() < 2) return false;
-  const std::size_t zero = text[0] == '\0' ? 0 : 1;
-  for (std::size_t k = 0; k < std::min<std::size_t>(text.size(), 16); ++k) {
-    if ((text[k] == '\0') != (k % 2 == zero)) return false;
-  }
-  return true;
-}
-
 /// A line that begins with % is an instruction to YAML, which passes over those that it does not
 /// know.
 inline void check_directive(const std::string& file, int line, std::string_view text) {
   if (text.starts_with("%YAML ") || text.starts_with("%TAG ")) return;
   const std::string_view here = text.substr(0, text.find_first_of("\r\n"));
-  throw ConfigError({file, line, 1, ""},
-                    has_placeholder(here) ? unfilled_text(placeholder_in(here))
-                                          : "a % at the beginning of the line",
-                    has_placeholder(here) ? "its value" + value_example(here) : "a key");
+  throw FileError({file, line, 1, ""},
+                  has_placeholder(here) ? unfilled_text(placeholder_in(here))
+                                        : "a % at the beginning of the line",
+                  has_placeholder(here) ? "its value" + value_example(here) : "a key");
 }
 
 /// What YAML parsers disagree on: NUL, and tabs as indentation; and UTF-16.
 inline void check_characters(const std::string& file, std::string_view text) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-    throw ConfigError({file, 1, 1, ""}, "it is UTF-16", "UTF-8");
-  }
-  if (is_bare_utf16(text)) {
-    throw ConfigError({file, 1, 1, ""}, "it is UTF-16 without a byte order mark", "UTF-8");
-  }
   int line = 1, column = 1;
   bool indentation = true;
   for (std::size_t k = 0; k < text.size(); ++k) {
     const char c = text[k];
     if (c == '%' && column == 1) check_directive(file, line, text.substr(k));
-    if (c == '\0') throw ConfigError({file, line, column, ""}, "a NUL character", "text");
     if (c == '\t' && indentation) {
       const std::size_t next = text.find_first_not_of(" \t\r", k);
       if (next != std::string_view::npos && text[next] != '\n') {
-        throw ConfigError({file, line, column, ""}, "a tab in the indentation", "spaces");
+        throw FileError({file, line, column, ""}, "a tab in the indentation", "spaces");
       }
     }
     if (c != ' ') indentation = false;

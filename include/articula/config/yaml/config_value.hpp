@@ -2,13 +2,13 @@
 /// @file Takes single values out of a configuration, and says what is wrong with them.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/node.hpp"
-#include "articula/config/yaml/number_hint.hpp"
-#include "articula/config/yaml/odd_character.hpp"
-#include "articula/config/yaml/placeholder.hpp"
 #include "articula/config/yaml/scalar.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/text/characters.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/number_hint.hpp"
+#include "articula/text/placeholder.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -26,13 +26,13 @@ class ConfigValue {
       : file_(std::move(file)), node_(&node), path_(std::move(path)) {}
 
   [[nodiscard]] const ConfigNode& node() const noexcept { return *node_; }
-  [[nodiscard]] ConfigPlace place() const {
+  [[nodiscard]] FilePlace place() const {
     return {file_, node_->mark.line, node_->mark.column, path_};
   }
   [[noreturn]] void refuse(const std::string& reason, const std::string& expected) const {
-    throw ConfigError(place(), reason, expected);
+    throw FileError(place(), reason, expected);
   }
-  /// @throws ConfigError: what stands there, and what should
+  /// @throws FileError: what stands there, and what should
   [[noreturn]] void refuse(const std::string& expected) const {
     refuse(what_is(*node_), expected + value_hint(node_->text, node_->given));
   }
@@ -96,7 +96,7 @@ class ConfigValue {
     for (std::size_t k = 0; k < words.size(); ++k) {
       if (node_->kind == ConfigNode::Kind::scalar && node_->text == words[k]) return k;
     }
-    refuse(what_is(*node_), choice_text(words, node_->text));
+    refuse(what_is(*node_), one_of_words(node_->text, words));
   }
   [[nodiscard]] std::vector<ConfigValue> list() const {
     if (!node_->is_list()) {
@@ -118,6 +118,8 @@ class ConfigValue {
  private:
   [[nodiscard]] std::string hint() const {
     if (node_->quoted && parse_number(node_->text).is_number) return " without quotes";
+    const bool is_infinity = is_one_of(node_->text, {"inf", "infinity", "-inf", "-infinity"});
+    if (plain() && is_infinity) return "; infinity is .inf";
     return plain() ? number_hint(node_->text) : "";
   }
   [[nodiscard]] bool plain() const noexcept {

@@ -45,7 +45,7 @@ namespace articula::detail {
 /// Refuses lists that are neither n numbers nor an n x n matrix by rows. What seem to be decimal
 /// commas are named; two joints' may look like a matrix, [1,0, 0,5], which a blank behind every
 /// comma makes sure.
-/// @throws ConfigError with the numbers that were probably meant
+/// @throws FileError with the numbers that were probably meant
 inline void refuse_length(const ConfigValue& value, std::size_t n) {
   const std::vector<ConfigNode>& items = value.node().items;
   const bool is_right = items.size() == n || items.size() == n * n;

@@ -3,14 +3,14 @@
 #pragma once
 
 #include "articula/config/yaml/characters.hpp"
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/filled_text.hpp"
 #include "articula/config/yaml/node.hpp"
-#include "articula/config/yaml/odd_character.hpp"
 #include "articula/config/yaml/parse_hint.hpp"
-#include "articula/config/yaml/placeholder.hpp"
 #include "articula/config/yaml/scalar.hpp"
 #include "articula/config/yaml/source.hpp"
+#include "articula/text/characters.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/placeholder.hpp"
 
 #include <yaml-cpp/anchor.h>
 #include <yaml-cpp/eventhandler.h>
@@ -106,7 +106,7 @@ class ConfigBuilder final : public YAML::EventHandler {
   }
   [[noreturn]] void refuse(ConfigMark mark, const std::string& reason,
                            const std::string& expected) const {
-    throw ConfigError({file_, mark.line, mark.column, path()}, reason, expected);
+    throw FileError({file_, mark.line, mark.column, path()}, reason, expected);
   }
   /// The keys from the top to here.
   [[nodiscard]] std::string path() const {
@@ -195,9 +195,8 @@ class ConfigBuilder final : public YAML::EventHandler {
       if (node.text == "<<" && !node.quoted) {
         refuse(node.mark, "the merge key <<", "the values themselves");
       }
-      if (const std::string odd = odd_character_in(node.text); !odd.empty() && !node.quoted) {
-        refuse(node.mark, "the key '" + shown(node.text) + "', in which there is " + odd,
-               "an ordinary blank, or none");
+      if (!node.quoted && !odd_character_in(node.text).empty()) {
+        refuse(node.mark, "the key " + quoted_text(node.text), "an ordinary blank, or none");
       }
       parent.has_key = true;
       parent.key = std::move(node.text);
@@ -229,7 +228,7 @@ class ConfigBuilder final : public YAML::EventHandler {
 
 /// Reads the one document of a YAML file, values in place of placeholders. Equal keys, nesting without end and aliases that multiply
 /// are refused.
-/// @throws ConfigError with file, line and column
+/// @throws FileError with file, line and column
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ConfigNode read_document(const ConfigSource& source) {
   const FilledText filled(source.name(), with_line_feeds(source.contents()), source.values());
@@ -243,16 +242,16 @@ class ConfigBuilder final : public YAML::EventHandler {
   } catch (const YAML::Exception& error) {
     const auto [line, column] =
         filled.in_file({std::max(error.mark.line, 0) + 1, std::max(error.mark.column, 0) + 1});
-    throw ConfigError({source.name(), line, column, ""}, "it is not YAML: " + shown(error.msg),
-                      parse_hint(text, line));
+    throw FileError({source.name(), line, column, ""}, "it is not YAML: " + shown(error.msg),
+                    parse_hint(text, line));
   }
   ConfigNode root = builder.take();
   if (root.kind == ConfigNode::Kind::nothing) {
-    throw ConfigError({.file = source.name()}, "it is empty", "parameters");
+    throw FileError({.file = source.name()}, "it is empty", "parameters");
   }
   if (!root.is_map()) {
-    throw ConfigError({source.name(), root.mark.line, root.mark.column, ""},
-                      what_is(root) + " at the top", "a map of parameters");
+    throw FileError({source.name(), root.mark.line, root.mark.column, ""},
+                    what_is(root) + " at the top", "a map of parameters");
   }
   return root;
 }

@@ -2,10 +2,10 @@
 /// @file A text whose placeholders have been given their values.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/node.hpp"
-#include "articula/config/yaml/placeholder.hpp"
 #include "articula/config/yaml/source.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/placeholder.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -22,15 +22,14 @@ class FilledText {
  public:
   /// @param text    with a line feed behind each line
   /// @param values  of placeholders; others are left as they are
-  /// @throws ConfigError if a value is more than a line, or the result larger than a source may be
+  /// @throws FileError if a value is more than a line, or the result larger than a source may be
   FilledText(const std::string& file, std::string text, const ConfigValues& values) {
     for (const auto& [name, value] : values) {
       const bool one_line = std::none_of(
           value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
       if (one_line) continue;
-      throw ConfigError({.file = file},
-                        "the value given for '" + name + "' has a line break or tab",
-                        "a line of text");
+      throw FileError({.file = file}, "the value given for '" + name + "' has a line break or tab",
+                      "a line of text");
     }
     if (values.empty()) {
       text_ = std::move(text);
@@ -38,8 +37,8 @@ class FilledText {
     }
     fill(text, values);
     if (text_.size() > ConfigSource::capacity) {
-      throw ConfigError({.file = file}, "it is larger than 1 MiB, values included",
-                        "a configuration file");
+      throw FileError({.file = file}, "it is larger than 1 MiB, values included",
+                      "a configuration file");
     }
   }
 

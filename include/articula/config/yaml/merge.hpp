@@ -69,11 +69,11 @@ inline void replace_entries(ConfigNode& weak, const ConfigNode& strong, const st
 
 /// Puts a value into a map under a key, in which dots go down: ROS 2 takes the key `gravity.z` for
 /// `z` in the map `gravity`.
-/// @throws ConfigError if a value is given both ways
-inline void insert_dotted(const ConfigPlace& place, ConfigNode& map, std::string_view key,
+/// @throws FileError if a value is given both ways
+inline void insert_dotted(const FilePlace& place, ConfigNode& map, std::string_view key,
                           const ConfigNode& item, std::size_t depth = 0) {
   if (depth > ConfigBuilder::deepest) {
-    throw ConfigError(place, "the key '" + shown(item.key) + "' has too many dots", "fewer");
+    throw FileError(place, "the key '" + shown(item.key) + "' has too many dots", "fewer");
   }
   const std::size_t dot = key.find('.');
   const bool inner = dot != std::string_view::npos;
@@ -99,7 +99,7 @@ inline void insert_dotted(const ConfigPlace& place, ConfigNode& map, std::string
     *same = item;
     same->key = first;
   } else {
-    throw ConfigError(
+    throw FileError(
         {place.file, item.key_mark.line, item.key_mark.column, place.key},
         "'" + shown(item.key) + "' is also in line " + std::to_string(same->key_mark.line),
         "every key once");

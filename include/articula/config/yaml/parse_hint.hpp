@@ -2,9 +2,9 @@
 /// @file Why a text may not be YAML.
 #pragma once
 
-#include "articula/config/yaml/odd_character.hpp"
-#include "articula/config/yaml/placeholder.hpp"
 #include "articula/config/yaml/scalar.hpp"
+#include "articula/text/characters.hpp"
+#include "articula/text/placeholder.hpp"
 
 #include <cstddef>
 #include <string>

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "articula/config/yaml/config_value.hpp"
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/node.hpp"
-#include "articula/config/yaml/number_hint.hpp"
 #include "articula/config/yaml/scalar.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/number_hint.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,7 +30,7 @@ class ConfigMap {
  public:
   /// @param notes      receives what is known and not used
   /// @param inherited  what becomes of unknown keys from elsewhere
-  /// @throws ConfigError if the value is no map
+  /// @throws FileError if the value is no map
   ConfigMap(ConfigValue value, std::vector<std::string>& notes,
             Inherited inherited = Inherited::must_be_known)
       : value_(std::move(value)),
@@ -75,19 +75,20 @@ class ConfigMap {
   }
   /// True if a key is near to one that was asked for.
   [[nodiscard]] bool nearly_knows(std::string_view key) const {
-    return nearest_name(known_, key) != nullptr;
+    return std::any_of(known_.begin(), known_.end(),
+                       [&](const std::string& known) { return is_near(key, known); });
   }
   /// True if there are keys that nobody asked for, what is inherited aside.
   [[nodiscard]] bool has_unknown() const { return !unknown().empty(); }
 
   /// Says something about a value.
   void note(const ConfigValue& at, std::string_view text) const {
-    const ConfigPlace place = at.place();
+    const FilePlace place = at.place();
     notes_->push_back(place.file + ":" + std::to_string(place.line) + ": " + place.key + ": " +
                       std::string(text));
   }
 
-  /// @throws ConfigError if the map has a key that nobody asked for, or lacks one that it must have
+  /// @throws FileError if the map has a key that nobody asked for, or lacks one that it must have
   void finish() const {
     constexpr std::size_t listed = 3, tried = 16;
     for (const ConfigNode& item : value_.node().items) {
@@ -109,12 +110,12 @@ class ConfigMap {
       }
       wrong = *slip;
     }
-    if (wrong != nullptr) refuse_key(*wrong, choice_text(known_, wrong->key, listed));
+    if (wrong != nullptr) refuse_key(*wrong, one_of_words(wrong->key, known_, listed));
   }
 
   /// @param keys      that may stand here, besides those that were asked for
   /// @param expected  what to say if there is another one
-  /// @throws ConfigError if there is
+  /// @throws FileError if there is
   void allow_only(const std::vector<std::string>& keys, const std::string& expected) const {
     auto others = unknown();
     std::erase_if(others, [&](const ConfigNode* item) {
@@ -122,51 +123,25 @@ class ConfigMap {
     });
     refuse_slips(others);
     if (others.empty()) return;
-    const std::string* nearest = nearest_name(keys, others.front()->key);
-    refuse_key(*others.front(), (nearest ? "'" + *nearest + "'? " : "") + expected);
+    refuse_key(*others.front(), expected + did_you_mean(others.front()->key, keys));
   }
 
  private:
   [[noreturn]] void refuse_key(const ConfigNode& item, const std::string& expected) const {
-    ConfigPlace place = value_.at(item).place();
+    FilePlace place = value_.at(item).place();
     place.line = item.key_mark.line;
     place.column = item.key_mark.column;
-    throw ConfigError(place, "unknown key '" + shown(item.key) + "'", expected);
+    throw FileError(place, "unknown key '" + shown(item.key) + "'", expected);
   }
   /// What YAML takes for a key though nobody has meant one.
   void refuse_slips(const std::vector<const ConfigNode*>& others) const {
     for (const ConfigNode* item : others) {
       const std::string hint = key_hint(item->key, item->given);
       if (!hint.empty()) refuse_key(*item, hint);
-      refuse_comma(*item);
+      // {p: 1,5} is p: 1 and 5: nothing.
+      const bool is_bare = item->kind == ConfigNode::Kind::nothing && number_of(item->key);
+      if (is_bare) refuse_key(*item, "a decimal point, if the comma before it is a decimal one");
     }
-  }
-  /// {p: 1,5} is p: 1 and 5: nothing. {p: 1,234.5} is p: 1 and 234: {5: nothing}.
-  void refuse_comma(const ConfigNode& first) const {
-    const auto& items = value_.node().items;
-    auto place = static_cast<std::size_t>(&first - items.data());
-    if (place == 0) return;
-    const ConfigNode& before = items[place - 1];
-    std::string number = before.text;
-    for (; place < items.size() && items[place].key_mark.line == before.key_mark.line; ++place) {
-      const std::string key = bare_number(items[place]);
-      if (key.empty()) break;
-      number += "," + key;
-    }
-    const std::string advice = readings_of(number).advice();
-    if (advice.empty() || number == before.text) return;
-    value_.at(before).refuse("the number " + shown(before.text) + " and behind a comma the key '" +
-                                 shown(first.key) + "'",
-                             advice);
-  }
-  /// A key without a value that looks like a number; empty if it does not.
-  [[nodiscard]] static std::string bare_number(const ConfigNode& item) {
-    const bool has_part = item.is_map() && item.items.size() == 1;
-    const ConfigNode& last = has_part ? item.items[0] : item;
-    const std::string text = item.key + (has_part ? "." + last.key : "");
-    const bool is_bare = last.kind == ConfigNode::Kind::nothing &&
-                         text.find_first_not_of("0123456789.eE+-") == std::string::npos;
-    return is_bare ? text : "";
   }
   [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
     std::vector<const ConfigNode*> items;

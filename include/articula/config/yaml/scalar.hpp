@@ -3,8 +3,9 @@
 #pragma once
 
 #include "articula/config/yaml/node.hpp"
-#include "articula/config/yaml/odd_character.hpp"
-#include "articula/config/yaml/placeholder.hpp"
+#include "articula/text/characters.hpp"
+#include "articula/text/meant_word.hpp"
+#include "articula/text/placeholder.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -18,27 +19,6 @@
 #include <vector>
 
 namespace articula::detail {
-
-/// A text from a file as a message may show it: short, on one line, without control characters, and
-/// with the number of characters that nobody would see.
-[[nodiscard]] inline std::string shown(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string result;
-  std::size_t taken = 0;
-  while (taken < std::min(text.size(), longest)) {
-    const TextCharacter character = first_character(text.substr(taken));
-    taken += character.bytes.size();
-    if (!odd_name(character.code).empty()) {
-      result += "<" + code_text(character.code) + ">";
-    } else {
-      const bool control =
-          character.code == 0x7f ||
-          (character.code < 0x20 && static_cast<unsigned char>(character.bytes[0]) < 0x20);
-      result += control ? "?" : character.bytes;
-    }
-  }
-  return taken < text.size() ? result + "..." : result;
-}
 
 /// True if the text is one of some words, in lower, upper or title case as YAML has them.
 [[nodiscard]] inline bool is_one_of(std::string_view text, const std::vector<const char*>& words) {
@@ -55,15 +35,15 @@ namespace articula::detail {
   });
 }
 
-/// What a text is as a number.
+/// A text as a number.
 struct ParsedNumber {
-  bool is_number = false;  ///< it is written as one
+  bool is_number = false;  ///< it has the form of a number
   bool in_range = false;   ///< and a double can hold it
   double value = 0;
 };
 
-/// A number as YAML writes it; .inf and .nan are numbers, too. Whoever reads 010 in octal and
-/// whoever does not may be both right, so it is none.
+/// A number as YAML writes it, .inf and .nan included. 010 is no number: some parsers take it for an
+/// octal one.
 [[nodiscard]] inline ParsedNumber parse_number(std::string_view text) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (is_one_of(text, {".nan"})) {
@@ -72,12 +52,10 @@ struct ParsedNumber {
   const bool negative = text.starts_with('-');
   if (negative || text.starts_with('+')) text.remove_prefix(1);
   if (is_one_of(text, {".inf"})) return {true, true, negative ? -infinity : infinity};
-  if (text.empty() || text.find_first_not_of("0123456789.eE+-") != std::string_view::npos)
-    return {};
-  if (text.find_first_of("+-") == 0) return {};
-  if (text.size() > 1 && text[0] == '0' && text.find_first_of(".eE") == std::string_view::npos) {
-    return {};
-  }
+  const bool has_sign = text.starts_with('+') || text.starts_with('-');
+  const bool is_octal =
+      text.size() > 1 && text[0] == '0' && text.find_first_of(".eE") == std::string_view::npos;
+  if (text.find_first_not_of("0123456789.eE+-") != text.npos || has_sign || is_octal) return {};
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc::invalid_argument || end != text.data() + text.size()) return {};
@@ -149,82 +127,9 @@ struct ParsedNumber {
     return unfilled_text(placeholder_in(node.text));
   }
   const ParsedNumber number = parse_number(node.text);
-  if (!number.is_number) {
-    const std::string odd = odd_character_in(node.text);
-    return "the word '" + shown(node.text) + "'" +
-           (odd.empty() ? "" : ", in which there is " + odd);
-  }
+  if (!number.is_number) return "the word " + quoted_text(node.text);
   return "the number " + shown(node.text) +
          (number.in_range ? "" : ", which is out of the range of numbers");
-}
-
-/// How many letters must be put in, left out or changed to make one word of the other [Levenshtein
-/// 1966].
-[[nodiscard]] inline std::size_t letters_apart(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// How many letters a name is from what was written, whatever the case; none where either is long.
-[[nodiscard]] inline std::optional<std::size_t> distance_of(std::string_view name,
-                                                            std::string_view written) {
-  constexpr std::size_t longest = 64;
-  if (written.size() > longest || name.size() > longest) return {};
-  std::string a(name), b(written);
-  for (std::string* text : {&a, &b}) {
-    for (char& c : *text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  }
-  return letters_apart(a, b);
-}
-
-/// The name that was probably meant; nullptr if none is near to what was written.
-[[nodiscard]] inline const std::string* nearest_name(const std::vector<std::string>& names,
-                                                     std::string_view written) {
-  const std::string* nearest = nullptr;
-  std::size_t least = std::max<std::size_t>(2, written.size() / 3) + 1;
-  for (const std::string& name : names) {
-    const auto apart = distance_of(name, written);
-    if (!apart || *apart >= least) continue;
-    // One letter in place of another means nothing, but kp means p.
-    if (*apart >= name.size() && !(*apart == 1 && written.ends_with(name))) continue;
-    least = *apart;
-    nearest = &name;
-  }
-  return nearest;
-}
-
-/// "one of a, b, c", with the nearest of them first if one is near to what was written.
-/// @param most  names listed; if there are more, the nearest are
-[[nodiscard]] inline std::string choice_text(
-    const std::vector<std::string>& names, std::string_view written,
-    std::size_t most = std::numeric_limits<std::size_t>::max()) {
-  const std::string* nearest = nearest_name(names, written);
-  const std::string begin =
-      nearest != nullptr ? "'" + shown(*nearest) + "'? One of " : std::string("one of ");
-  std::vector<std::pair<std::size_t, std::size_t>> order;  // per cent that are other letters, index
-  const bool too_many = names.size() > most;
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto apart = too_many ? distance_of(names[k], written) : std::nullopt;
-    const std::size_t longer = std::max({names[k].size(), written.size(), std::size_t{1}});
-    order.emplace_back(apart ? 100 * *apart / longer : 100, k);
-  }
-  if (too_many) {
-    std::sort(order.begin(), order.end());
-    order.resize(most);
-  }
-  std::string list;
-  for (const auto& [share, k] : order) list += (list.empty() ? "" : ", ") + shown(names[k]);
-  return begin + list + (too_many ? ", ..." : "");
 }
 
 }  // namespace articula::detail

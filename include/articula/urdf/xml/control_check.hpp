@@ -3,9 +3,9 @@
 #pragma once
 
 #include "articula/text/meant_word.hpp"
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/xml/control_words.hpp"
 #include "articula/urdf/xml/grouped_lines.hpp"
-#include "articula/urdf/xml/numbers.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Characters that look like a blank, or like nothing, and are none to YAML.
+/// @file Characters of a text: those that cannot be seen, and texts as messages show them.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace articula::detail {
 
 /// A character of a text in UTF-8.
 struct TextCharacter {
-  std::string_view bytes{};  ///< empty at the end of the text; a broken one is one byte
-  char32_t code = 0;         ///< 0 if it is broken
+  std::string_view bytes{};  ///< empty at the end of the text; one byte where it is not UTF-8
+  char32_t code = 0;         ///< 0 where it is not UTF-8
 };
 
-/// The character at which a text begins.
+/// The first character of a text.
 [[nodiscard]] inline TextCharacter first_character(std::string_view text) {
   if (text.empty()) return {};
   const auto lead = static_cast<unsigned char>(text[0]);
@@ -35,25 +35,25 @@ struct TextCharacter {
   return {text.substr(0, size), code};
 }
 
-/// What a blank that YAML takes for a letter, or a character without any shape, is called; empty
-/// for others. They come with what is copied from web pages, chats and word processors.
+/// The name of a character that looks like a blank or like nothing and that parsers take for a
+/// letter; empty for any other. Text copied from web pages and word processors has such characters.
 [[nodiscard]] inline std::string_view odd_name(char32_t code) {
   struct Range {
     char32_t first, last;
     std::string_view name;
   };
-  static constexpr std::array<Range, 14> odd = {{{0x85, 0x85, "a line end of old mainframes"},
+  static constexpr std::array<Range, 14> odd = {{{0x85, 0x85, "a next-line character"},
                                                  {0xa0, 0xa0, "a no-break space"},
                                                  {0xad, 0xad, "a soft hyphen"},
-                                                 {0x1680, 0x1680, "a blank of its own kind"},
-                                                 {0x2000, 0x200a, "a blank of its own width"},
+                                                 {0x1680, 0x1680, "an Ogham space"},
+                                                 {0x2000, 0x200a, "a space of special width"},
                                                  {0x200b, 0x200b, "a zero-width space"},
                                                  {0x200c, 0x200d, "a zero-width joiner"},
-                                                 {0x200e, 0x200f, "a mark of direction"},
-                                                 {0x2028, 0x2029, "a separator of lines"},
-                                                 {0x202a, 0x202e, "a mark of direction"},
+                                                 {0x200e, 0x200f, "a direction mark"},
+                                                 {0x2028, 0x2029, "a line separator"},
+                                                 {0x202a, 0x202e, "a direction mark"},
                                                  {0x202f, 0x202f, "a narrow no-break space"},
-                                                 {0x205f, 0x2064, "a blank of its own width"},
+                                                 {0x205f, 0x2064, "a space of special width"},
                                                  {0x3000, 0x3000, "an ideographic space"},
                                                  {0xfeff, 0xfeff, "a byte order mark"}}};
   const auto found = std::find_if(odd.begin(), odd.end(), [code](const Range& range) {
@@ -81,6 +81,31 @@ struct TextCharacter {
     text.remove_prefix(character.bytes.size());
   }
   return "";
+}
+
+/// A text from a file as a message shows it: short, on one line, without control characters, and
+/// with the codes of characters that cannot be seen.
+[[nodiscard]] inline std::string shown(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string result;
+  std::size_t taken = 0;
+  while (taken < std::min(text.size(), longest)) {
+    const TextCharacter character = first_character(text.substr(taken));
+    taken += character.bytes.size();
+    const auto first = static_cast<unsigned char>(character.bytes[0]);
+    if (!odd_name(character.code).empty()) {
+      result += "<" + code_text(character.code) + ">";
+    } else {
+      result += first < 0x20 || first == 0x7f ? "?" : character.bytes;
+    }
+  }
+  return taken < text.size() ? result + "..." : result;
+}
+
+/// A text between quotation marks, and the first odd character in it.
+[[nodiscard]] inline std::string quoted_text(std::string_view text) {
+  const std::string odd = odd_character_in(text);
+  return "'" + shown(text) + "'" + (odd.empty() ? "" : " with " + odd);
 }
 
 }  // namespace articula::detail

@@ -17,7 +17,7 @@ namespace articula::detail {
   return {text, std::to_chars(text, text + sizeof text, x).ptr};
 }
 
-/// A number rounded for people, to six digits.
+/// A number rounded to six digits.
 [[nodiscard]] inline std::string rounded_text(double x) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6).ptr};

@@ -1,42 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Places that a template tool was to fill in.
+/// @file Placeholders of template tools in a text, such as ${kp} and {{ kp }}.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <initializer_list>
 #include <string_view>
 #include <utility>
 
 namespace articula::detail {
 
-/// A name between two marks, such as @kp@, that begins at the first mark; empty if it is none.
-[[nodiscard]] inline std::string_view marked_name(std::string_view text, char last) {
-  constexpr std::string_view letters =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-";
-  const std::size_t end = text.find_first_not_of(letters, 1);
-  const bool is_name = end != std::string_view::npos && end > 1 && text[end] == last;
-  return is_name ? text.substr(0, end + 1) : std::string_view();
-}
-
-/// What stands around the name of a placeholder.
+/// The brackets of placeholders: Jinja's, ERB's, those of xacro and launch files.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> placeholder_brackets =
     {{{"{{", "}}"}, {"{%", "%}"}, {"<%", "%>"}, {"${", "}"}, {"$(", ")"}}};
 
-/// The placeholder at which a text begins, $kp aside; empty if it begins with none.
-[[nodiscard]] inline std::string_view placeholder_at(std::string_view text) {
+/// The placeholder in brackets at the beginning of a text; empty if there is none. Without a closing
+/// bracket it is the whole text.
+[[nodiscard]] inline std::string_view bracketed_placeholder_at(std::string_view text) {
   for (const auto& [open, close] : placeholder_brackets) {
     if (!text.starts_with(open)) continue;
     const std::size_t end = text.find(close, open.size());
     return text.substr(0, end == std::string_view::npos ? end : end + close.size());
   }
-  if (text.starts_with('@') || text.starts_with('%')) return marked_name(text, text[0]);
-  return text.starts_with('<') ? marked_name(text, '>') : std::string_view();
+  return {};
 }
 
-/// The first part of a text in whose place something else was to be put: by launch files and xacro
-/// (${kp}, $(var kp)), Jinja ({{ kp }}, {% if %}), CMake and autoconf (@kp@), shells ($kp, %kp%),
-/// ERB (<%= kp %>) or by hand (<kp>); empty if there is none.
+/// The placeholder at the beginning of a text, in brackets or between marks as in @kp@, %kp% and
+/// <kp>; empty if there is none.
+[[nodiscard]] inline std::string_view placeholder_at(std::string_view text) {
+  const std::string_view bracketed = bracketed_placeholder_at(text);
+  const bool marked = text.starts_with('@') || text.starts_with('%') || text.starts_with('<');
+  if (!bracketed.empty() || !marked) return bracketed;
+  const std::size_t end = text.find_first_not_of(
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-", 1);
+  const char close = text[0] == '<' ? '>' : text[0];
+  const bool is_name = end != std::string_view::npos && end > 1 && text[end] == close;
+  return is_name ? text.substr(0, end + 1) : std::string_view();
+}
+
+/// The first placeholder in brackets in a text; empty if there is none.
+[[nodiscard]] inline std::string_view bracketed_placeholder_in(std::string_view text) {
+  while (!text.empty() && bracketed_placeholder_at(text).empty()) text.remove_prefix(1);
+  return bracketed_placeholder_at(text);
+}
+
+/// The first placeholder in a text; empty if there is none. A whole text such as $kp is one, too.
 [[nodiscard]] inline std::string_view placeholder_in(std::string_view text) {
   for (std::size_t k = 0; k < text.size(); ++k) {
     const std::string_view found = placeholder_at(text.substr(k));
@@ -48,16 +55,20 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> pl
   return is_variable ? text : std::string_view();
 }
 
-/// The name under which the value of a placeholder is given: what stands between its marks, without
-/// blanks at its ends and the words var and arg of launch files.
+/// True if a text is or has a placeholder.
+[[nodiscard]] inline bool has_placeholder(std::string_view text) {
+  return !placeholder_in(text).empty();
+}
+
+/// The name of a placeholder: the text between its marks, without blanks at its ends and without
+/// the words var and arg of launch files.
 [[nodiscard]] inline std::string_view placeholder_name(std::string_view placeholder) {
   std::string_view name = placeholder;
   for (const auto& [open, close] : placeholder_brackets) {
-    if (!name.starts_with(open)) continue;
+    if (!placeholder.starts_with(open)) continue;
     name.remove_prefix(open.size());
     if (name.ends_with(close)) name.remove_suffix(close.size());
     if (open == "<%" && name.starts_with('=')) name.remove_prefix(1);
-    break;
   }
   if (name.size() == placeholder.size() && !name.empty()) {  // @kp@, <kp>, $kp
     name.remove_prefix(1);
@@ -73,11 +84,6 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> pl
   }
   trim();
   return name;
-}
-
-/// True if something else was to be put in place of the text, or of a part of it.
-[[nodiscard]] inline bool has_placeholder(std::string_view text) {
-  return !placeholder_in(text).empty();
 }
 
 }  // namespace articula::detail
