@@ -340,7 +340,7 @@ TEST_CASE("a controller of one joint may have any gain among its parameters") {
   CHECK_THAT(complaint("a: {type: x/Y, joint: elbow_active_joint, u_clamp_max: 3}\n", "a"),
              Contains("a: the key 'p' is missing"));
   CHECK_THAT(complaint("a: {type: x/Y, joint: elbow_active_joint, P: 1, i: 3}\n", "a"),
-             Contains("a.P: unknown key 'P', expected 'p'?"));
+             Contains("a.P: unknown key 'P', expected one of p, Kp, pid, ...; did you mean 'p'?"));
   CHECK_THAT(complaint("a: {joint: elbow_active_joint, p: 1, pid: {p: 2}}\n", "a"),
              Contains("gains of 'elbow_active_joint' a second time"));
 }

@@ -173,7 +173,8 @@ TEST_CASE("a gripper, sections that say nothing, values between them") {
     CHECK(has_note(gripper.notes, "gripper_controller.ros__parameters." + key + ": not used"));
   }
   CHECK_THROWS_WITH(load_controller(yaml(text + "    max_velocit: 1\n")),
-                    Contains("unknown key 'max_velocit', expected 'max_velocity'?"));
+                    Contains("unknown key 'max_velocit', expected one of max_velocity, max_effort, "
+                             "max_velocity_interface, ...; did you mean 'max_velocity'?"));
 }
 
 TEST_CASE("no unrelated section is a reason to refuse a file") {

@@ -98,11 +98,10 @@ class ControlCheck {
       const bool is_bound = word == "min" || word == "max";
       if (is_bound && is_command && has_limits) return;
       if (is_bound && is_command) {
-        const std::string_view meant = meant_word(name, limited);
         add(where + ": its " + word +
             " does not count; limits are read for position, velocity, "
             "effort (or torque, force), acceleration and jerk" +
-            (meant.empty() ? "" : "; did you mean '" + std::string(meant) + "'?"));
+            did_you_mean(name, limited));
       } else if (is_bound) {
         add(where + ": its " + word + " does not count; limits are those of commands");
       } else {
