@@ -129,7 +129,7 @@ TEST_CASE("the forms of wildcards mean the controllers that they mean in ROS 2")
     for (const bool covered : {true, false}) {
       for (const std::string& name : covered ? each.covered : each.others) {
         CAPTURE(each.pattern, name);
-        CHECK(detail::SectionName(each.pattern).covers(detail::SectionName(name)) == covered);
+        CHECK(detail::SectionName(each.pattern).matches(detail::SectionName(name)) == covered);
         if (each.pattern.find('*') == std::string::npos) continue;
         // In a file that has both, whichever comes first; and with the key in two parts.
         const std::string own = name + ": " + controller("1");

@@ -76,7 +76,7 @@ TEST_CASE("a placeholder without a value is named, and how to give it") {
   CHECK(complaint_of([] { return load_controller(ur, trajectory); }) ==
         ur +
             ":33:14: joint_trajectory_controller.ros__parameters.joints[0]: the placeholder "
-            "'$(var tf_prefix)', which a template tool was to fill in, expected a name, or a "
+            "'$(var tf_prefix)' without a value, expected a name, or a "
             "value for it: " +
             how);
   CHECK_THAT(complaint_of([] { return load_controller({ur, {{"prefix", ""}}}, trajectory); }),

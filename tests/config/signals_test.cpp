@@ -135,7 +135,7 @@ TEST_CASE("waveforms that cannot be are refused") {
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1}}"),
              Contains("the key 'frequency' is missing"));
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1, period: 1}}"),
-             Contains("expected one of them"));
+             Contains("period: 'frequency' has the same meaning, expected one of the two keys"));
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1, amp: 1}}"),
              Contains("unknown key 'amp'"));
   CHECK_THAT(complaint("waveforms:\n  - {amplitude: 1, frequency: 1}\n"),
@@ -219,5 +219,5 @@ TEST_CASE("a controller's type and joints may stand beside its waveforms") {
       loaded("w: {joint: elbow_active_joint, joints: [elbow_active_joint], waveforms: "
              "{elbow_active_joint: {" +
              wave + "}}}"),
-      Contains("joints a second time"));
+      Contains("joints: 'joint' has the same meaning, expected one of the two keys"));
 }

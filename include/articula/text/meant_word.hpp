@@ -10,7 +10,6 @@
 #include <numeric>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace articula::detail {
@@ -73,25 +72,36 @@ template <class Words>
   return meant.empty() ? "" : "; did you mean '" + shown(meant) + "'?";
 }
 
+/// "p, i, d".
+/// @param most  number of words listed; "..." stands for the others
+template <class Words>
+[[nodiscard]] std::string list_of(const Words& words,
+                                  std::size_t most = static_cast<std::size_t>(-1)) {
+  std::string list;
+  std::size_t listed = 0;
+  for (const std::string_view word : words) {
+    if (!list.empty()) list += ", ";
+    if (listed++ == most) return list + "...";
+    list += shown(word);
+  }
+  return list;
+}
+
 /// "one of p, i, d; did you mean 'p'?", for messages about an unknown word.
-/// @param most  number of words listed; of more words, the nearest are listed, then "..."
+/// @param most  number of words listed; of more words, the nearest are listed
 template <class Words>
 [[nodiscard]] std::string one_of_words(std::string_view unknown, const Words& words,
                                        std::size_t most = static_cast<std::size_t>(-1)) {
-  std::vector<std::pair<std::size_t, std::string_view>> order;  // share of other letters [%]
-  for (const std::string_view word : words) {
-    const std::size_t longer = std::max({word.size(), unknown.size(), std::size_t{1}});
-    order.emplace_back(100 * edit_distance(unknown, word) / longer, word);
-  }
-  const bool too_many = order.size() > most;
-  if (too_many) {
+  std::vector<std::string_view> order(words.begin(), words.end());
+  if (order.size() > most) {
+    const auto share = [&](std::string_view word) {  // of other letters [%]
+      return 100 * edit_distance(unknown, word) /
+             std::max({word.size(), unknown.size(), std::size_t{1}});
+    };
     std::stable_sort(order.begin(), order.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    order.resize(most);
+                     [&](std::string_view a, std::string_view b) { return share(a) < share(b); });
   }
-  std::string list;
-  for (const auto& [share, word] : order) list += (list.empty() ? "" : ", ") + shown(word);
-  return "one of " + list + (too_many ? ", ..." : "") + did_you_mean(unknown, words);
+  return "one of " + list_of(order, most) + did_you_mean(unknown, words);
 }
 
 /// The end of a message about a name that does not exist: the name that was probably meant, or else
@@ -102,10 +112,7 @@ template <class Words>
 [[nodiscard]] std::string choice_of(std::string_view name, std::string_view kind,
                                     const Words& names) {
   const std::string meant = did_you_mean(name, names);
-  if (!meant.empty()) return meant;
-  std::string list;
-  for (const std::string_view each : names) list.append(list.empty() ? " " : ", ").append(each);
-  return "; " + std::string(kind) + ":" + list;
+  return meant.empty() ? "; " + std::string(kind) + ": " + list_of(names) : meant;
 }
 
 }  // namespace articula::detail

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Parameters of ROS's controllers that have no effect here.
+/// @file Parameters of ROS's controllers that have no effect in this library.
 #pragma once
 
-#include "articula/config/yaml/reader.hpp"
+#include "articula/config/yaml/config_map.hpp"
 
 #include <string>
 #include <string_view>
@@ -10,15 +10,16 @@
 
 namespace articula::detail {
 
-/// A parameter that ROS's controllers have and that has no effect here.
+/// A parameter that has no effect, its type, and the reason.
 struct UnusedParameter {
   enum class Kind : unsigned char { number, truth, word, words, text, any_map };
   std::string_view key;
   Kind kind;
-  std::string_view why;
+  std::string_view reason;
 };
 
-/// Takes parameters that have no effect, if they are there: of the right type, and noted.
+/// Checks the types of parameters without effect, and adds a note on each.
+/// @throws FileError if one has the wrong type
 inline void take_unused(ConfigMap& map, const std::vector<UnusedParameter>& parameters) {
   for (const UnusedParameter& parameter : parameters) {
     const auto value = map.find(parameter.key);
@@ -36,24 +37,25 @@ inline void take_unused(ConfigMap& map, const std::vector<UnusedParameter>& para
       case UnusedParameter::Kind::words:
         for (const ConfigValue& item : value->list()) static_cast<void>(item.word());
         break;
-      case UnusedParameter::Kind::text:  // which may be empty, or nothing
+      case UnusedParameter::Kind::text:  // a word that may be missing
         if (value->node().is_map() || value->node().is_list()) value->refuse("a name");
         break;
       case UnusedParameter::Kind::any_map:
         if (!value->node().is_map()) value->refuse("a map");
         break;
     }
-    map.note(*value, "not used: " + std::string(parameter.why));
+    map.note(*value, "not used: " + std::string(parameter.reason));
   }
 }
 
+/// Those of all controllers.
 inline void take_unused_controller_parameters(ConfigMap& map) {
   using enum UnusedParameter::Kind;
   constexpr std::string_view interfaces = "the types in the program decide what is commanded";
   constexpr std::string_view topics = "nothing is published or received here";
   constexpr std::string_view loop = "a loop has one period and one thread";
-  constexpr std::string_view gripper = "there is no action of a gripper here";
-  constexpr std::string_view follower = "see docs/references.md for what the follower does";
+  constexpr std::string_view gripper = "there is no gripper action here";
+  constexpr std::string_view follower = "docs/references.md describes the follower";
   take_unused(map, {{"command_interfaces", words, interfaces},
                     {"state_interfaces", words, interfaces},
                     {"command_interface", word, interfaces},

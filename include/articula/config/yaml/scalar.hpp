@@ -1,37 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What YAML's scalars are: numbers, truth values, words.
+/// @file YAML's scalars: numbers, truth values and words, and their names in messages.
 #pragma once
 
 #include "articula/config/yaml/node.hpp"
 #include "articula/text/characters.hpp"
-#include "articula/text/meant_word.hpp"
+#include "articula/text/numbers.hpp"
 #include "articula/text/placeholder.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 namespace articula::detail {
 
-/// True if the text is one of some words, in lower, upper or title case as YAML has them.
-[[nodiscard]] inline bool is_one_of(std::string_view text, const std::vector<const char*>& words) {
-  return std::any_of(words.begin(), words.end(), [&](const char* word) {
-    std::string lower = word, upper = lower;
+/// True if a text is one of some words in lower, upper or title case, the cases of YAML's words.
+[[nodiscard]] inline bool is_one_of(std::string_view text,
+                                    std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    std::string upper(word), title(word);
     for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    std::string title = lower;
-    for (std::size_t k = 0; k < title.size(); ++k) {
-      if (title[k] == '.') continue;
-      title[k] = upper[k];
-      break;
-    }
-    return text == lower || text == upper || text == title;
+    const std::size_t first = word.find_first_not_of('.');
+    title[first] = upper[first];
+    return text == word || text == upper || text == title;
   });
 }
 
@@ -42,7 +38,7 @@ struct ParsedNumber {
   double value = 0;
 };
 
-/// A number as YAML writes it, .inf and .nan included. 010 is no number: some parsers take it for an
+/// A number as YAML writes it, .inf and .nan included. 010 is no number: some parsers read it as an
 /// octal one.
 [[nodiscard]] inline ParsedNumber parse_number(std::string_view text) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -62,37 +58,39 @@ struct ParsedNumber {
   return {true, error == std::errc(), negative ? -value : value};
 }
 
-/// A number that a double can hold.
-[[nodiscard]] inline std::optional<double> as_number(std::string_view text) {
-  const ParsedNumber number = parse_number(text);
-  return number.in_range ? std::optional(number.value) : std::nullopt;
+/// True or false. yes, no, on and off are truth values, as in YAML 1.1.
+[[nodiscard]] inline std::optional<bool> as_truth(std::string_view text) {
+  if (is_one_of(text, {"true", "yes", "on"})) return true;
+  if (is_one_of(text, {"false", "no", "off"})) return false;
+  return {};
 }
 
-/// What a placeholder is, for messages.
-[[nodiscard]] inline std::string unfilled_text(std::string_view placeholder) {
-  return "the placeholder '" + shown(placeholder) + "', which a template tool was to fill in";
+/// A placeholder as a message names it.
+[[nodiscard]] inline std::string placeholder_text(std::string_view placeholder) {
+  return "the placeholder '" + shown(placeholder) + "' without a value";
 }
 
-/// How to give the value of the first placeholder in a text; empty if there is none.
+/// How to give a value to the first placeholder in a text; empty if there is none.
 [[nodiscard]] inline std::string value_example(std::string_view text) {
   const std::string_view placeholder = placeholder_in(text);
   if (placeholder.empty()) return "";
   return ": ConfigSource(file, {{\"" + shown(placeholder_name(placeholder)) + "\", \"...\"}})";
 }
 
-/// Likewise, to be said behind what was expected in its place.
-/// @param given  the names of the values that were given; may be empty
-[[nodiscard]] inline std::string value_hint(std::string_view text, std::string_view given = {}) {
+/// Likewise, for the end of a message.
+/// @param value_names  names of the values that the source has; may be empty
+[[nodiscard]] inline std::string value_hint(std::string_view text,
+                                            std::string_view value_names = {}) {
   if (!has_placeholder(text)) return "";
   return ", or a value for it" + value_example(text) +
-         (given.empty() ? "" : "; given were values for " + std::string(given));
+         (value_names.empty() ? "" : "; there are values for " + std::string(value_names));
 }
 
-/// What is likely to be wrong with a key; empty if that is not known.
-/// @param given  likewise
-[[nodiscard]] inline std::string key_hint(std::string_view key, std::string_view given = {}) {
+/// How to correct an unknown key; empty if that is not known.
+/// @param value_names  names of the values that the source has; may be empty
+[[nodiscard]] inline std::string key_hint(std::string_view key, std::string_view value_names) {
   if (has_placeholder(key)) {
-    return "this placeholder to be filled in by a template tool before" + value_hint(key, given);
+    return "this placeholder to be replaced by a template tool" + value_hint(key, value_names);
   }
   if (!odd_character_in(key).empty()) return "an ordinary blank, or none";
   if (key.find("\xEF\xBC\x9A") != std::string_view::npos) return "an ordinary colon and a blank";
@@ -101,35 +99,17 @@ struct ParsedNumber {
   return "";
 }
 
-/// True or false; yes, no, on and off are likewise, as in YAML 1.1.
-[[nodiscard]] inline std::optional<bool> as_truth(std::string_view text) {
-  if (is_one_of(text, {"true", "yes", "on"})) return true;
-  if (is_one_of(text, {"false", "no", "off"})) return false;
-  return {};
-}
-
-/// What a node is, for messages.
-[[nodiscard]] inline std::string what_is(const ConfigNode& node) {
-  switch (node.kind) {
-    case ConfigNode::Kind::nothing:
-      return "nothing";
-    case ConfigNode::Kind::list:
-      return "a list of " + std::to_string(node.items.size());
-    case ConfigNode::Kind::map:
-      return "a map";
-    case ConfigNode::Kind::scalar:
-      break;
-  }
-  if (node.quoted && !has_placeholder(node.text)) {
-    return "the quoted text '" + shown(node.text) + "'";
-  }
-  if (has_placeholder(node.text)) {
-    return unfilled_text(placeholder_in(node.text));
-  }
+/// A node as a message names it.
+[[nodiscard]] inline std::string node_text(const ConfigNode& node) {
+  if (node.is_map()) return "a map";
+  if (node.is_list()) return "a list of " + std::to_string(node.items.size());
+  if (node.kind == ConfigNode::Kind::nothing) return "nothing";
+  if (has_placeholder(node.text)) return placeholder_text(placeholder_in(node.text));
+  if (node.quoted) return "the quoted text '" + shown(node.text) + "'";
   const ParsedNumber number = parse_number(node.text);
   if (!number.is_number) return "the word " + quoted_text(node.text);
   return "the number " + shown(node.text) +
-         (number.in_range ? "" : ", which is out of the range of numbers");
+         (number.in_range ? "" : ", which is beyond the range of double");
 }
 
 }  // namespace articula::detail

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Whether a configuration fits a robot.
+/// @file Checks that a controller's configuration fits a robot.
 #pragma once
 
 #include "articula/config/read/controller_config.hpp"
 #include "articula/config/read/robot_joints.hpp"
-#include "articula/config/yaml/scalar.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/text/characters.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/meant_word.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +20,7 @@
 
 namespace articula::detail {
 
-/// The joints of a configuration in the order of a robot's, nullptr where one is not configured.
+/// The joints of a configuration in the order of the robot's; nullptr for a joint that is missing.
 /// @throws FileError if the robot lacks a joint
 template <Robot R>
 [[nodiscard]] std::array<const ConfiguredJoint*, static_cast<std::size_t>(joint_count<R>)>
@@ -31,7 +33,7 @@ arranged_joints(const ControllerConfig& config, const R& robot) {
   return arranged;
 }
 
-/// @throws FileError: the joint that is not configured
+/// @throws FileError about a joint that the configuration lacks
 template <Robot R>
 [[noreturn]] void refuse_missing(const ControllerConfig& config, const R& robot, std::size_t joint,
                                  const std::string& what) {
@@ -45,16 +47,16 @@ template <Robot R>
 template <Robot R>
 [[nodiscard]] const LinkFrame& link_of_chain(const R& robot, const std::string& name,
                                              const FilePlace& place) {
-  std::vector<std::string> names;
+  std::vector<std::string_view> names;
   for (const LinkFrame& link : model_of(robot).links) {
     if (link.name.view() == name) return link;
-    names.emplace_back(link.name.view());
+    names.push_back(link.name.view());
   }
   throw FileError(place, robot_text(robot) + " has no link '" + shown(name) + "'",
                   one_of_words(name, names));
 }
 
-/// A chain must begin at the base and have all joints of the configuration in it.
+/// @throws FileError if the chain's root moves, or the chain leaves out a joint of the configuration
 template <Robot R>
 void check_chain(const ControllerConfig& config, const R& robot) {
   const std::string &root = config.chain_root, &tip = config.chain_tip;
@@ -79,25 +81,25 @@ void check_chain(const ControllerConfig& config, const R& robot) {
   }
 }
 
-/// The robot's own gravity is what counts, so the file must have the same.
+/// @throws FileError if the file's gravity is not the robot's
 template <Robot R>
 void check_gravity(const ControllerConfig& config, const R& robot) {
   if (!config.gravity) return;
-  constexpr double tolerance = 1e-9;  // of a figure that was written in decimal and turned [m/s^2]
-  Vector3<double> wanted = *config.gravity;
+  constexpr double tolerance = 1e-9;  // rounding of decimal numbers and of a rotation [m/s^2]
+  Vector3<double> gravity = *config.gravity;
   if (!config.chain_root.empty()) {
-    wanted = link_of_chain(robot, config.chain_root, config.chain_root_place).placement.rotation *
-             wanted;
+    gravity = link_of_chain(robot, config.chain_root, config.chain_root_place).placement.rotation *
+              gravity;
   }
   const Vector3<double> own = model_of(robot).mechanism.gravity;
-  const Vector3<double> off = wanted - own;
-  if (std::hypot(off.x, off.y, off.z) <= tolerance) return;
+  const Vector3<double> error = gravity - own;
+  if (std::hypot(error.x, error.y, error.z) <= tolerance) return;
   std::ostringstream reason, expected;
   const Vector3<double>& g = *config.gravity;
   reason << "gravity (" << g.x << ", " << g.y << ", " << g.z << ") m/s^2 is not that of "
          << robot_text(robot);
   expected << "(" << own.x << ", " << own.y << ", " << own.z
-           << ") in the frame of its base, or a robot that is described otherwise";
+           << ") in the frame of its base, or a robot with the file's gravity";
   throw FileError(config.gravity_place, reason.str(), expected.str());
 }
 
