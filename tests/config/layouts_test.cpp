@@ -306,21 +306,21 @@ TEST_CASE("controllers of one joint each are put together where they say the sam
   CHECK(loaded(both("priority: 7", "priority: 7")).priority == 7);
 
   CHECK(complaint(both("priority: 7", "priority: 8")) ==
-        "test:2:55: b.priority: the priority is another one in line 1, expected the same for "
-        "controllers that are put together");
+        "test:2:55: b.priority: the priority differs from that in line 1, expected the same for "
+        "controllers that are combined");
   CHECK_THAT(complaint(both("gravity: {z: -9.8}", "gravity: {z: 9.8}")),
-             Contains("b.gravity: the gravity is another one in line 1"));
+             Contains("b.gravity: the gravity differs from that in line 1"));
   CHECK_THAT(complaint(both("chain: {root: base_link}", "chain: {root: origin_link}")),
-             Contains("b.chain.root: the root is another one in line 1"));
+             Contains("b.chain.root: the root differs from that in line 1"));
   CHECK_THAT(complaint(both("chain: {tip: base_link}", "chain: {tip: tool_link}")),
-             Contains("b.chain.tip: the tip is another one in line 1"));
+             Contains("b.chain.tip: the tip differs from that in line 1"));
   // What only the second one says is checked as well.
   CHECK_THAT(complaint(both("type: a/B", "type: a/B, chain: {root: nowhere}")),
              Contains("b.chain.root: robot 'q2d' has no link 'nowhere'"));
   CHECK_THAT(complaint(both("type: a/B", "type: a/B, gravity: {z: 9.8}")),
              Contains("b.gravity: gravity (0, 0, 9.8) m/s^2 is not that of robot 'q2d'"));
   CHECK_THAT(complaint(both("constraints: {goal_time: 1}", "constraints: {goal_time: 2}")),
-             Contains("b: its options of trajectories are not those in line 1"));
+             Contains("b: its options of trajectories differ from those in line 1"));
   CHECK_THAT(complaint(both("type: effort/Pos", "type: velocity/Pos")),
              Contains("b: its type is 'velocity/Pos', that of the controller in line 1 is "
                       "'effort/Pos', expected the name or the type"));

@@ -8,12 +8,12 @@
 #include "articula/text/characters.hpp"
 #include "articula/text/file_error.hpp"
 #include "articula/text/meant_word.hpp"
+#include "articula/text/numbers.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,13 +94,12 @@ void check_gravity(const ControllerConfig& config, const R& robot) {
   const Vector3<double> own = model_of(robot).mechanism.gravity;
   const Vector3<double> error = gravity - own;
   if (std::hypot(error.x, error.y, error.z) <= tolerance) return;
-  std::ostringstream reason, expected;
-  const Vector3<double>& g = *config.gravity;
-  reason << "gravity (" << g.x << ", " << g.y << ", " << g.z << ") m/s^2 is not that of "
-         << robot_text(robot);
-  expected << "(" << own.x << ", " << own.y << ", " << own.z
-           << ") in the frame of its base, or a robot with the file's gravity";
-  throw FileError(config.gravity_place, reason.str(), expected.str());
+  const auto text = [](const Vector3<double>& v) {
+    return "(" + rounded_text(v.x) + ", " + rounded_text(v.y) + ", " + rounded_text(v.z) + ")";
+  };
+  throw FileError(config.gravity_place,
+                  "gravity " + text(*config.gravity) + " m/s^2 is not that of " + robot_text(robot),
+                  text(own) + " in the frame of its base, or a robot with the file's gravity");
 }
 
 }  // namespace articula::detail

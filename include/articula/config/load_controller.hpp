@@ -57,7 +57,7 @@ inline void keep_declared(const std::string& file, std::vector<ConfigSection>& s
     if (are_parts || std::none_of(sections.begin(), sections.end(), has_flag)) return;
     std::erase_if(sections, [&](const ConfigSection& section) {
       if (has_flag(section)) return false;
-      notes.push_back(section.parameters.note(file, section.path, "not used, " + reason));
+      notes.push_back(section.place(file).text() + "not used, " + reason);
       return true;
     });
   };
@@ -85,8 +85,8 @@ inline void keep_declared(const std::string& file, std::vector<ConfigSection>& s
       names.push_back(section.full_name());
       lines.push_back(section.full_name() + " in line " + std::to_string(section.line()));
     }
-    throw FileError(chosen[1].parameters.key_place(all.file, chosen[1].path),
-                    "there are several: " + list_of(lines), one_of_words("", names) + " by name");
+    throw FileError(chosen[1].place(all.file), "there are several: " + list_of(lines),
+                    one_of_words("", names) + " by name");
   }
   ControllerConfig config = ControllerReader(all.file, chosen.front(), robot, signs).take();
   for (std::size_t k = 1; k < chosen.size(); ++k) {

@@ -49,22 +49,21 @@ namespace detail {
 }
 
 inline void take_unused_manager_parameters(ConfigMap& map) {
-  using enum UnusedParameter::Kind;
+  using enum UnusedParameters::Kind;
+  constexpr std::string_view topics = "nothing is published or received here";
   constexpr std::string_view always = "the loop always keeps limits and handles faults";
-  constexpr std::string_view compiled = "the types in the program decide what there is";
-  constexpr std::string_view runner = "see RunOptions";
-  take_unused(map, {{"use_sim_time", truth, "the loop's clock is a type in the program"},
-                    {"robot_description", word, "nothing is published or received here"},
-                    {"qos_overrides", any_map, "nothing is published or received here"},
-                    {"start_type_description_service", truth, "there are no services"},
-                    {"enforce_command_limits", truth, always},
-                    {"handle_exceptions", truth, always},
-                    {"shutdown_on_initial_state_failure", truth, always},
-                    {"hardware_components_initial_state", any_map, compiled},
-                    {"defaults", any_map, compiled},
-                    {"diagnostics", any_map, "see RunReport"},
-                    {"overruns", any_map, runner},
-                    {"hardware_synchronization", any_map, runner}});
+  constexpr std::string_view types = "the types in the program decide what there is";
+  take_unused(
+      map, {{truth, "the loop's clock is a type in the program", {"use_sim_time"}},
+            {word, topics, {"robot_description"}},
+            {any_map, topics, {"qos_overrides"}},
+            {truth, "there are no services", {"start_type_description_service"}},
+            {truth,
+             always,
+             {"enforce_command_limits", "handle_exceptions", "shutdown_on_initial_state_failure"}},
+            {any_map, types, {"hardware_components_initial_state", "defaults"}},
+            {any_map, "see RunReport", {"diagnostics"}},
+            {any_map, "see RunOptions", {"overruns", "hardware_synchronization"}}});
 }
 
 /// The section of the controller manager.
@@ -79,7 +78,7 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
       continue;
     }
     if (manager != nullptr) {
-      throw FileError(each.parameters.key_place(all.file, each.path),
+      throw FileError(each.place(all.file),
                       "there are several controller managers, another one in line " +
                           std::to_string(manager->line()),
                       "one");
@@ -132,7 +131,8 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
   detail::take_unused_manager_parameters(map);
   for (const detail::ConfigNode& item : section->parameters.items) {
     // Other entries than parameters, misspelt ones included, are controllers, which have a type.
-    const bool is_parameter = map.knows(item.key) || map.nearly_knows(item.key) || item.inherited;
+    const bool is_parameter =
+        map.knows(item.key) || map.nearly_knows(item.key) || item.is_inherited();
     const bool is_value = !item.is_map() && item.kind != detail::ConfigNode::Kind::nothing;
     if (!is_parameter && is_value && item.text.find('/') != std::string::npos) {
       map.value().child(item).refuse(

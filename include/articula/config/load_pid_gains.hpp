@@ -56,9 +56,7 @@ template <Robot R>
     result.group.emplace_back(joint->name);
     const bool is_continuous = model_of(robot).joints[j].type == JointType::continuous;
     if (joint->angle_wraparound && *joint->angle_wraparound != is_continuous) {
-      FilePlace place = joint->angle_wraparound_place;
-      place.column = 0;
-      config.notes.push_back(place.text() +
+      config.notes.push_back(joint->angle_wraparound_place.text() +
                              "not used: continuous joints take the short way round, others do not");
     }
   }

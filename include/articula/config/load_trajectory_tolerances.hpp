@@ -43,10 +43,8 @@ template <Robot R>
     const auto k = static_cast<Eigen::Index>(j);
     if (joints[j] == nullptr) {
       result.tolerances.stopped_velocity[k] = 0;
-      config.notes.push_back(
-          FilePlace{.file = config.place.file, .line = config.place.line}.text() +
-          "no tolerances for joint '" + known.names[j] +
-          "', which is not in 'joints': it is not checked");
+      config.notes.push_back(config.place.text() + "no tolerances for joint '" + known.names[j] +
+                             "', which is not in 'joints': it is not checked");
       continue;
     }
     result.tolerances.path_position[k] = joints[j]->path_tolerance;

@@ -52,10 +52,9 @@ struct SectionChoice {
     if (within && choice.is_relevant(section)) {
       relevant.push_back(section);
     } else if (name.empty()) {
-      left_out.push_back(section.fault
-                             ? std::string(section.fault->what()) + ": not used"
-                             : section.parameters.note(all.file, section.path,
-                                                       "not used, it is no " + choice.what));
+      left_out.push_back(section.fault ? std::string(section.fault->what()) + ": not used"
+                                       : section.place(all.file).text() + "not used, it is no " +
+                                             choice.what);
     }
   }
   if (choice.narrow && full.empty() && exact.empty()) choice.narrow(relevant, left_out);

@@ -153,8 +153,8 @@ class SectionFinder {
       if (section.name.has_wildcard() && section.fault) {
         found_.notes.push_back(std::string(section.fault->what()) + ": not used");
       } else if (!is_used_[k]) {
-        found_.notes.push_back(section.parameters.note(
-            found_.file, section.path, "not used, no section is in this namespace"));
+        found_.notes.push_back(section.parameters.key_place(found_.file, section.path).text() +
+                               "not used, no section is in this namespace");
       }
     }
   }

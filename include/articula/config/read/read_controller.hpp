@@ -63,7 +63,7 @@ class ControllerReader {
       const ConfigValue by_joint = map_.value().child(*gains);
       for (const ConfigNode& item : gains->items) {
         // The joints are those of the controller's own gains, if it has any.
-        if (item.inherited && !gains->inherited) continue;
+        if (item.is_inherited() && !gains->is_inherited()) continue;
         config_.joints.push_back({.name = item.key, .place = by_joint.child(item).place()});
       }
     } else if (!section.empty() &&
@@ -91,7 +91,7 @@ class ControllerReader {
   /// @param kind  of a joint's value
   void finish_by_joint(ConfigMap& map, ConfigNode::Kind kind = ConfigNode::Kind::map) {
     for (const ConfigNode& item : map.value().node().items) {
-      const bool is_other = item.inherited && item.kind == kind && !map.knows(item.key);
+      const bool is_other = item.is_inherited() && item.kind == kind && !map.knows(item.key);
       if (!is_other || config_.joints.empty()) continue;
       map.note(*map.find(item.key),
                "not used: joint '" + shown(item.key) + "' is not this controller's");
@@ -194,13 +194,13 @@ class ControllerReader {
                                    config_.stopped_velocity_tolerance);
     constraints->read_not_negative("goal_time", config_.goal_time);
     constexpr std::string_view stop = "a stop always keeps the motion limits";
-    take_unused(*constraints, {{"decelerate_on_cancel", UnusedParameter::Kind::truth, stop}});
+    take_unused(*constraints, {{UnusedParameters::Kind::truth, stop, {"decelerate_on_cancel"}}});
     for (ConfiguredJoint& joint : config_.joints) {
       auto own = constraints->find_map(joint.name);
       if (!own) continue;
       own->read_not_negative("trajectory", joint.path_tolerance);
       own->read_not_negative("goal", joint.goal_tolerance);
-      take_unused(*own, {{"max_deceleration_on_cancel", UnusedParameter::Kind::number, stop}});
+      take_unused(*own, {{UnusedParameters::Kind::number, stop, {"max_deceleration_on_cancel"}}});
       own->finish();
     }
     finish_by_joint(*constraints);

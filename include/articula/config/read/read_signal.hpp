@@ -5,11 +5,11 @@
 #include "articula/config/read/section.hpp"
 #include "articula/config/yaml/config_map.hpp"
 #include "articula/reference/signal.hpp"
+#include "articula/text/numbers.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,9 +18,7 @@ namespace articula::detail {
 
 /// "at most the drive's limit, 13.62", for messages.
 [[nodiscard]] inline std::string limit_text(double limit) {
-  std::ostringstream text;
-  text << "at most the drive's limit, " << limit;
-  return text.str();
+  return "at most the drive's limit, " + rounded_text(limit);
 }
 
 /// Reads the shape of one waveform.
@@ -30,7 +28,7 @@ class SignalShapeReader {
   /// @param limit  of its values [N m or N]
   SignalShapeReader(ConfigMap& map, double limit) : map_(map), limit_(limit) {}
 
-  /// @throws FileError if there is a key that the shape does not have, or a value out of range
+  /// @throws FileError if a value has the wrong type or is out of range
   [[nodiscard]] Signal read() {
     std::string shape = "sine";
     if (const auto type = map_.find("type")) {
@@ -46,29 +44,22 @@ class SignalShapeReader {
     if (shape == "step") return step();
     if (shape == "ramp") return ramp();
     if (shape == "chirp") return chirp();
-    if (shape == "square") return wave<SquareSignal>("a square");
-    return wave<SineSignal>("a sine");
+    if (shape == "square") return wave<SquareSignal>();
+    return wave<SineSignal>();
   }
 
  private:
   [[nodiscard]] Signal step() {
-    map_.allow_only({"height", "start"}, "the keys of a step: height, start [s]");
     StepSignal step{.height = height("height")};
     map_.read_number("start", step.start);
     return step;
   }
   [[nodiscard]] Signal ramp() {
-    map_.allow_only({"height", "duration", "start"},
-                    "the keys of a ramp: height, duration [s], start [s]; its rate is height / "
-                    "duration");
     RampSignal ramp{.height = height("height"), .duration = positive("duration")};
     map_.read_number("start", ramp.start);
     return ramp;
   }
   [[nodiscard]] Signal chirp() {
-    map_.allow_only({"amplitude", "first_frequency", "last_frequency", "duration", "start"},
-                    "the keys of a chirp: amplitude, first_frequency and last_frequency [Hz], "
-                    "duration [s], start [s]");
     ChirpSignal chirp{.amplitude = height("amplitude"),
                       .first_frequency = frequency(map_.require("first_frequency")),
                       .last_frequency = frequency(map_.require("last_frequency")),
@@ -78,11 +69,7 @@ class SignalShapeReader {
   }
   /// A sine or a square, which have the same keys.
   template <class Wave>
-  [[nodiscard]] Signal wave(const std::string& name) {
-    map_.allow_only({"amplitude", "frequency", "period", "angular_frequency", "phase", "offset"},
-                    "the keys of " + name +
-                        ": amplitude, frequency [Hz], period [s] or "
-                        "angular_frequency [rad/s], phase [rad], offset");
+  [[nodiscard]] Signal wave() {
     Wave wave{.amplitude = height("amplitude"), .frequency = any_frequency()};
     map_.read_number("phase", wave.phase);
     if (const auto offset = map_.find("offset")) {
@@ -103,9 +90,8 @@ class SignalShapeReader {
   /// Refuses a number beyond the drive's limit, since the loop would saturate the signal.
   [[nodiscard]] double limited(const ConfigValue& value, double number) const {
     if (std::abs(number) <= limit_) return number;
-    std::ostringstream reason;
-    reason << "an effort of " << std::abs(number) << " N m or N";
-    value.refuse(reason.str(), limit_text(limit_));
+    value.refuse("an effort of " + rounded_text(std::abs(number)) + " N m or N",
+                 limit_text(limit_));
   }
 
   /// The frequency [Hz], given as such, as a period or as an angular frequency.

@@ -19,7 +19,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <variant>
@@ -85,9 +84,8 @@ class SignalReader {
   ///         of its drive
   void finish() {
     constexpr const char* wanted = "waveforms, such as <joint>: {amplitude: ..., frequency: ...}";
-    for (auto& [place, what] : empty_) {
+    for (const auto& [place, what] : empty_) {
       if (config_.signals.empty()) throw FileError(place, what, wanted);
-      place.column = 0;
       config_.notes.push_back(place.text() + "there is no waveform in it");
     }
     for (std::size_t j = 0; j < drives_.size(); ++j) {
@@ -95,10 +93,10 @@ class SignalReader {
       const double highest = std::max(bounds.high, -bounds.low);
       constexpr double rounding = 1e-12;  // of a sum, relative to it
       if (highest <= limits_[j] * (1 + rounding)) continue;
-      std::ostringstream reason;
-      reason << "the signals on joint '" << robot_.names[j] << "' add up to " << highest
-             << " N m or N";
-      throw FileError(drives_[j].last, reason.str(), limit_text(limits_[j]));
+      throw FileError(drives_[j].last,
+                      "the signals on joint '" + robot_.names[j] + "' add up to " +
+                          rounded_text(highest) + " N m or N",
+                      limit_text(limits_[j]));
     }
   }
 

@@ -25,7 +25,10 @@ struct ConfigSection {
   std::vector<std::string> notes{};  ///< on values that other sections replace
 
   [[nodiscard]] std::string full_name() const { return group.empty() ? name : group + "/" + name; }
-  /// Where it begins.
+  /// The place of its key.
+  [[nodiscard]] FilePlace place(const std::string& file) const {
+    return parameters.key_place(file, path);
+  }
   [[nodiscard]] int line() const noexcept { return parameters.key_mark.line; }
   /// @throws FileError if it cannot be used
   void check() const {

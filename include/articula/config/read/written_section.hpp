@@ -90,7 +90,8 @@ class SectionSearch {
       if (item.key == ros_parameters) {
         add(group, here, item, item.kind == ConfigNode::Kind::nothing && map.items.size() == 1);
       } else if (!item.is_map()) {
-        notes_->push_back(item.note(file_, here, "not used, it belongs to no controller"));
+        notes_->push_back(item.key_place(file_, here).text() +
+                          "not used, it belongs to no controller");
       } else if (item.find(ros_parameters) != nullptr ||
                  (item.key != "controller_manager" && !has_plugin_type(item) &&
                   !lists_joints(item) && (is_namespace(item) || has_only_sections(item)))) {

@@ -105,16 +105,14 @@ class ConfigMap {
 
   /// Adds a note on a value.
   void note(const ConfigValue& value, std::string_view text) const {
-    FilePlace place = value.place();
-    place.column = 0;
-    notes_->push_back(place.text() + std::string(text));
+    notes_->push_back(value.place().text() + std::string(text));
   }
 
   /// @throws FileError if the map has an unknown key, or lacks a required one
   void finish() const {
     constexpr std::size_t listed = 3, tried = 16;
     for (const ConfigNode& item : value_.node().items) {
-      if (tolerant_ && item.inherited && !knows(item.key)) {
+      if (tolerant_ && item.is_inherited() && !knows(item.key)) {
         note(value_.child(item), "not used here");
       }
     }
@@ -135,19 +133,6 @@ class ConfigMap {
       wrong = *misspelt;
     }
     if (wrong != nullptr) refuse_key(*wrong, one_of_words(wrong->key, known_, listed));
-  }
-
-  /// @param keys      allowed besides the known ones
-  /// @param expected  for the message about any other key
-  /// @throws FileError if there is another key
-  void allow_only(const std::vector<std::string>& keys, const std::string& expected) const {
-    auto others = unknown();
-    std::erase_if(others, [&](const ConfigNode* item) {
-      return std::find(keys.begin(), keys.end(), item->key) != keys.end();
-    });
-    refuse_malformed(others);
-    if (others.empty()) return;
-    refuse_key(*others.front(), expected + did_you_mean(others.front()->key, keys));
   }
 
   /// @throws FileError about a key that is unknown
@@ -171,7 +156,7 @@ class ConfigMap {
   [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
     std::vector<const ConfigNode*> items;
     for (const ConfigNode& item : value_.node().items) {
-      if (!(tolerant_ && item.inherited) && !knows(item.key)) items.push_back(&item);
+      if (!(tolerant_ && item.is_inherited()) && !knows(item.key)) items.push_back(&item);
     }
     return items;
   }

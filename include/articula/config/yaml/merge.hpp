@@ -11,12 +11,11 @@
 
 namespace articula::detail {
 
-/// Marks the entries of a map, and all below them, as inherited.
+/// Marks the entries of a map, and all below them, as inherited from another section.
 /// @param path  of the map, keys from the top
 inline void mark_inherited(ConfigNode& map, const std::string& path) {
   for (ConfigNode& item : map.items) {
     item.origin = path + "." + shown(item.key);
-    item.inherited = true;
     mark_inherited(item, item.origin);
   }
 }
@@ -53,10 +52,9 @@ inline void replace_entries(ConfigNode& map, const ConfigNode& replacements,
       continue;
     }
     if (!same_value(*same, item)) {
-      notes.push_back(same->note(file, here,
-                                 "not used: " + item.origin + " in line " +
-                                     std::to_string(item.key_mark.line) +
-                                     " comes later and counts, as in ROS 2"));
+      notes.push_back(same->key_place(file, here).text() + "not used: " + item.origin +
+                      " in line " + std::to_string(item.key_mark.line) +
+                      " comes later and counts, as in ROS 2");
     }
     *same = item;
   }

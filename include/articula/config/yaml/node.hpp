@@ -36,6 +36,7 @@ struct ConfigNode {
 
   [[nodiscard]] bool is_map() const noexcept { return kind == Kind::map; }
   [[nodiscard]] bool is_list() const noexcept { return kind == Kind::list; }
+  [[nodiscard]] bool is_inherited() const noexcept { return !origin.empty(); }
 
   /// The value of a key; none if there is no such key, or this is no map.
   [[nodiscard]] const ConfigNode* find(std::string_view wanted) const noexcept {
@@ -57,11 +58,6 @@ struct ConfigNode {
   /// @param path  keys from the top
   [[nodiscard]] FilePlace key_place(const std::string& file, const std::string& path) const {
     return {file, key_mark.line, key_mark.column, path};
-  }
-  /// A note on this node, with file, line and keys.
-  [[nodiscard]] std::string note(const std::string& file, const std::string& path,
-                                 const std::string& reason) const {
-    return FilePlace{.file = file, .line = key_mark.line, .key = path}.text() + reason;
   }
 };
 
