@@ -185,7 +185,7 @@ TEST_CASE("what belongs to no controller is noted") {
       Q2d(), yaml("robot:\n  rate: 5\n  arm: {type: a/B, gains: {shoulder_active_joint: {p: 1}, "
                   "elbow_active_joint: {p: 1}}}\n"));
   REQUIRE(config.notes.size() == 1);
-  CHECK(config.notes[0] == "test:2: robot.rate: not used, it belongs to no controller");
+  CHECK(config.notes[0] == "test:2:3: robot.rate: not used, it belongs to no controller");
 }
 
 TEST_CASE("the controller manager's rate, types and thread") {

@@ -70,7 +70,7 @@ TEST_CASE("a wildcard counts in its namespace") {
   CHECK(config.gains[1].integral == 0);
   REQUIRE(config.notes.size() == 1);
   CHECK(config.notes[0] ==
-        "test:1: /left/**.ros__parameters: not used, no section is in this namespace");
+        "test:1:12: /left/**.ros__parameters: not used, no section is in this namespace");
 }
 
 TEST_CASE("of several sections that mean a controller the later one is stronger, as in ROS 2") {
@@ -102,7 +102,7 @@ TEST_CASE("of several sections that mean a controller the later one is stronger,
   CHECK(config.gains[1].derivative == 2);
   CHECK(config.notes ==
         std::vector<std::string>{
-            "test:1: /left/arm.ros__parameters.elbow_active_joint.p: not used: "
+            "test:1:136: /left/arm.ros__parameters.elbow_active_joint.p: not used: "
             "/**.ros__parameters.elbow_active_joint.p in line 4 comes later and counts, as in "
             "ROS 2"});
 }
@@ -204,7 +204,7 @@ TEST_CASE("constraints of a wildcard count, and what is for joints of others is 
     for (const std::string part : {"gains", "constraints"}) {
       CHECK(std::find(notes.begin(), notes.end(),
                       support::config_file("wildcard_controllers.yaml").name() +
-                          (part == "gains" ? ":7" : ":10") + ": /**.ros__parameters." + part +
+                          (part == "gains" ? ":7:20" : ":10:20") + ": /**.ros__parameters." + part +
                           ".wrist_joint: not used: joint 'wrist_joint' is not this "
                           "controller's") != notes.end());
     }
@@ -231,9 +231,9 @@ TEST_CASE("what a section inherits and does not know is noted with its own place
   const auto manager = load_controller_manager(yaml(text));
   CHECK(manager.update_rate == 500);
   REQUIRE(manager.notes.size() == 2);
-  CHECK(manager.notes[0] == "test:3: /**.ros__parameters.gravity: not used here");
+  CHECK(manager.notes[0] == "test:3:14: /**.ros__parameters.gravity: not used here");
   CHECK(loaded(text).notes ==
-        std::vector<std::string>{"test:4: /**.ros__parameters.foo: not used here"});
+        std::vector<std::string>{"test:4:10: /**.ros__parameters.foo: not used here"});
   CHECK(loaded(text).gravity == Vector3<double>{0, 0, -9.8});
 
   const std::string waves =

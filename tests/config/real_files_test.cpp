@@ -300,8 +300,7 @@ TEST_CASE("the laws of control_toolbox take what they take there") {
   CHECK_THROWS_WITH(
       load_controller(yaml("gains: {a: {p: 1, u_clamp_min: 4, u_clamp_max: 1}}\n"), "",
                       GainSigns::any),
-      Contains(
-          "u_clamp_max: the number 1, expected a number that is not below u_clamp_min"));
+      Contains("u_clamp_max: the number 1, expected a number that is not below u_clamp_min"));
   CHECK_THROWS_WITH(load_controller(yaml("gains: {a: {p: 1, u_clamp_min: 1}}\n")),
                     Contains("u_clamp_min: the number 1, expected a number <= 0"));
 }

@@ -104,7 +104,7 @@ TEST_CASE("a square has the keys of a sine, and its height is the drive's to giv
   CHECK(sampled(square + "period: 2, offset: -1}}", 1.1).effort[1] == -3);
   CHECK_THROWS_WITH(sampled(square + "period: 2, offset: 12}}", 0), Contains("an effort of 14"));
   CHECK_THROWS_WITH(sampled(square + "period: 2, duty: 0.5}}", 0),
-                    Contains("unknown key 'duty', expected the keys of a square: amplitude, "));
+                    Contains("unknown key 'duty', expected one of frequency, amplitude, "));
   const std::string again = "{type: square, amplitude: 7, period: 2}";
   CHECK_THROWS_WITH(
       load_signals(Q2d(), yaml("waveforms: {elbow_active_joint: [" + again + ", " + again + "]}")),
