@@ -510,7 +510,7 @@ TEST_CASE("a waveform with another shape's keys is refused with its own") {
   };
   const auto missing = [](const std::string& key, const std::string& unknown) {
     return "test:2:23: waveforms.elbow_active_joint: the key '" + key +
-           "' is missing, expected it here, where '" + unknown + "' is unknown";
+           "' is missing, expected it in this map; its key '" + unknown + "' is unknown";
   };
   CHECK(wave("type: ramp, rate: 1, duration: 2") == missing("height", "rate"));
   CHECK(wave("type: ramp, height: 1, rate: 2") == missing("duration", "rate"));
@@ -552,10 +552,9 @@ TEST_CASE("a file without any waveform is refused, one with some may have empty 
 }
 
 TEST_CASE("what is there is named where something is missing") {
-  CHECK(
-      of_gains(shoulder + "elbow_active_joint: {waveforms: []}\n") ==
-      "test:3:21: elbow_active_joint: the key 'p' is missing, expected it here, where 'waveforms' "
-      "is unknown");
+  CHECK(of_gains(shoulder + "elbow_active_joint: {waveforms: []}\n") ==
+        "test:3:21: elbow_active_joint: the key 'p' is missing, expected it in this map; its key "
+        "'waveforms' is unknown");
   CHECK(of_gains("a: {ros__parameters: {joints: [x]}}\nb: {ros__parameters: {joints: [x]}}\n") ==
         "test: there is no controller with gains in it, expected one besides a, b");
   CHECK(of_manager("gains: {elbow_active_joint: {p: 1}}\n") ==

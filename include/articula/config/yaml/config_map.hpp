@@ -127,8 +127,8 @@ class ConfigMap {
           others.begin(), last, [&](const ConfigNode* item) { return nearly_knows(item->key); });
       if (misspelt == last) {
         const std::string unknown =
-            wrong == nullptr ? "" : ", where '" + shown(wrong->key) + "' is unknown";
-        value_.refuse("the key '" + missing_.front() + "' is missing", "it here" + unknown);
+            wrong == nullptr ? "" : "; its key '" + shown(wrong->key) + "' is unknown";
+        value_.refuse("the key '" + missing_.front() + "' is missing", "it in this map" + unknown);
       }
       wrong = *misspelt;
     }
