@@ -2,15 +2,15 @@
 /// @file Timed JSON messages in an MCAP file.
 #pragma once
 
+#include "articula/recording/output_file.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,7 +38,7 @@ class McapWriter {
   /// @throws std::runtime_error if the file cannot be written
   McapWriter(const std::filesystem::path& path, std::string_view topic,
              std::string_view schema_name, std::string_view schema)
-      : path_(path.string()), file_(path, std::ios::binary) {
+      : file_(path) {
     Bytes header;
     header.text("").text("articula");
     schema_.number(id, 2).text(schema_name).text("jsonschema").text(schema);
@@ -47,7 +47,7 @@ class McapWriter {
     put(0x01, header);
     put(0x03, schema_);
     put(0x04, channel_);
-    check();
+    file_.check();
   }
   /// Completes the file if it is open. What close() would throw is lost: call that to learn of it.
   ~McapWriter() {
@@ -56,7 +56,7 @@ class McapWriter {
     } catch (...) {
     }
   }
-  McapWriter(McapWriter&&) = default;
+  McapWriter(McapWriter&&) noexcept = default;
   McapWriter& operator=(McapWriter&&) = delete;
 
   /// Appends a message.
@@ -75,7 +75,7 @@ class McapWriter {
     content.data += message;
     put(0x05, content);
     if (size_ - content_start() >= chunk_size) complete_chunk();
-    check();
+    file_.check();
   }
 
   /// Completes the file with its summary, which readers use as a table of contents. Does nothing if
@@ -108,7 +108,7 @@ class McapWriter {
     put(0x02, Bytes().number(summary, 8).number(summary_offsets, 8).number(0, 4));
     put(magic);
     file_.close();
-    check();
+    file_.check();
   }
 
  private:
@@ -173,9 +173,7 @@ class McapWriter {
     if (chunk_.messages.empty()) return;
     const std::uint64_t content = size_ - content_start(), length = size_ - chunk_.start;
     const Bytes header = chunk_header(content);
-    file_.seekp(static_cast<std::streamoff>(chunk_.start + 1));
-    file_ << Bytes().number(length - 9, 8).data << header.data;
-    file_.seekp(0, std::ios::end);
+    file_.replace(length - 1, Bytes().number(length - 9, 8).data + header.data);
 
     const std::uint64_t message_index = size_;
     Bytes entries;
@@ -195,19 +193,15 @@ class McapWriter {
   }
 
   void put(std::string_view bytes) {
-    file_ << bytes;
+    file_.write(bytes);
     size_ += bytes.size();
   }
   void put(unsigned char opcode, const Bytes& content) {
     put(Bytes().number(opcode, 1).number(content.data.size(), 8).data);
     put(content.data);
   }
-  void check() const {
-    if (!file_) throw std::runtime_error("cannot write " + path_);
-  }
 
-  std::string path_;
-  std::ofstream file_;
+  detail::OutputFile file_;
   Bytes schema_;
   Bytes channel_;
   OpenChunk chunk_;
