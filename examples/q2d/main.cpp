@@ -53,7 +53,7 @@ void run_all(const Options& options) {
     for (const Experiment& experiment : options.experiments) draw_plot(experiment, options);
   }
   std::cout << "\nRecordings (CSV)" << (options.plots ? ", plots (SVG)" : "")
-            << " and plot scripts (gnuplot) are in " << options.output.string() << std::endl;
+            << " and plot scripts (gnuplot) are in " << options.output.string() << '\n' << std::flush;
   if (!std::cout) throw std::runtime_error("cannot write to standard output");
 }
 

@@ -57,10 +57,10 @@ class SignalReader {
     if (is_one && !node.find("waveforms")) {
       if (section.name.empty() && !has_joint) static_cast<void>(map.expect("joint"));
       take_unused_controller_parameters(map);
-      const auto joint = named_joint(map);
-      if (section.name.empty() && !joint) map.finish();
-      read_signal(std::move(map), joint.value_or(Joint{section.name, map.value().place()}),
-                  SignalTarget::effort);
+      const auto named = named_joint(map);
+      if (section.name.empty() && !named) map.finish();
+      const Joint joint = named.value_or(Joint{section.name, map.value().place()});
+      read_signal(std::move(map), joint, SignalTarget::effort);
       return;
     }
     if (const auto type = map.find("type")) {

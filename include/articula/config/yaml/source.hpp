@@ -44,7 +44,7 @@ class ConfigSource {
   /// @param yaml    the text
   /// @param name    what messages call it
   /// @param values  of placeholders
-  [[nodiscard]] static ConfigSource text(std::string_view yaml, std::string name = "YAML",
+  [[nodiscard]] static ConfigSource text(std::string_view yaml, const std::string& name = "YAML",
                                          ConfigValues values = {}) {
     ConfigSource source(name, std::move(values));
     source.yaml_ = yaml;
