@@ -6,7 +6,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <string>
 
 #include "plot.hpp"
 
@@ -28,8 +27,7 @@ void follow(const char* what, const Trajectory<Arm>& trajectory,
     const Pose &q = loop.state().position, &effort = loop.command().effort;
     plot.add(loop.time(), {q[1], q[2], loop.reference().position[6], q[6], effort[1], effort[2]});
   }
-  const std::string outcome(to_string(follower.outcome()));
-  std::printf("%s: %s at %.2f s\n", what, outcome.c_str(), loop.time());
+  std::printf("%s: %s at %.2f s\n", what, to_string(follower.outcome()).data(), loop.time());
 }
 
 int main() {
