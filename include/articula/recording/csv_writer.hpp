@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Records as comma-separated values.
+/// @file Writes recorded cycles to a CSV file.
 #pragma once
 
 #include "articula/core/command_parts.hpp"
@@ -19,10 +19,15 @@
 
 namespace articula {
 
-/// Writes records to a file: a header that names every column with its unit, then one line each.
-/// Numbers are written so that reading them back gives the same, with a decimal point whatever the
-/// program's locale is. A command of several numbers for a joint has a column for each. Mimic joints
-/// and poses of links come last in the row; the rotation of a link is a unit quaternion.
+/// Writes recorded cycles to a file: a header with the name and the unit of every column, then one
+/// row for each cycle. For PlotJuggler or Foxglove use McapRecordWriter.
+///
+///     CsvWriter<Q2d, EffortCommand<2>> csv("motion.csv", {.links = {"tool_link"}});
+///     csv.write(record_of(loop, report));
+///
+/// Reading a number back gives the same bits. The decimal point does not depend on the program's
+/// locale. A command of several numbers for a joint has a column for each. The last columns are
+/// those of mimic joints and of link poses: position [m] and a unit quaternion.
 /// @tparam R            the robot
 /// @tparam CommandType  of the loop
 template <Robot R, class CommandType>
@@ -34,10 +39,10 @@ class CsvWriter {
   /// Creates the file and writes the header.
   /// @param robot     whose loop is recorded
   /// @param path      of the file
-  /// @param contents  columns besides those of the commanded joints
+  /// @param contents  what is written in addition to the commanded joints
   /// @throws std::runtime_error naming the file and the reason, if it cannot be written
   /// @throws std::invalid_argument if the robot has no link of a name in `contents`
-  /// Real-time: no (allocates, calls the system), nor has any other function of this class.
+  /// Real-time: no (allocates, calls the system); likewise all functions of this class.
   CsvWriter(const R& robot, const std::filesystem::path& path, const RecordContents& contents = {})
       : robot_(robot), extras_(robot, contents), file_(path) {
     add_header();
@@ -81,34 +86,31 @@ class CsvWriter {
   }
 
  private:
+  // Units in the order of CommandQuantity, then that of accelerations.
+  using Units = std::array<std::string_view, 6>;
+  static constexpr Units angular{"rad", "rad/s", "N m", "N m/rad", "N m s/rad", "rad/s^2"};
+  static constexpr Units linear{"m", "m/s", "N", "N/m", "N s/m", "m/s^2"};
+
   void add_header() {
     row_ = "cycle,time [s],status";
     for (const JointProperties& joint : model_of(robot_).joints) {
-      const bool slides = joint.type == JointType::prismatic;
-      const std::string name(joint.name.view());
-      const std::string length = slides ? "m" : "rad", effort = slides ? "N" : "N m";
-      const auto unit = [&](CommandQuantity quantity) -> std::string {
-        if (quantity == CommandQuantity::position) return length;
-        if (quantity == CommandQuantity::velocity) return length + "/s";
-        if (quantity == CommandQuantity::effort) return effort;
-        if (quantity == CommandQuantity::stiffness) return effort + "/" + length;
-        return effort + " s/" + length;
+      const Units& units = joint.type == JointType::prismatic ? linear : angular;
+      const auto add_column = [&](std::string_view name, std::size_t unit) {
+        add(detail::message_of({joint.name.view(), " ", name, " [", units[unit], "]"}));
       };
-      const auto add_column = [&](std::string_view what, const std::string& its_unit) {
-        add(detail::message_of({name, " ", what, " [", its_unit, "]"}));
-      };
-      for (const std::string_view what : {"", "reference "}) {
-        add_column(detail::message_of({what, "position"}), length);
-        add_column(detail::message_of({what, "velocity"}), length + "/s");
-        if (!what.empty()) add_column("reference acceleration", length + "/s^2");
-        add_column(detail::message_of({what, "effort"}), effort);
-      }
+      add_column("position", 0);
+      add_column("velocity", 1);
+      add_column("effort", 2);
+      add_column("reference position", 0);
+      add_column("reference velocity", 1);
+      add_column("reference acceleration", 5);
+      add_column("reference effort", 2);
       const CommandType command;
       const auto parts = parts_of(command);
       for (const auto& part : parts) {
-        const std::string_view quantity = parts.size() > 1 ? to_string(part.quantity) : "";
-        add_column(detail::message_of({"command", quantity.empty() ? "" : " ", quantity}),
-                   unit(part.quantity));
+        std::string name = "command";
+        if (parts.size() > 1) (name += ' ') += to_string(part.quantity);
+        add_column(name, static_cast<std::size_t>(part.quantity));
       }
     }
     row_ += ",latency [s],period [s],update [s]";
@@ -143,11 +145,9 @@ class CsvWriter {
 
   void add(std::string_view cell) { (row_ += ',') += cell; }
   void add(double value) {
-    std::array<char, 32> digits;  // 24 are enough: sign, point, exponent and 17 digits
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value,
-                                   std::chars_format::general, 17)
-                         .ptr;
-    add(std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())));
+    std::array<char, 32> text;  // at most 24 characters: sign, 17 digits, point and exponent
+    char* const end = text.data() + text.size();
+    add({text.data(), std::to_chars(text.data(), end, value, std::chars_format::general, 17).ptr});
   }
   void write_row() {
     file_.write(row_ += '\n');
@@ -157,7 +157,7 @@ class CsvWriter {
   [[no_unique_address]] R robot_;
   RecordExtras<R> extras_;
   detail::OutputFile file_;
-  std::string row_{};  ///< of the file, while its cells are added
+  std::string row_{};  ///< the cells of the present row
 };
 
 }  // namespace articula

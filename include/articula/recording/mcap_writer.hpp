@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Timed JSON messages in an MCAP file.
+/// @file Writes timed JSON messages to an MCAP file.
 #pragma once
 
 #include "articula/recording/output_file.hpp"
@@ -22,16 +22,15 @@ namespace articula {
 /// Statistics, Chunk Index, Summary Offset and Footer. There is no compression and no checksum.
 ///
 /// Readers with random access need chunks and their index. Readers of a file that was never closed
-/// need messages outside of an unfinished chunk. Both get them: a chunk is first written empty, and
-/// its messages stand behind it. When it is full, its length is set, so that it contains them.
-/// So a file that was never closed has all messages that were written. A file of which the end was
-/// lost has those of all chunks before the one in which it ends.
+/// need messages outside of unfinished chunks. So a chunk is written empty, its messages follow it,
+/// and when they fill it, its length is set to contain them. A file that was never closed has all
+/// messages that were written. A truncated file has those of all chunks before the truncated one.
 class McapWriter {
  public:
-  /// A chunk is complete when its messages take this much [bytes]. Readers load whole chunks.
+  /// Size of the messages at which a chunk is complete [bytes]. Readers load whole chunks.
   static constexpr std::uint64_t chunk_size = 1 << 16;
 
-  /// @param path         the file; must be seekable, so it cannot be a pipe
+  /// @param path         the file; not a pipe, since it must be seekable
   /// @param topic        name of the topic
   /// @param schema_name  name of the messages' type
   /// @param schema       of the messages, as JSON Schema
@@ -49,11 +48,11 @@ class McapWriter {
     put(0x04, channel_);
     file_.check();
   }
-  /// Completes the file if it is open. What close() would throw is lost: call that to learn of it.
+  /// Completes the file if it is open. Call close() to get its errors.
   ~McapWriter() {
     try {
       close();
-    } catch (...) {
+    } catch (...) {  // NOLINT(bugprone-empty-catch): a destructor does not throw
     }
   }
   McapWriter(McapWriter&&) noexcept = default;
@@ -78,8 +77,8 @@ class McapWriter {
     file_.check();
   }
 
-  /// Completes the file with its summary, which readers use as a table of contents. Does nothing if
-  /// the file is closed already.
+  /// Completes the file with its summary, the table of contents for readers. Does nothing if the file
+  /// is closed already.
   /// @throws std::runtime_error if not all could be written
   void close() {
     if (!file_.is_open()) return;
@@ -168,7 +167,7 @@ class McapWriter {
     return span;
   }
 
-  /// Lets the chunk contain the messages behind it, and adds its index.
+  /// Sets the length of the chunk to contain the messages after it, and adds its index.
   void complete_chunk() {
     if (chunk_.messages.empty()) return;
     const std::uint64_t content = size_ - content_start(), length = size_ - chunk_.start;

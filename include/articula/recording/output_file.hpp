@@ -15,8 +15,8 @@
 
 namespace articula::detail {
 
-/// The file of a recording. The functions that write keep the first error; `check` throws it.
-/// Writing goes through the C library's buffer, which every system has, WebAssembly included.
+/// The file of a recording. Its functions keep the first error, which `check` throws. It is a stream
+/// of the C library because WebAssembly's C++ library has no file streams.
 class OutputFile {
  public:
   /// Creates the file, or empties it.
