@@ -22,11 +22,6 @@ struct RealtimeOptions {
   RunOptions run{};
 };
 
-/// A loop whose hardware has a cycle of its own, which can pace the loop.
-template <class L>
-concept PacedLoop =
-    requires(L loop) { requires PacingHardware<std::remove_cvref_t<decltype(loop.hardware())>>; };
-
 /// Prepares the calling thread with make_realtime and runs the loop on it, as the other `run` does.
 /// Passes the loop's notices to options.thread.warn. The hardware paces the loop if it can
 /// (HardwareClock), else CLOCK_MONOTONIC does.
@@ -42,7 +37,7 @@ RunReport run(LoopType& loop, const RealtimeOptions& options, Each each = {}) {
     }
   }
   MonotonicClock clock;
-  if constexpr (PacedLoop<LoopType>) {
+  if constexpr (requires { HardwareClock(loop.hardware(), clock, loop.period()); }) {
     HardwareClock pace(loop.hardware(), clock, loop.period());
     return run(loop, pace, options.run, std::move(each));
   } else {
