@@ -33,6 +33,7 @@ struct Panel {
   std::string unit;   ///< label of the vertical axis
   std::vector<Curve> curves{};
   std::string range = "[*:*]";  ///< of the vertical axis
+  std::string times = "[]";     ///< of the horizontal axis; all data by default
 };
 
 /// Panels in rows. The script, the drawing and the data lie in one folder.
@@ -60,7 +61,7 @@ struct Figure {
       const Panel& panel = panels[k];
       if (k + columns == panels.size()) script << "set xlabel 'time [s]'\n";
       script << "set title '" << panel.title << "' offset 0,-0.5\nset ylabel '" << panel.unit
-             << "'\nplot [] " << panel.range;
+             << "'\nplot " << panel.times << ' ' << panel.range;
       const char* separator = " ";
       for (const auto& [data, style, title] : panel.curves) {
         script << separator << "\\\n  " << data << " with lines " << style << " title '" << title

@@ -51,7 +51,8 @@ Figure figure_of(const Experiment& experiment, const Options& options) {
       const bool has_key = !is_effort && joint == 0;  // of all panels
       const auto title = [&](const std::string& text) { return has_key ? text : ""; };
       Panel panel{.title = is_effort ? "" : std::string(short_name(joint_names(Q2d())[joint])),
-                  .unit = is_effort ? "effort command [N m]" : "position [rad]"};
+                  .unit = is_effort ? "effort command [N m]" : "position [rad]",
+                  .times = "[0:" + std::to_string(experiment.duration) + "]"};
       const auto column = [&](const std::string& controller, std::size_t number) {
         return column_of(csv_name(experiment, controller), number + columns * joint, skip);
       };
