@@ -21,7 +21,7 @@
 namespace articula {
 
 /// The version as text, "major.minor.patch" [Semantic Versioning 2.0.0].
-inline constexpr std::string_view version =
+inline constexpr std::string_view library_version =
     ARTICULA_DETAIL_DOTTED(ARTICULA_VERSION_MAJOR, ARTICULA_VERSION_MINOR, ARTICULA_VERSION_PATCH);
 
 }  // namespace articula

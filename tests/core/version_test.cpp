@@ -6,7 +6,7 @@
 #include "catch.hpp"
 
 TEST_CASE("the version of the headers is that of the CMake project") {
-  CHECK(articula::version == ARTICULA_PROJECT_VERSION);
+  CHECK(articula::library_version == ARTICULA_PROJECT_VERSION);
 }
 
 TEST_CASE("the version is a text and a number for the preprocessor, which agree") {
@@ -16,5 +16,5 @@ TEST_CASE("the version is a text and a number for the preprocessor, which agree"
   const int number = ARTICULA_VERSION;
   CHECK(std::to_string(number / 10000) + "." + std::to_string(number / 100 % 100) + "." +
             std::to_string(number % 100) ==
-        articula::version);
+        articula::library_version);
 }
