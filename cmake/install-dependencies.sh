@@ -26,6 +26,9 @@ case ${1:-} in
   --all)
     packages+=(clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19 valgrind)
     packages+=(liborocos-kdl-dev libmujoco-dev) # peers, in tests and benchmarks
+    # tests/webassembly
+    packages+=(lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
+    packages+=(wasi-libc nodejs)
     # tests/vcan: a virtual machine with CAN in its kernel, if this kernel has none
     packages+=(qemu-system-x86 busybox-static dash cpio xz-utils iproute2 can-utils)
     ;;

@@ -25,12 +25,14 @@ class MessagePart {
   MessagePart(const std::string& text) noexcept : text_(text) {}  // NOLINT: likewise
 
   [[gnu::cold]] MessagePart(double number) noexcept {  // NOLINT: a number is a part
-    keep(std::to_chars(digits_.begin(), digits_.end(), number, std::chars_format::general, 6));
+    keep(std::to_chars(digits_.data(), digits_.data() + digits_.size(), number,
+                       std::chars_format::general, 6));
   }
   template <std::integral Number>
   [[gnu::cold]] MessagePart(Number number) noexcept {  // NOLINT: likewise
     using Widest = std::conditional_t<std::signed_integral<Number>, long long, unsigned long long>;
-    keep(std::to_chars(digits_.begin(), digits_.end(), static_cast<Widest>(number)));
+    keep(std::to_chars(digits_.data(), digits_.data() + digits_.size(),
+                       static_cast<Widest>(number)));
   }
   MessagePart(bool) = delete;  ///< a number or a word?
   MessagePart(char) = delete;  ///< likewise

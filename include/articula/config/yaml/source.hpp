@@ -43,7 +43,7 @@ class ConfigSource : public detail::TextSource {
   /// @param yaml    the YAML
   /// @param name    its name in messages
   /// @param values  of placeholders
-  [[nodiscard]] static ConfigSource text(std::string_view yaml, std::string name = "YAML",
+  [[nodiscard]] static ConfigSource text(std::string_view yaml, const std::string& name = "YAML",
                                          ConfigValues values = {}) {
     return ConfigSource(std::move(name), std::string(yaml), std::move(values));
   }

@@ -18,7 +18,7 @@ class FrictionCompensation {
 
   FrictionCompensation()
     requires DescribedRobot<R>
-  {}
+  = default;
   explicit FrictionCompensation(const R& robot) : robot_(robot) {}
 
   /// Nothing to forget. Real-time: yes.

@@ -21,7 +21,7 @@ class GravityCompensation {
 
   GravityCompensation()
     requires DescribedRobot<R>
-  {}
+  = default;
   explicit GravityCompensation(const R& robot) : robot_(robot) {}
 
   /// Nothing to forget. Real-time: yes.

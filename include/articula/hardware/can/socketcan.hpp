@@ -63,10 +63,11 @@ class SocketCan {
   /// @return Status::hardware_fault if that fails, and error() tells what
   /// Real-time: no (system calls, allocates).
   [[nodiscard]] Status open(const CanSubscription& subscription) noexcept {
-    const char* failure = "out of memory";
+    const char* failure = nullptr;
     try {
       failure = socket_.open(interface_, subscription);
-    } catch (...) {  // which is that
+    } catch (...) {
+      failure = "out of memory";
     }
     if (failure != nullptr) {
       error_ = failure;

@@ -72,7 +72,7 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
   /// Calls function(object) for each object that a process data object is made of.
   template <class Function>
   void for_each_mapped(std::uint16_t mapping, Function function) noexcept {
-    const std::uint32_t count = std::min(value({mapping, 0}), std::uint32_t{8});
+    const auto count = static_cast<std::uint8_t>(std::min(value({mapping, 0}), std::uint32_t{8}));
     for (std::uint8_t k = 1; k <= count; ++k) {
       SimulatedCanopenObject* const object = find(mapped(value({mapping, k})));
       if (object) function(*object);
