@@ -44,15 +44,13 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<ForwardDynamics>(robot, q, v, effort));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
-/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
+/// The same for several robots of one kind at once: much faster than one by one, as many at a time as
+/// the registers of the target processor have lanes (-march=native).
 /// Real-time: yes.
-template <Robot R, int K>
-[[nodiscard]] JointVectors<joint_count<R>, K> forward_dynamics(
-    const R& robot, const JointVectors<joint_count<R>, K>& q,
-    const JointVectors<joint_count<R>, K>& v,
-    const JointVectors<joint_count<R>, K>& effort) noexcept {
-  return detail::evaluate_columns<ForwardDynamics, R, K>(robot, q, v, effort);
+template <Robot R, JointVectorPack<R> Q>
+[[nodiscard]] Q forward_dynamics(const R& robot, const Q& q, const std::type_identity_t<Q>& v,
+                                 const std::type_identity_t<Q>& effort) noexcept {
+  return detail::evaluate_pack<ForwardDynamics>(robot, q, v, effort);
 }
 
 }  // namespace articula

@@ -32,14 +32,13 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<NonlinearEffects>(robot, q, v));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
-/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
+/// The same for several robots of one kind at once: much faster than one by one, as many at a time as
+/// the registers of the target processor have lanes (-march=native).
 /// Real-time: yes.
-template <Robot R, int K>
-[[nodiscard]] JointVectors<joint_count<R>, K> nonlinear_effects(
-    const R& robot, const JointVectors<joint_count<R>, K>& q,
-    const JointVectors<joint_count<R>, K>& v) noexcept {
-  return detail::evaluate_columns<NonlinearEffects, R, K>(robot, q, v);
+template <Robot R, JointVectorPack<R> Q>
+[[nodiscard]] Q nonlinear_effects(const R& robot, const Q& q,
+                                  const std::type_identity_t<Q>& v) noexcept {
+  return detail::evaluate_pack<NonlinearEffects>(robot, q, v);
 }
 
 }  // namespace articula

@@ -27,9 +27,34 @@ struct SineAndCosine {
   S cosine;
 };
 
-/// Doubles side by side, which one instruction adds or multiplies: a scalar for algorithms that
-/// makes them compute for as many robots at once.
-/// @tparam Lanes  how many: 2, or 4 or 8 if they fit into a register
+/// The result of a comparison of packs: a truth value for each lane.
+template <int Lanes>
+struct PackMask {
+  detail::Integers<Lanes> truths;  ///< all bits of a lane are 1 for true, 0 for false
+
+  [[gnu::always_inline]] friend PackMask operator&(const PackMask& a, const PackMask& b) noexcept {
+    return {a.truths & b.truths};
+  }
+  [[gnu::always_inline]] friend PackMask operator|(const PackMask& a, const PackMask& b) noexcept {
+    return {a.truths | b.truths};
+  }
+  [[gnu::always_inline]] friend PackMask operator!(const PackMask& a) noexcept {
+    return {~a.truths};
+  }
+  [[gnu::always_inline]] friend bool any_of(const PackMask& mask) noexcept {
+    bool any = false;
+    for (int lane = 0; lane < Lanes; ++lane) any = any || mask.truths[lane] != 0;
+    return any;
+  }
+  [[gnu::always_inline]] friend bool all_of(const PackMask& mask) noexcept {
+    return !any_of(!mask);
+  }
+};
+
+/// Doubles side by side, which one instruction adds or multiplies: a scalar that makes an algorithm
+/// compute for several robots at once. Comparisons give a PackMask. A double converts to a pack with
+/// the same number in all lanes.
+/// @tparam Lanes  number of doubles: 2, or 4 or 8 if they fit into a register
 template <int Lanes = lanes_of_a_register>
   requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_register)
 class Pack {
@@ -38,7 +63,7 @@ class Pack {
 
   Pack() = default;  ///< not initialised, as a double
   /// The same number in all lanes.
-  [[gnu::always_inline]] explicit Pack(double x) noexcept : reals_(x - Reals{}) {}
+  [[gnu::always_inline]] Pack(double x) noexcept : reals_(x - Reals{}) {}  // NOLINT: implicit
 
   /// Reads as many numbers as there are lanes, the first into lane 0.
   [[nodiscard, gnu::always_inline]] static Pack load(const double* numbers) noexcept {
@@ -52,6 +77,7 @@ class Pack {
   [[nodiscard, gnu::always_inline]] double operator[](int lane) const noexcept {
     return reals_[lane];
   }
+  [[gnu::always_inline]] void set(int lane, double number) noexcept { reals_[lane] = number; }
 
   [[gnu::always_inline]] friend Pack operator+(const Pack& a, const Pack& b) noexcept {
     return made_of(a.reals_ + b.reals_);
@@ -68,6 +94,38 @@ class Pack {
   [[gnu::always_inline]] friend Pack operator-(const Pack& a) noexcept {
     return made_of(-a.reals_);
   }
+  [[gnu::always_inline]] Pack& operator+=(const Pack& b) noexcept { return *this = *this + b; }
+  [[gnu::always_inline]] Pack& operator-=(const Pack& b) noexcept { return *this = *this - b; }
+  [[gnu::always_inline]] Pack& operator*=(const Pack& b) noexcept { return *this = *this * b; }
+
+  [[gnu::always_inline]] friend PackMask<Lanes> operator<(const Pack& a, const Pack& b) noexcept {
+    return {a.reals_ < b.reals_};
+  }
+  [[gnu::always_inline]] friend PackMask<Lanes> operator<=(const Pack& a, const Pack& b) noexcept {
+    return {a.reals_ <= b.reals_};
+  }
+  [[gnu::always_inline]] friend PackMask<Lanes> operator>(const Pack& a, const Pack& b) noexcept {
+    return b < a;
+  }
+  [[gnu::always_inline]] friend PackMask<Lanes> operator>=(const Pack& a, const Pack& b) noexcept {
+    return b <= a;
+  }
+  [[gnu::always_inline]] friend PackMask<Lanes> operator==(const Pack& a, const Pack& b) noexcept {
+    return {a.reals_ == b.reals_};
+  }
+  [[gnu::always_inline]] friend PackMask<Lanes> operator!=(const Pack& a, const Pack& b) noexcept {
+    return !(a == b);
+  }
+  /// `chosen` in lanes where the mask is true, else `other`.
+  [[gnu::always_inline]] friend Pack select(const PackMask<Lanes>& mask, const Pack& chosen,
+                                            const Pack& other) noexcept {
+    return made_of(mask.truths ? chosen.reals_ : other.reals_);
+  }
+  [[gnu::always_inline]] friend Pack abs(const Pack& a) noexcept { return select(a < 0.0, -a, a); }
+  [[gnu::always_inline]] friend PackMask<Lanes> is_finite(const Pack& a) noexcept {
+    return a - a == 0.0;  // of infinities and NaN the difference is NaN
+  }
+
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) noexcept {
     Pack root;
     for (int lane = 0; lane < Lanes; ++lane) root.reals_[lane] = std::sqrt(a.reals_[lane]);

@@ -5,6 +5,7 @@
 #include "articula/core/joint_vector.hpp"
 #include "articula/dynamics/engine/compiled.hpp"
 #include "articula/dynamics/engine/configuration.hpp"
+#include "articula/dynamics/engine/joint_vector_pack.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/symbolic/pack.hpp"
 
@@ -26,10 +27,10 @@ template <int N>
   }(std::make_integer_sequence<int, N>{});
 }
 
-template <int N>
-[[nodiscard, gnu::always_inline]] inline JointVector<N> to_vector(
-    const JointArray<double, N>& array) noexcept {
-  return for_each_joint<N>([&](int j) __attribute__((always_inline)) { return array[j]; });
+template <class S, int N>
+[[nodiscard, gnu::always_inline]] inline JointVector<N, S> to_vector(
+    const JointArray<S, N>& array) noexcept {
+  return for_each_joint<N, S>([&](int j) __attribute__((always_inline)) { return array[j]; });
 }
 
 template <int N>
@@ -105,7 +106,7 @@ template <class Algorithm, Robot R, std::same_as<JointVector<joint_count<R>>>...
   return evaluate_numbers<Algorithm>(robot, q.data(), inputs.data()...);
 }
 
-/// Numbers of as many robots as a pack has lanes, out of rows of K.
+/// A pack for each row of a matrix with K columns, one for each robot.
 template <int Lanes, int K>
 struct Columns {
   const double* first;
@@ -115,30 +116,32 @@ struct Columns {
   }
 };
 
-/// The same for K robots at once, as many as fit into a register at a time. If K is no multiple of
-/// that, the last ones are those that end at column K: some are computed twice.
-template <class Algorithm, Robot R, int K, std::same_as<JointVectors<joint_count<R>, K>>... Inputs>
-[[nodiscard]] JointVectors<joint_count<R>, K> evaluate_columns(
-    const R& robot, const JointVectors<joint_count<R>, K>& q, const Inputs&... inputs) noexcept {
-  static_assert(K >= 2, "articula: a single robot has a JointVector");
-  constexpr int n = joint_count<R>;
-  constexpr int lanes = K < 4   ? 2
-                        : K < 8 ? std::min(4, symbolic::lanes_of_a_register)
-                                : symbolic::lanes_of_a_register;
-  using Pack = symbolic::Pack<lanes>;
-  JointVectors<n, K> result;
-  for (int column = 0; column < K; column += lanes) {
-    const int first = std::min(column, K - lanes);
-    const auto columns = [&](const JointVectors<n, K>& vectors) __attribute__((always_inline)) {
-      return Columns<lanes, K>{vectors.data() + first};
-    };
-    const JointArray<Pack, n> packed =
-        evaluate_numbers<Algorithm>(robot, columns(q), columns(inputs)...);
-    symbolic::detail::for_each_index<std::size_t{n}>(
-        [&](std::size_t i)
-            __attribute__((always_inline)) { packed[i].store(result.data() + i * K + first); });
+/// The same for several robots at once. Of the columns of JointVectors it takes as many at a time
+/// as fit into a register. If K is no multiple of that, the last group ends at column K and overlaps
+/// the one before.
+template <class Algorithm, Robot R, JointVectorPack<R> Q, std::same_as<Q>... Inputs>
+[[nodiscard]] Q evaluate_pack(const R& robot, const Q& q, const Inputs&... inputs) noexcept {
+  constexpr int n = joint_count<R>, K = Q::ColsAtCompileTime;
+  if constexpr (K == 1) {
+    return to_vector(evaluate_numbers<Algorithm>(robot, q.data(), inputs.data()...));
+  } else {
+    constexpr int lanes = K < 4   ? 2
+                          : K < 8 ? std::min(4, symbolic::lanes_of_a_register)
+                                  : symbolic::lanes_of_a_register;
+    Q result;
+    for (int column = 0; column < K; column += lanes) {
+      const int first = std::min(column, K - lanes);
+      const auto columns = [&](const Q& vectors) __attribute__((always_inline)) {
+        return Columns<lanes, K>{vectors.data() + first};
+      };
+      const JointArray<symbolic::Pack<lanes>, n> packed =
+          evaluate_numbers<Algorithm>(robot, columns(q), columns(inputs)...);
+      symbolic::detail::for_each_index<std::size_t{n}>(
+          [&](std::size_t i)
+              __attribute__((always_inline)) { packed[i].store(result.data() + i * K + first); });
+    }
+    return result;
   }
-  return result;
 }
 
 }  // namespace articula::detail
