@@ -11,7 +11,7 @@
 /// pack.
 #pragma once
 
-#include "articula/core/joint_vector.hpp"
+#include "articula/core/joint_command.hpp"
 
 #include <type_traits>
 
@@ -60,16 +60,27 @@ template <int N, class S>
   return for_each_joint<N>([&](int j) noexcept { return lane_of(x[j], lane); });
 }
 
-/// Replaces the numbers of the robot in one lane. Real-time: yes.
+/// @copydoc lane_of(const S&, int)
+template <int N, class S>
+[[nodiscard]] MultiModeCommand<N> lane_of(const MultiModeCommand<N, S>& command,
+                                          int lane) noexcept {
+  return {lane_of(command.position, lane), lane_of(command.velocity, lane),
+          lane_of(command.stiffness, lane), lane_of(command.damping, lane),
+          lane_of(command.effort, lane)};
+}
+
+/// Replaces the number of the robot in one lane. Real-time: yes.
+template <class S>
+constexpr void set_lane(S& x, [[maybe_unused]] int lane, double number) noexcept {
+  if constexpr (PackedScalar<S>) {
+    x.set(lane, number);
+  } else {
+    x = number;
+  }
+}
 template <int N, class S>
 void set_lane(JointVector<N, S>& x, int lane, const JointVector<N>& numbers) noexcept {
-  for (int j = 0; j < N; ++j) {
-    if constexpr (PackedScalar<S>) {
-      x[j].set(lane, numbers[j]);
-    } else {
-      x[j] = numbers[j];
-    }
-  }
+  for (int j = 0; j < N; ++j) set_lane(x[j], lane, numbers[j]);
 }
 
 }  // namespace articula
