@@ -7,7 +7,7 @@
 #include <articula/sim/simulator.hpp>
 #include <articula/symbolic/pack.hpp>
 
-#include <catch2/catch_test_macros.hpp>
+#include "catch.hpp"
 
 #include <cmath>
 #include <limits>

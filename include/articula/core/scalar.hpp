@@ -12,7 +12,9 @@
 #pragma once
 
 #include "articula/core/joint_command.hpp"
+#include "articula/core/joint_state.hpp"
 
+#include <cstddef>
 #include <type_traits>
 
 namespace articula {
@@ -32,10 +34,22 @@ concept PackedScalar = lanes<S> > 1;
 [[nodiscard]] constexpr double select(bool mask, double chosen, double other) noexcept {
   return mask ? chosen : other;
 }
-/// Whether the mask is true in all lanes. Real-time: yes.
-[[nodiscard]] constexpr bool all_of(bool mask) noexcept { return mask; }
 /// Whether the mask is true in any lane. Real-time: yes.
 [[nodiscard]] constexpr bool any_of(bool mask) noexcept { return mask; }
+template <class Mask>
+  requires requires(const Mask& mask) { mask[0]; }
+[[nodiscard]] constexpr bool any_of(const Mask& mask) noexcept {
+  bool any = false;
+  for (std::size_t k = 0; k < sizeof(mask) / sizeof(mask[0]); ++k) any = any || mask[k] != 0;
+  return any;
+}
+/// Whether the mask is true in all lanes. Real-time: yes.
+[[nodiscard]] constexpr bool all_of(bool mask) noexcept { return mask; }
+template <class Mask>
+  requires requires(const Mask& mask) { mask[0]; }
+[[nodiscard]] constexpr bool all_of(const Mask& mask) noexcept {
+  return !any_of(~mask);
+}
 
 /// The number between two limits that is nearest to x. Real-time: yes.
 /// @pre low <= high
@@ -60,13 +74,26 @@ template <int N, class S>
   return for_each_joint<N>([&](int j) noexcept { return lane_of(x[j], lane); });
 }
 
-/// @copydoc lane_of(const S&, int)
 template <int N, class S>
-[[nodiscard]] MultiModeCommand<N> lane_of(const MultiModeCommand<N, S>& command,
-                                          int lane) noexcept {
-  return {lane_of(command.position, lane), lane_of(command.velocity, lane),
-          lane_of(command.stiffness, lane), lane_of(command.damping, lane),
-          lane_of(command.effort, lane)};
+[[nodiscard]] JointState<N> lane_of(const JointState<N, S>& x, int lane) noexcept {
+  return {lane_of(x.position, lane), lane_of(x.velocity, lane), lane_of(x.effort, lane)};
+}
+template <int N, class S>
+[[nodiscard]] EffortCommand<N> lane_of(const EffortCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.effort, lane)};
+}
+template <int N, class S>
+[[nodiscard]] PositionCommand<N> lane_of(const PositionCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.position, lane)};
+}
+template <int N, class S>
+[[nodiscard]] VelocityCommand<N> lane_of(const VelocityCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.velocity, lane)};
+}
+template <int N, class S>
+[[nodiscard]] MultiModeCommand<N> lane_of(const MultiModeCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.position, lane), lane_of(x.velocity, lane), lane_of(x.stiffness, lane),
+          lane_of(x.damping, lane), lane_of(x.effort, lane)};
 }
 
 /// Replaces the number of the robot in one lane. Real-time: yes.

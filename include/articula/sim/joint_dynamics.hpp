@@ -37,28 +37,19 @@ class JointDynamics {
         friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
         parents_(elimination_tree(model_of(robot).mechanism)) {}
 
-  /// The motion after one step under constant efforts.
+  /// The motion after one step.
   /// @param motion  position and velocity at its beginning; positions within the joints' limits
-  /// @param effort  efforts of the drives [N m or N], N x 1
-  /// @param step    [s]
-  /// Real-time: yes. One Runge-Kutta step, and some ten more for each event, at most some fifty.
-  [[nodiscard]] Motion<joint_count> advance(const Motion<joint_count>& motion, const Vector& effort,
-                                            double step) const noexcept {
-    return advance(motion, [&effort](const auto&, const auto&) noexcept { return effort; }, step);
-  }
-
-  /// The motion after one step under efforts that depend on it.
-  /// @param motion  as above
   /// @param effort  callable with (q, v) -> efforts of the drives [N m or N], N x 1
   /// @param step    [s]
-  /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step.
+  /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step. One
+  /// such step, and some ten more for each event, at most some fifty.
   template <class Drives>
     requires std::is_invocable_r_v<Vector, const Drives&, const Vector&, const Vector&>
   [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion, const Drives& effort,
                                             double step) const noexcept {
     double rest = step;
     for (int event = 0; event < most_events && rest > 0; ++event) {
-      if (any_of(at_stop(motion))) motion = after_impact(motion, Rebound::yes);
+      if (any_at_stop(motion)) motion = after_impact(motion, Rebound::yes);
       const Phase<> phase = phase_at(motion, effort);
       Motion<joint_count> next = smooth_step(phase, motion, effort, rest);
       const double excess_at_end = excess(phase, next);
@@ -94,14 +85,14 @@ class JointDynamics {
   [[nodiscard]] std::optional<Motion<joint_count, Pack>> advance_smoothly(
       const Motion<joint_count, Pack>& motion, const Drives& effort, double step) const noexcept {
     Phase<Pack> phase;
-    auto event = at_stop(motion);
+    bool event = any_at_stop(motion);
     for (int j = 0; j < joint_count; ++j) {
       if (friction_[j] == 0) continue;
       const Pack& v = motion.velocity[j];
       phase.sliding[j] = select(v > 0, Pack(-friction_[j]), Pack(friction_[j]));
-      event = event | (v == 0);
+      event = event || any_of(v == 0);
     }
-    if (any_of(event)) return {};
+    if (event) return {};
     const Motion<joint_count, Pack> next = smooth_step(phase, motion, effort, step);
     if (any_of(excess(phase, next) > 0)) return {};
     return next;
@@ -128,14 +119,13 @@ class JointDynamics {
   [[nodiscard]] bool at_upper(const Motion<joint_count>& m, int j) const noexcept {
     return m.position[j] >= upper_[j];
   }
-  /// Whether any joint is at a stop, by robot.
+  /// Whether any joint of any robot is at a stop.
   template <class S>
-  [[nodiscard]] auto at_stop(const Motion<joint_count, S>& m) const noexcept {
-    const auto at = [&](int j) noexcept {
-      return (m.position[j] <= lower_[j]) | (m.position[j] >= upper_[j]);
-    };
-    auto any = at(0);
-    for (int j = 1; j < joint_count; ++j) any = any | at(j);
+  [[nodiscard]] bool any_at_stop(const Motion<joint_count, S>& m) const noexcept {
+    bool any = false;
+    for (int j = 0; j < joint_count; ++j) {
+      any = any || any_of(m.position[j] <= lower_[j]) || any_of(m.position[j] >= upper_[j]);
+    }
     return any;
   }
 

@@ -103,10 +103,10 @@ class ServoDrives {
     Vector<S> resistance;
     for (int j = 0; j < joint_count; ++j) {
       // Rounding may move a joint that rests at its stop by a little.
-      constexpr double close = 1e-9;  // [rad or m, and per second]
-      const auto pushes =
-          ((q[j] <= lower_[j] + close) & (a[j] < 0)) | ((q[j] >= upper_[j] - close) & (a[j] > 0));
-      a[j] = select(pushes & (abs(v[j]) <= close), S(0), a[j]);
+      constexpr double close = 1e-9, free = JointLimits::infinity;  // [rad or m, and per second]
+      const S lowest = select(q[j] <= lower_[j] + close, S(0), S(-free));
+      const S highest = select(q[j] >= upper_[j] - close, S(0), S(free));
+      a[j] = select(abs(v[j]) <= close, clamp(a[j], lowest, highest), a[j]);
       const S direction = select(v[j] != 0, v[j], a[j]);
       const S sign = select(direction > 0, S(1), select(direction < 0, S(-1), S(0)));
       resistance[j] = damping_[j] * v[j] + friction_[j] * sign;

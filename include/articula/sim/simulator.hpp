@@ -77,7 +77,7 @@ class Simulator {
   /// Real-time: yes.
   [[nodiscard]] Status read(State& state) noexcept {
     state = measured_;
-    if (!all_finite(state.position, state.velocity, state.effort)) return Status::non_finite_state;
+    if (!all_finite(state)) return Status::non_finite_state;
     return active_ ? Status::ok : Status::inactive;
   }
 
@@ -88,59 +88,32 @@ class Simulator {
   /// Real-time: yes. Costs `substeps` Runge-Kutta steps, and more where a joint reaches a stop or
   /// comes to rest against dry friction.
   [[nodiscard]] Status write(const EffortCommand<joint_count, S>& command) noexcept {
-    const Status status = acceptance(command.effort);
+    const bool finite = all_finite(command), accepted = finite && active_;
     truth_.effort = for_each_joint<joint_count, S>([&](int j) noexcept {
-      return status == Status::ok ? clamp(command.effort[j], -limits_[j], limits_[j]) : S(0);
+      return accepted ? clamp(command.effort[j], -limits_[j], limits_[j]) : S(0);
     });
     advance(options_.substeps, truth_.effort,
             [](const auto& effort, const auto&, const auto&) noexcept { return effort; });
-    return status;
+    return accepted ? Status::ok : finite ? Status::inactive : Status::non_finite_command;
   }
 
-  /// Holds positions for one period. Drives are servos or ideal, see SimulatorOptions::drives.
-  /// @param command  positions [rad or m], clamped to the joints' limits
+  /// Holds another command for one period. Drives follow positions and velocities as servos or
+  /// ideally, see SimulatorOptions::drives. Springs and dampers act without delay or sampling, so
+  /// `substeps` must suit them.
+  /// @param command  a PositionCommand, VelocityCommand or MultiModeCommand; positions and
+  ///                 velocities are clamped to the joints' limits
   /// @return         as above
   /// Real-time: yes. Costs as above, with `servo_substeps` for servos; each step takes the inverse
   /// dynamics as well.
-  [[nodiscard]] Status write(const PositionCommand<joint_count, S>& command) noexcept {
-    const Status status = acceptance(command.position);
-    if (status == Status::ok && options_.drives == DriveModel::ideal) {
-      move_to(command.position);
-      return status;
+  template <template <int, class> class Command>
+  [[nodiscard]] Status write(const Command<joint_count, S>& command) noexcept {
+    const bool finite = all_finite(command);
+    if (!finite || !active_) {
+      const Status without_effort = write(EffortCommand<joint_count, S>{});
+      return finite ? without_effort : Status::non_finite_command;
     }
-    return hold(status, servo_substeps_, command.position,
-                [this](const auto& target, const auto& q, const auto& v) noexcept {
-                  return servo_.effort_to_position(target, q, v);
-                });
-  }
-
-  /// Holds velocities for one period.
-  /// @param command  velocities [rad/s or m/s], clamped to the joints' limits
-  /// @return         as above
-  /// Real-time: yes. Costs as for positions.
-  [[nodiscard]] Status write(const VelocityCommand<joint_count, S>& command) noexcept {
-    const Status status = acceptance(command.velocity);
-    if (status == Status::ok && options_.drives == DriveModel::ideal) {
-      move_to(truth_.position + command.velocity * S(options_.period));
-      return status;
-    }
-    return hold(status, servo_substeps_, command.velocity,
-                [this](const auto& target, const auto& q, const auto& v) noexcept {
-                  return servo_.effort_to_velocity(target, q, v);
-                });
-  }
-
-  /// Holds springs and dampers for one period. They act without delay or sampling, so `substeps`
-  /// must suit them.
-  /// @return  as above
-  /// Real-time: yes. Costs as for efforts.
-  [[nodiscard]] Status write(const MultiModeCommand<joint_count, S>& command) noexcept {
-    const Status status = acceptance(command.position, command.velocity, command.stiffness,
-                                     command.damping, command.effort);
-    return hold(status, options_.substeps, command,
-                [this](const auto& springs, const auto& q, const auto& v) noexcept {
-                  return spring_effort(springs, q, v);
-                });
+    follow(command);
+    return Status::ok;
   }
 
   /// The exact state at this moment, without sensors. Real-time: yes.
@@ -158,26 +131,34 @@ class Simulator {
   using Vector = JointVector<joint_count, S>;
 
   /// Whether all numbers of all robots are finite.
-  [[nodiscard]] static bool all_finite(const std::same_as<Vector> auto&... numbers) noexcept {
+  template <class Numbers>
+  [[nodiscard]] static bool all_finite(const Numbers& numbers) noexcept {
     bool finite = true;
-    for (int k = 0; k < lanes<S>; ++k) finite = finite && (is_finite(lane_of(numbers, k)) && ...);
+    for (int k = 0; k < lanes<S>; ++k) finite = finite && is_finite(lane_of(numbers, k));
     return finite;
   }
-  [[nodiscard]] Status acceptance(const std::same_as<Vector> auto&... numbers) const noexcept {
-    if (!all_finite(numbers...)) return Status::non_finite_command;
-    return active_ ? Status::ok : Status::inactive;
-  }
 
-  /// Advances by one period: as commanded, or without efforts if the command is not accepted.
-  template <class Command, class Drives>
-  [[nodiscard]] Status hold(Status status, int steps, const Command& command,
-                            const Drives& drives) noexcept {
-    if (status == Status::ok) {
-      advance(steps, command, drives);
-    } else {
-      static_cast<void>(write(EffortCommand<joint_count, S>{}));
+  void follow(const PositionCommand<joint_count, S>& command) noexcept {
+    if (options_.drives == DriveModel::ideal) return move_to(command.position);
+    advance(servo_substeps_, command.position,
+            [this](const auto& target, const auto& q, const auto& v) noexcept {
+              return servo_.effort_to_position(target, q, v);
+            });
+  }
+  void follow(const VelocityCommand<joint_count, S>& command) noexcept {
+    if (options_.drives == DriveModel::ideal) {
+      return move_to(truth_.position + command.velocity * S(options_.period));
     }
-    return status;
+    advance(servo_substeps_, command.velocity,
+            [this](const auto& target, const auto& q, const auto& v) noexcept {
+              return servo_.effort_to_velocity(target, q, v);
+            });
+  }
+  void follow(const MultiModeCommand<joint_count, S>& command) noexcept {
+    advance(options_.substeps, command,
+            [this](const auto& springs, const auto& q, const auto& v) noexcept {
+              return this->spring_effort(springs, q, v);
+            });
   }
 
   /// Advances by one period.

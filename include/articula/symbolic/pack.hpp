@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Several numbers that a processor computes with at once.
+/// @file Packs: several doubles as one scalar, computed by the same instructions.
 #pragma once
 
 #include "articula/symbolic/vector_sine_cosine.hpp"
@@ -11,7 +11,7 @@
 
 namespace articula::symbolic {
 
-/// How many doubles fit into a register of the processor that is compiled for.
+/// The number of doubles in a register of the target processor.
 #if defined(__AVX512F__)
 inline constexpr int lanes_of_a_register = 8;
 #elif defined(__AVX__)
@@ -20,40 +20,15 @@ inline constexpr int lanes_of_a_register = 4;
 inline constexpr int lanes_of_a_register = 2;
 #endif
 
-/// The sine and the cosine of something.
+/// The sine and the cosine of an angle.
 template <class S>
 struct SineAndCosine {
   S sine;
   S cosine;
 };
 
-/// The result of a comparison of packs: a truth value for each lane.
-template <int Lanes>
-struct PackMask {
-  detail::Integers<Lanes> truths;  ///< all bits of a lane are 1 for true, 0 for false
-
-  [[gnu::always_inline]] friend PackMask operator&(const PackMask& a, const PackMask& b) noexcept {
-    return {a.truths & b.truths};
-  }
-  [[gnu::always_inline]] friend PackMask operator|(const PackMask& a, const PackMask& b) noexcept {
-    return {a.truths | b.truths};
-  }
-  [[gnu::always_inline]] friend PackMask operator!(const PackMask& a) noexcept {
-    return {~a.truths};
-  }
-  [[gnu::always_inline]] friend bool any_of(const PackMask& mask) noexcept {
-    bool any = false;
-    for (int lane = 0; lane < Lanes; ++lane) any = any || mask.truths[lane] != 0;
-    return any;
-  }
-  [[gnu::always_inline]] friend bool all_of(const PackMask& mask) noexcept {
-    return !any_of(!mask);
-  }
-};
-
 /// Doubles side by side, which one instruction adds or multiplies: a scalar that makes an algorithm
-/// compute for several robots at once. Comparisons give a PackMask. A double converts to a pack with
-/// the same number in all lanes.
+/// compute for several robots at once. A double converts to a pack with that number in all lanes.
 /// @tparam Lanes  number of doubles: 2, or 4 or 8 if they fit into a register
 template <int Lanes = lanes_of_a_register>
   requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_register)
@@ -61,7 +36,7 @@ class Pack {
  public:
   static constexpr int lanes = Lanes;
 
-  Pack() = default;  ///< not initialised, as a double
+  Pack() = default;  ///< uninitialised, like a double
   /// The same number in all lanes.
   [[gnu::always_inline]] Pack(double x) noexcept : reals_(x - Reals{}) {}  // NOLINT: implicit
 
@@ -98,32 +73,34 @@ class Pack {
   [[gnu::always_inline]] Pack& operator-=(const Pack& b) noexcept { return *this = *this - b; }
   [[gnu::always_inline]] Pack& operator*=(const Pack& b) noexcept { return *this = *this * b; }
 
-  [[gnu::always_inline]] friend PackMask<Lanes> operator<(const Pack& a, const Pack& b) noexcept {
-    return {a.reals_ < b.reals_};
+  // Comparisons give a vector of integers: in each lane -1 for true, 0 for false.
+  [[gnu::always_inline]] friend auto operator<(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ < b.reals_;
   }
-  [[gnu::always_inline]] friend PackMask<Lanes> operator<=(const Pack& a, const Pack& b) noexcept {
-    return {a.reals_ <= b.reals_};
+  [[gnu::always_inline]] friend auto operator<=(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ <= b.reals_;
   }
-  [[gnu::always_inline]] friend PackMask<Lanes> operator>(const Pack& a, const Pack& b) noexcept {
-    return b < a;
+  [[gnu::always_inline]] friend auto operator>(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ > b.reals_;
   }
-  [[gnu::always_inline]] friend PackMask<Lanes> operator>=(const Pack& a, const Pack& b) noexcept {
-    return b <= a;
+  [[gnu::always_inline]] friend auto operator>=(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ >= b.reals_;
   }
-  [[gnu::always_inline]] friend PackMask<Lanes> operator==(const Pack& a, const Pack& b) noexcept {
-    return {a.reals_ == b.reals_};
+  [[gnu::always_inline]] friend auto operator==(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ == b.reals_;
   }
-  [[gnu::always_inline]] friend PackMask<Lanes> operator!=(const Pack& a, const Pack& b) noexcept {
-    return !(a == b);
+  [[gnu::always_inline]] friend auto operator!=(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ != b.reals_;
   }
   /// `chosen` in lanes where the mask is true, else `other`.
-  [[gnu::always_inline]] friend Pack select(const PackMask<Lanes>& mask, const Pack& chosen,
+  template <class Mask>
+  [[gnu::always_inline]] friend Pack select(const Mask& mask, const Pack& chosen,
                                             const Pack& other) noexcept {
-    return made_of(mask.truths ? chosen.reals_ : other.reals_);
+    return made_of(mask ? chosen.reals_ : other.reals_);
   }
-  [[gnu::always_inline]] friend Pack abs(const Pack& a) noexcept { return select(a < 0.0, -a, a); }
-  [[gnu::always_inline]] friend PackMask<Lanes> is_finite(const Pack& a) noexcept {
-    return a - a == 0.0;  // of infinities and NaN the difference is NaN
+  [[gnu::always_inline]] friend Pack abs(const Pack& a) noexcept { return select(a < 0, -a, a); }
+  [[gnu::always_inline]] friend auto is_finite(const Pack& a) noexcept {
+    return a - a == 0;  // of infinities and NaN the difference is NaN
   }
 
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) noexcept {
@@ -140,8 +117,8 @@ class Pack {
   }
 
   /// Sines and cosines of K packs of angles [rad], within three units in the last place; NaN for
-  /// angles that are not finite. If one is large all are left to <cmath>: to ask once costs less
-  /// than K times.
+  /// angles that are not finite. If any angle is large, <cmath> computes all: one check costs less
+  /// than K checks.
   template <std::size_t K>
   [[gnu::always_inline]] friend void sincos(const std::array<Pack, K>& angle,
                                             std::array<Pack, K>& sine,
@@ -153,7 +130,7 @@ class Pack {
     if (sum <= detail::largest_reduced_square) [[likely]] {
       sincos_of_small<0>(angle, sine, cosine);
     } else {
-      // With arrays of its own: those that a call gets the addresses of would go through memory.
+      // Arrays of its own: arrays whose addresses are passed to a call would go through memory.
       std::array<Pack, K> s, c;
       sincos_of_large(std::array<Pack, K>(angle), s, c);
       sine = s;
@@ -169,7 +146,8 @@ class Pack {
     pack.reals_ = reals;
     return pack;
   }
-  /// Of the angles from one on, three packs at a time: more do not fit into the registers.
+  /// Sines and cosines of the angles from Begin on, three packs at a time: more do not fit into the
+  /// registers.
   template <std::size_t Begin, std::size_t K>
   [[gnu::always_inline]] static void sincos_of_small(const std::array<Pack, K>& angle,
                                                      std::array<Pack, K>& sine,
