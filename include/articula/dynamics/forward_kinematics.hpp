@@ -91,7 +91,7 @@ template <Robot R>
                                                    LinkIndex link) noexcept {
   const auto& model = model_of(robot);
   const LinkFrame& frame = model.links[link.value];
-  if (detail::takes_all_bodies<R>(frame)) {
+  if (detail::all_bodies_are_faster<R>(frame)) {
     const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
     return detail::to_isometry(bodies[frame.body] * frame.placement);
   }

@@ -106,7 +106,7 @@ template <Robot R>
   const auto& model = model_of(robot);
   const LinkFrame& frame = model.links[link.value];
   LinkJacobian<joint_count<R>> jacobian = LinkJacobian<joint_count<R>>::Zero();
-  if (detail::takes_all_bodies<R>(frame)) {
+  if (detail::all_bodies_are_faster<R>(frame)) {
     detail::fill_jacobian(model.mechanism, frame, detail::evaluate<BodyPlacements>(robot, q),
                           jacobian.data());
     return jacobian;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The way from Eigen vectors to an algorithm's text and back.
+/// @file Execution of algorithms on Eigen's vectors, for described robots and for models.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"
@@ -56,8 +56,7 @@ template <int N>
   return matrix;
 }
 
-/// Whether an algorithm has an `Alternative` that can pay for models of this size. The model itself
-/// says whether it does.
+/// Whether an algorithm has an `Alternative` that can be faster for models of this size.
 template <class Algorithm, int N, int B>
 inline constexpr bool has_alternative_for_numbers = [] {
   if constexpr (requires { Algorithm::Alternative::smallest_model; }) {
@@ -67,11 +66,11 @@ inline constexpr bool has_alternative_for_numbers = [] {
   }
 }();
 
-/// Runs an algorithm on a robot at positions q: the one place that knows how. For a described robot
-/// that is the program which the compiler made of `Algorithm::evaluate`; for a model the function
-/// itself is called with the mechanism, the configuration at q and the other inputs as arrays, or
-/// that of the algorithm's alternative where it takes less time.
-/// @param inputs  input[i] is a number, or a pack of those of several robots
+/// Runs an algorithm on a robot at positions q. A described robot runs the program which the
+/// compiler has made of `Algorithm::evaluate`. A model runs this function itself, with the
+/// mechanism, the configuration at q and the other inputs as arrays, or that of the algorithm's
+/// alternative where it is faster.
+/// @param inputs  input[i] is a number, or a pack with the numbers of several robots
 template <class Algorithm, Robot R, class Input, class... Inputs>
 [[nodiscard, gnu::always_inline]] inline auto evaluate_numbers(const R& robot, const Input& q,
                                                                const Inputs&... inputs) noexcept {
@@ -117,8 +116,8 @@ struct Columns {
 };
 
 /// The same for several robots at once. Of the columns of JointVectors it takes as many at a time
-/// as fit into a register. If K is no multiple of that, the last group ends at column K and overlaps
-/// the one before.
+/// as fit into a register. If K is no multiple of that, the last group ends at column K and
+/// overlaps the one before.
 template <class Algorithm, Robot R, JointVectorPack<R> Q, std::same_as<Q>... Inputs>
 [[nodiscard]] Q evaluate_pack(const R& robot, const Q& q, const Inputs&... inputs) noexcept {
   constexpr int n = joint_count<R>, K = Q::ColsAtCompileTime;
