@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Forward kinematics: where the links stand.
+/// @file Forward kinematics: the placements of links.
 #pragma once
 
 #include "articula/dynamics/engine/body_placements.hpp"
@@ -13,7 +13,7 @@
 
 namespace articula {
 
-/// A link of a robot, found by name once and used in the loop.
+/// The index of a robot's link: found by name once, used in the loop.
 struct LinkIndex {
   std::size_t value = 0;
 };
@@ -41,7 +41,7 @@ template <Robot R>
 
 namespace detail {
 
-/// A link's frame in the base frame: the steps on its way, and its rotation.
+/// A link's frame in the base frame: the sum of the steps of its chain, and its rotation.
 template <class S, int B>
 [[nodiscard]] constexpr Placement<S> placement_at_end(const LinkPath<B>& path,
                                                       LinkChain<S, B>& chain) noexcept {
@@ -60,8 +60,8 @@ template <class S, int B>
 
 }  // namespace detail
 
-/// The algorithm behind forward kinematics of a link named at compile time: where its frame stands
-/// in the base frame, along the joints that move it.
+/// The algorithm of forward kinematics for a link named at compile time, along the joints that move
+/// it.
 /// @tparam Link  the name, as in `PlacementOf<"tool0">`
 template <Name Link>
 struct PlacementOf {
@@ -79,7 +79,7 @@ struct PlacementOf {
   }
 };
 
-/// Where a link's frame stands in the frame of the robot's root link: X_0L(q).
+/// The placement of a link's frame in the frame of the robot's root link: X_0L(q).
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @param link   the link, from link_index of the same robot
@@ -101,10 +101,10 @@ template <Robot R>
   return detail::to_isometry(detail::placement_at_end(path, chain));
 }
 
-/// The same for a link named at compile time, `forward_kinematics<"tool0">(Ur10(), q)`: as fast as
-/// it can be, since the joints that move the link are known. A name that the robot does not have
-/// does not compile.
-/// Real-time: yes. operations<PlacementOf<"tool0">, Ur10>() says how much it takes.
+/// The same for a link named at compile time, `forward_kinematics<"tool0">(Ur10(), q)`. This is the
+/// fastest way, because the compiler knows the joints that move the link. A name that the robot
+/// does not have does not compile. Real-time: yes. The number of operations is
+/// operations<PlacementOf<"tool0">, Ur10>().
 template <Name Link, DescribedRobot R>
 [[nodiscard]] Eigen::Isometry3d forward_kinematics(const R&,
                                                    const JointVector<joint_count<R>>& q) noexcept {
@@ -116,7 +116,7 @@ template <Name Link, DescribedRobot R>
   }
 }
 
-/// The same for a link given by name.
+/// The same for a link by its name.
 /// @throws std::invalid_argument if the robot has no such link
 /// Real-time: no (throws, searches by name).
 template <Robot R>

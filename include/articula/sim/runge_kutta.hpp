@@ -25,7 +25,7 @@ struct Motion {
 /// @param acceleration  callable with (q, v) -> JointVector<N, S> [rad/s^2 or m/s^2]
 /// @return              motion at the end of the step
 /// Real-time: yes if `acceleration` is, which is called four times.
-template <int N, class S, class Acceleration>
+template <int N, class S = double, class Acceleration>
 [[nodiscard]] Motion<N, S> runge_kutta_step(const Motion<N, S>& start, double step,
                                             const Acceleration& acceleration) noexcept {
   using Vector = JointVector<N, S>;
