@@ -43,10 +43,9 @@ namespace detail {
 
 /// A link's frame in the base frame: the sum of the steps of its chain, and its rotation.
 template <class S, int B>
-[[nodiscard]] constexpr Placement<S> placement_at_end(const LinkPath<B>& path,
-                                                      LinkChain<S, B>& chain) noexcept {
+[[nodiscard]] constexpr Placement<S> placement_at_end(LinkChain<S, B>& chain) noexcept {
   Vector3<S> translation = chain.last_step;
-  for (int k = path.count; k-- > 0;) translation = chain.steps[k] + translation;
+  for (int k = chain.path.count; k-- > 0;) translation = chain.steps[k] + translation;
   return {chain.rotation, translation};
 }
 
@@ -73,9 +72,8 @@ struct PlacementOf {
       const AnyModel& model, const JointArray<S, AnyModel::joint_count>& q) {
     constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
     const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
-    const detail::LinkPath<b> path(model.mechanism, frame);
-    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, path, frame, q);
-    return detail::placement_at_end(path, chain);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, frame, q);
+    return detail::placement_at_end(chain);
   }
 };
 
@@ -95,10 +93,8 @@ template <Robot R>
     const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
     return detail::to_isometry(bodies[frame.body] * frame.placement);
   }
-  const detail::LinkPath path(model.mechanism, frame);
-  auto chain =
-      detail::link_chain<Frames::moving>(model.mechanism, path, frame, detail::to_array(q));
-  return detail::to_isometry(detail::placement_at_end(path, chain));
+  auto chain = detail::link_chain<Frames::moving>(model.mechanism, frame, detail::to_array(q));
+  return detail::to_isometry(detail::placement_at_end(chain));
 }
 
 /// The same for a link named at compile time, `forward_kinematics<"tool0">(Ur10(), q)`. This is the

@@ -42,11 +42,11 @@ template <class S, int N, int B>
 /// A link's Jacobian from its chain.
 /// @param[in,out] jacobian  6 x N, column by column, filled with zeros
 template <class S, int N, int B>
-constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkPath<B>& path,
-                             LinkChain<S, B>& chain, S* jacobian) noexcept {
+constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, LinkChain<S, B>& chain,
+                             S* jacobian) noexcept {
   Vector3<S> lever = chain.last_step;
-  for (int k = path.count; k-- > 0;) {
-    add_column<S, N, B>(mechanism, path.bodies[k], chain.axes[k], lever, jacobian);
+  for (int k = chain.path.count; k-- > 0;) {
+    add_column<S, N, B>(mechanism, chain.path.bodies[k], chain.axes[k], lever, jacobian);
     lever = chain.steps[k] + lever;
   }
 }
@@ -78,11 +78,10 @@ struct JacobianOf {
                                                const JointArray<S, AnyModel::joint_count>& q) {
     constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
     const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
-    const detail::LinkPath<b> path(model.mechanism, frame);
-    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, path, frame, q);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, frame, q);
     JointArray<S, 6 * n> jacobian;
     jacobian.fill(S(0.0));
-    detail::fill_jacobian<S, n, b>(model.mechanism, path, chain, jacobian.data());
+    detail::fill_jacobian<S, n, b>(model.mechanism, chain, jacobian.data());
     return jacobian;
   }
 };
@@ -110,10 +109,8 @@ template <Robot R>
                           jacobian.data());
     return jacobian;
   }
-  const detail::LinkPath path(model.mechanism, frame);
-  auto chain =
-      detail::link_chain<Frames::moving>(model.mechanism, path, frame, detail::to_array(q));
-  detail::fill_jacobian(model.mechanism, path, chain, jacobian.data());
+  auto chain = detail::link_chain<Frames::moving>(model.mechanism, frame, detail::to_array(q));
+  detail::fill_jacobian(model.mechanism, chain, jacobian.data());
   return jacobian;
 }
 

@@ -12,7 +12,6 @@
 #include <concepts>
 #include <limits>
 #include <optional>
-#include <type_traits>
 
 namespace articula {
 
@@ -44,7 +43,6 @@ class JointDynamics {
   /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step. One
   /// such step, and some ten more for each event, at most some fifty.
   template <class Drives>
-    requires std::is_invocable_r_v<Vector, const Drives&, const Vector&, const Vector&>
   [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion, const Drives& effort,
                                             double step) const noexcept {
     double rest = step;
@@ -55,14 +53,14 @@ class JointDynamics {
       const double excess_at_end = excess(phase, next);
       if (!(excess_at_end > 0)) return next;
 
-      rest -=
-          locate_crossing({0, excess(phase, motion)}, {rest, excess_at_end},
-                          std::numeric_limits<double>::epsilon() * step, [&](double time) noexcept {
-                            const auto there = smooth_step(phase, motion, effort, time);
-                            const double past = excess(phase, there);
-                            if (past > 0) next = there;
-                            return past;
-                          });
+      const auto excess_after = [&](double time) noexcept {
+        const auto there = smooth_step(phase, motion, effort, time);
+        const double past = excess(phase, there);
+        if (past > 0) next = there;
+        return past;
+      };
+      rest -= locate_crossing({0, excess(phase, motion)}, {rest, excess_at_end},
+                              std::numeric_limits<double>::epsilon() * step, excess_after);
       motion = settle(phase, next);
     }
     if (rest > 0) {  // impacts between joints at stops follow each other at ever shorter times
@@ -73,13 +71,10 @@ class JointDynamics {
     return motion;
   }
 
-  /// The motion of several robots after one smooth step, without events.
+  /// The motion of several robots after one step without events.
   /// @tparam Pack   a scalar with the numbers of several robots
-  /// @param motion  as above
-  /// @param effort  callable with (q, v) -> efforts of the drives [N m or N], N x 1
-  /// @param step    [s]
-  /// @return        nothing if any robot has an event in this step: then the motions of the robots
-  ///                part ways, and each is to be advanced alone
+  /// @param motion, effort, step  as above
+  /// @return        nothing if a robot has an event in this step: then advance each robot alone
   /// Real-time: yes if `effort` is. One Runge-Kutta step.
   template <PackedScalar Pack, class Drives>
   [[nodiscard]] std::optional<Motion<joint_count, Pack>> advance_smoothly(
@@ -107,30 +102,30 @@ class JointDynamics {
   /// What is constant between two events.
   template <class S = double>
   struct Phase {
-    bool any_held = false;  ///< some joint is held still
-    JointArray<bool, joint_count> held{};
+    bool any_held = false;              ///< some joint is held still
+    EffortBounds<joint_count> holding;  ///< infinite for joints that are held, else 0
     /// Friction efforts of the joints that slide [N m or N], N x 1
     JointVector<joint_count, S> sliding = JointVector<joint_count, S>::Zero();
   };
 
-  [[nodiscard]] bool at_lower(const Motion<joint_count>& m, int j) const noexcept {
-    return m.position[j] <= lower_[j];
+  /// Whether a joint is at its stop, of any robot.
+  template <class S>
+  [[nodiscard]] bool at_lower(const Motion<joint_count, S>& m, int j) const noexcept {
+    return any_of(m.position[j] <= lower_[j]);
   }
-  [[nodiscard]] bool at_upper(const Motion<joint_count>& m, int j) const noexcept {
-    return m.position[j] >= upper_[j];
+  template <class S>
+  [[nodiscard]] bool at_upper(const Motion<joint_count, S>& m, int j) const noexcept {
+    return any_of(m.position[j] >= upper_[j]);
   }
-  /// Whether any joint of any robot is at a stop.
   template <class S>
   [[nodiscard]] bool any_at_stop(const Motion<joint_count, S>& m) const noexcept {
     bool any = false;
-    for (int j = 0; j < joint_count; ++j) {
-      any = any || any_of(m.position[j] <= lower_[j]) || any_of(m.position[j] >= upper_[j]);
-    }
+    for (int j = 0; j < joint_count; ++j) any = any || at_lower(m, j) || at_upper(m, j);
     return any;
   }
 
-  /// The velocity after all joints that run into their stops have hit them. Without rebound, all
-  /// joints that are at a stop come to rest, which takes more energy.
+  /// The motion after impacts at the stops. Without rebound, all joints at a stop come to rest, which
+  /// takes more energy.
   [[nodiscard]] Motion<joint_count> after_impact(Motion<joint_count> motion,
                                                  Rebound rebound) const noexcept {
     EffortBounds<joint_count> impulse;
@@ -144,9 +139,8 @@ class JointDynamics {
     }
     if (hits) {
       const JointMatrix<joint_count> m = mass_matrix(robot_, motion.position);
-      motion.velocity = hold_within_bounds<joint_count>(
-                            parents_, m, product<joint_count>(m, motion.velocity), impulse)
-                            .motion;
+      const Vector momentum = product<joint_count>(m, motion.velocity);
+      motion.velocity = hold_within_bounds<joint_count>(parents_, m, momentum, impulse).motion;
     }
     return motion;
   }
@@ -169,11 +163,13 @@ class JointDynamics {
     }
     if (!may_hold) return phase;
     const auto answer = held_within(bounds, phase, motion.position, motion.velocity, effort);
-    phase.held = answer.held;
     for (int j = 0; j < joint_count; ++j) {
-      phase.any_held = phase.any_held || phase.held[j];
-      const bool breaks_away = !phase.held[j] && bounds.lower[j] < bounds.upper[j];
-      if (breaks_away) phase.sliding[j] = answer.effort[j];
+      if (answer.held[j]) {
+        phase.any_held = true;
+        phase.holding.lower[j] = -(phase.holding.upper[j] = JointLimits::infinity);
+      } else if (bounds.lower[j] < bounds.upper[j]) {
+        phase.sliding[j] = answer.effort[j];  // breaks away
+      }
     }
     return phase;
   }
@@ -186,14 +182,8 @@ class JointDynamics {
                                                    double step) const noexcept {
     if constexpr (std::same_as<S, double>) {
       if (phase.any_held) {
-        EffortBounds<joint_count> bounds;
-        for (int j = 0; j < joint_count; ++j) {
-          if (!phase.held[j]) continue;
-          bounds.lower[j] = -JointLimits::infinity;
-          bounds.upper[j] = JointLimits::infinity;
-        }
         return runge_kutta_step(motion, step, [&](const auto& q, const auto& v) noexcept {
-          return held_within(bounds, phase, q, v, effort).motion;
+          return held_within(phase.holding, phase, q, v, effort).motion;
         });
       }
     }
@@ -211,9 +201,8 @@ class JointDynamics {
         [&](int j) noexcept { return drives[j] + phase.sliding[j] - damping_[j] * v[j]; });
   }
 
-  /// The accelerations where friction and stops hold joints still as far as they can. The load on
-  /// the joints is M times the acceleration without them. The nonlinear effects would take fewer
-  /// operations, but one more program to compile for every simulator.
+  /// The accelerations with joints held still as far as bounds allow. The load on the joints is M
+  /// times the acceleration without bounds, for which no further program has to be compiled.
   template <class Drives>
   [[nodiscard]] BoundedEffort<joint_count> held_within(const EffortBounds<joint_count>& bounds,
                                                        const Phase<>& phase, const Vector& q,
@@ -232,7 +221,7 @@ class JointDynamics {
     S most = -JointLimits::infinity;
     const auto include = [&most](const S& x) noexcept { most = select(most < x, x, most); };
     for (int j = 0; j < joint_count; ++j) {
-      if (phase.held[j]) continue;
+      if (phase.holding.upper[j] > 0) continue;
       include(lower_[j] - later.position[j]);
       include(later.position[j] - upper_[j]);
       if (friction_[j] != 0) include(later.velocity[j] * phase.sliding[j]);

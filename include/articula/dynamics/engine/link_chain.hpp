@@ -35,10 +35,11 @@ struct LinkPath {
 /// @tparam B  number of bodies of the robot
 template <class S, int B>
 struct LinkChain {
-  UnsetArray<Vector3<S>, B> axes;   ///< z of each body on the path
-  UnsetArray<Vector3<S>, B> steps;  ///< to each body's origin from that of its predecessor
-  Vector3<S> last_step{};           ///< from the last body's origin to the link's
-  Matrix3<S> rotation{};            ///< of the link's frame
+  LinkPath<B> path;                   ///< bodies between the base and the link
+  UnsetArray<Vector3<S>, B> axes{};   ///< z of each body on the path
+  UnsetArray<Vector3<S>, B> steps{};  ///< to each body's origin from that of its predecessor
+  Vector3<S> last_step{};             ///< from the last body's origin to the link's
+  Matrix3<S> rotation{};              ///< of the link's frame
 };
 
 /// True if a body's axis is parallel to that of the body that carries it.
@@ -83,16 +84,16 @@ template <Frames frames, class S, int N, int B>
 /// unroll the loops of small robots.)
 /// @tparam frames    resting frames add the angles of consecutive parallel axes
 /// @param mechanism  the robot's bodies, to which link frames refer
-/// @param path       the bodies that move the link
 /// @param link       the link
 /// @param q          joint positions [rad or m]
 template <Frames frames, class S, int N, int B>
 [[nodiscard]] constexpr LinkChain<S, B> link_chain(const Mechanism<N, B>& mechanism,
-                                                   const LinkPath<B>& path, const LinkFrame& link,
+                                                   const LinkFrame& link,
                                                    const JointArray<S, N>& q) noexcept {
   const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
+  LinkChain<S, B> chain{.path = LinkPath<B>(mechanism, link)};
+  const LinkPath<B>& path = chain.path;
   const JointArray<AxialTurn<S>, B> turns = turns_along<frames, S, N, B>(mechanism, path, position);
-  LinkChain<S, B> chain;
   Matrix3<S> rotation = constant<S>(Matrix3<double>::identity());
   AxialTurn<S> turn{S(0.0), S(1.0)};  // of the predecessor, after `rotation`
   bool has_turn = false;
