@@ -229,8 +229,7 @@ class JointDynamics {
     return most;
   }
 
-  /// Puts joints that have just passed their stop onto it, and brings those that friction has
-  /// stopped to rest.
+  /// Puts joints beyond their stop onto it, and joints that friction has turned back to rest.
   [[nodiscard]] Motion<joint_count> settle(const Phase<>& phase,
                                            Motion<joint_count> motion) const noexcept {
     for (int j = 0; j < joint_count; ++j) {
