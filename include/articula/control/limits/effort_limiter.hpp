@@ -26,7 +26,7 @@ struct EffortLimitState {
 
 /// The result of a step within effort limits.
 template <int N>
-struct LimitedEffort {
+struct EffortStep {
   EffortLimitState<N> next{};  ///< `next.effort` is the command
   LimitReport<N> report{};     ///< the limits that changed the request
 };
@@ -88,11 +88,11 @@ class EffortLimiter {
   /// @param stiffness, damping  K and D of springs and dampers in the drives, which change the
   ///                effort within the cycle [N m/rad or N/m; N m s/rad or N s/m], N x 1
   /// Real-time: yes. O(N^3), O(N^4) at most where many joints meet their limits.
-  [[nodiscard]] LimitedEffort<joint_count> limit(
+  [[nodiscard]] EffortStep<joint_count> limit(
       const State& last, const JointState<joint_count>& state, const Vector& asked, double period,
       const Vector& stiffness = Vector::Zero(),
       const Vector& damping = Vector::Zero()) const noexcept {
-    LimitedEffort<joint_count> result;
+    EffortStep<joint_count> result;
     LimitReport<joint_count>& report = result.report;
     if (!is_finite(state)) {
       for (JointLimitReport& joint : report) joint.non_finite = true;
@@ -129,7 +129,7 @@ class EffortLimiter {
     if (brake) effort.setZero();
     Vector acceleration = Vector::Zero();
     for (int j = 0; brake && j < joint_count; ++j) {
-      const LimitedMotion step =
+      const MotionStep step =
           limit_motion(motions[j], not_a_number, joint_limits_[j], period, {}, report[j]);
       report[j] = step.report;
       acceleration[j] = step.next.motion().acceleration;
@@ -190,11 +190,11 @@ class EffortLimiter {
                                 LimitReport<joint_count>& report) const noexcept {
     int worst = -1;
     double most = 0;
-    LimitedMotion instead;
+    MotionStep instead;
     for (int j = 0; j < joint_count; ++j) {
       if (decided[j] != 0) continue;
       const double velocity = motions[j].motion().velocity + acceleration[j] * period;
-      const LimitedMotion step =
+      const MotionStep step =
           limit_motion(motions[j], velocity, joint_limits_[j], period, {}, report[j]);
       if (step.granted) continue;
       const double change = acceleration[j] - step.next.motion().acceleration;

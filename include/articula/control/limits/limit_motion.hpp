@@ -38,7 +38,7 @@ struct CommandSlack {
 };
 
 /// The result of a step within limits.
-struct LimitedMotion {
+struct MotionStep {
   StoppingMotion next{};      ///< the motion in the coming cycle, with the stop that follows it
   JointLimitReport report{};  ///< the limits that changed the request
   bool granted = false;       ///< the request passed unchanged
@@ -104,7 +104,7 @@ inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
 /// limits. The caller holds it and passes it on:
 ///
 ///     StoppingMotion state({.position = q}, limits.deceleration, limits.jerk, dt);
-///     const LimitedMotion step = limit_motion(state, request, limits, dt);
+///     const MotionStep step = limit_motion(state, request, limits, dt);
 ///     send(step.next.motion().velocity);
 ///     state = step.next;
 ///
@@ -123,10 +123,10 @@ inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
 /// @param slack     rounding that does not count as beyond a limit
 /// @param report    limits that changed the request before; this step adds its own
 /// Real-time: yes. At most 61 stops are computed.
-[[nodiscard]] inline LimitedMotion limit_motion(StoppingMotion now, double velocity,
-                                                const JointCommandLimits& limits, double period,
-                                                const CommandSlack& slack = {},
-                                                JointLimitReport report = {}) noexcept {
+[[nodiscard]] inline MotionStep limit_motion(StoppingMotion now, double velocity,
+                                             const JointCommandLimits& limits, double period,
+                                             const CommandSlack& slack = {},
+                                             JointLimitReport report = {}) noexcept {
   detail::set_period(now, limits, period);
   StoppingMotion braking = now;
   braking.advance();
@@ -192,9 +192,9 @@ inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
 /// @param limits    of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// Real-time: yes. At most 61 stops are computed.
-[[nodiscard]] inline LimitedMotion limit_velocity(StoppingMotion now, double position,
-                                                  double velocity, const JointCommandLimits& limits,
-                                                  double period) noexcept {
+[[nodiscard]] inline MotionStep limit_velocity(StoppingMotion now, double position, double velocity,
+                                               const JointCommandLimits& limits,
+                                               double period) noexcept {
   detail::set_period(now, limits, period);
   if (is_finite(position)) {
     now.move_to(position);

@@ -17,7 +17,7 @@ struct PositionLimitState {
 };
 
 /// The result of a step within position limits.
-struct LimitedPosition {
+struct PositionStep {
   PositionLimitState next{};  ///< `next.stop.motion().position` is the command
   JointLimitReport report{};  ///< the limits that changed the request
 };
@@ -111,13 +111,13 @@ namespace detail {
 /// @param limits    of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// Real-time: yes. At most 95 stops are computed.
-[[nodiscard]] inline LimitedPosition limit_position(PositionLimitState state, double position,
-                                                    const JointCommandLimits& limits,
-                                                    double period) noexcept {
+[[nodiscard]] inline PositionStep limit_position(PositionLimitState state, double position,
+                                                 const JointCommandLimits& limits,
+                                                 double period) noexcept {
   detail::set_period(state.stop, limits, period);
   const double from = state.stop.motion().position;
   const double lowest = std::min(limits.lower, from), highest = std::max(limits.upper, from);
-  LimitedMotion step;
+  MotionStep step;
   double command = 0;
   if (!is_finite(position)) {
     state.requests = 0;

@@ -259,7 +259,7 @@ class Limited {
     const bool brake = !is_finite(asked);
     Vector given;
     for (int j = 0; j < joint_count; ++j) {
-      const LimitedPosition step = articula::limit_position(
+      const PositionStep step = articula::limit_position(
           limit_state_[j], brake ? not_a_number : asked[j], limits_.of_joint(j), period_);
       limit_state_[j] = step.next;
       report_[j] = step.report;
@@ -273,7 +273,7 @@ class Limited {
     const bool brake = !is_finite(asked) || !is_finite(state.position);
     Vector given;
     for (int j = 0; j < joint_count; ++j) {
-      const LimitedMotion step =
+      const MotionStep step =
           articula::limit_velocity(limit_state_[j], state.position[j],
                                    brake ? not_a_number : asked[j], limits_.of_joint(j), period_);
       limit_state_[j] = step.next;
