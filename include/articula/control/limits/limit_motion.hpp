@@ -74,14 +74,16 @@ inline void use_reserve(StoppingMotion& stop, const JointCommandLimits& limits) 
 }
 
 /// Changes the length of the cycles. The velocity stays. The acceleration is reduced until it can
-/// fade, in steps of the new length, before the velocity limit. So positions and velocities keep
-/// their limits for any sequence of periods. Acceleration and jerk may exceed theirs for some cycles
-/// after the change. At most 21 stops are computed.
+/// fade, in steps of the new length, before the velocity limit. So velocities keep their limits for
+/// any sequence of periods. Acceleration and jerk may exceed theirs for some cycles after the
+/// change, and so may positions, by as much as the stop is longer in cycles of the new length.
+/// limit_position() keeps those. At most 21 stops are computed.
 inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
                        double period) noexcept {
   if (stop.period() == period) return;
   JointMotion motion = stop.motion();
-  const double most = std::max(limits.velocity, std::abs(motion.velocity)) * (1 + 1e-12);
+  const double most =
+      std::max(limits.velocity, std::abs(motion.velocity)) * (1 + 1e-12);  // rounding
   const auto keeps_velocity = [&] {
     stop = stop_from(motion, limits, period);
     return stop.velocities().is_within({-most, most});
