@@ -176,10 +176,10 @@ TEST_CASE("the spline of a goal begins where the joints are asked to be") {
 
 TEST_CASE("a joint that is left out stands still in the points") {
   Trajectory<Q2d> trajectory(points(true, true));
-  CHECK_FALSE(trajectory.leaves_out(1));
+  CHECK_FALSE(trajectory.left_out()[1]);
   trajectory.leave_out(1);
-  CHECK(trajectory.leaves_out(1));
-  CHECK_FALSE(trajectory.leaves_out(0));
+  CHECK(trajectory.left_out()[1]);
+  CHECK_FALSE(trajectory.left_out()[0]);
   for (const Point& point : trajectory.points()) {
     CHECK(point.position[1] == -0.2);
     CHECK((*point.velocity)[1] == 0);

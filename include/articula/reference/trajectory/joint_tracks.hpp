@@ -66,7 +66,7 @@ class JointTracks {
              double time) noexcept {
     const auto points = trajectory.points().subspan(bridge.index);
     for (int j = 0; j < joint_count; ++j) {
-      if (trajectory.leaves_out(j)) {
+      if (trajectory.left_out()[j]) {
         offset_[j] += time - bridge.from.time_from_start;
         continue;
       }
@@ -85,11 +85,9 @@ class JointTracks {
   /// Ends all tracks. Real-time: yes.
   void clear() noexcept { follows_.fill(false); }
 
-  /// Whether a joint follows a track. Real-time: yes.
-  [[nodiscard]] bool follows(int joint) const noexcept { return follows_[joint]; }
   /// Which joints follow a track. Real-time: yes.
   [[nodiscard]] const JointArray<bool, joint_count>& follows() const noexcept { return follows_; }
-  /// Whether any joint does. Real-time: yes. O(N).
+  /// Whether any joint follows a track. Real-time: yes. O(N).
   [[nodiscard]] bool any() const noexcept {
     return std::find(follows_.begin(), follows_.end(), true) != follows_.end();
   }

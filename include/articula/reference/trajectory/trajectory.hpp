@@ -90,7 +90,8 @@ class Trajectory {
   /// @throws std::invalid_argument if the robot has no such joint
   void leave_out(int joint) {
     if (joint < 0 || joint >= joint_count) {
-      detail::refuse({"trajectory: joint ", joint, " is left out, of ", joint_count, " joints"});
+      detail::refuse({"trajectory: joint ", joint,
+                      " cannot be left out; the robot has joints 0 .. ", joint_count - 1});
     }
     left_out_[joint] = true;
     for (std::size_t k = 0; k < size_; ++k) {
@@ -99,8 +100,8 @@ class Trajectory {
       if (points_[k].acceleration) (*points_[k].acceleration)[joint] = 0;
     }
   }
-  /// Whether a joint is left out. Real-time: yes.
-  [[nodiscard]] bool leaves_out(int joint) const noexcept { return left_out_[joint]; }
+  /// Which joints are left out. Real-time: yes.
+  [[nodiscard]] const JointArray<bool, joint_count>& left_out() const noexcept { return left_out_; }
 
   [[nodiscard]] std::span<const Point> points() const noexcept { return {points_.data(), size_}; }
   [[nodiscard]] Interpolation interpolation() const noexcept { return options_.interpolation; }

@@ -8,6 +8,7 @@
 #include "articula/reference/trajectory/joint_tracks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -61,7 +62,7 @@ class TrajectoryMotion {
       return std::abs(value) <= limit * (1 + 1e-9);  // rounding
     };
     for (int j = 0; j < joint_count; ++j) {
-      if (tracks_.follows(j)) continue;
+      if (tracks_.follows()[j]) continue;
       if (!keeps(own.velocity[j], limits_.velocity[j]) ||
           !keeps(own.acceleration[j], limits_.acceleration[j])) {
         return false;
@@ -80,7 +81,7 @@ class TrajectoryMotion {
     Reference from = present();
     // A joint that is left out takes its position from the points, so that it limits no bridge.
     const Reference first{.position = trajectory.points().front().position};
-    copy_joints(first, from, [&](int j) { return trajectory.leaves_out(j); });
+    copy_joints(first, from, trajectory.left_out());
     return find_bridge(from, trajectory, time, limits_, range_, refusal);
   }
 
@@ -116,7 +117,7 @@ class TrajectoryMotion {
     if (tracks_.any()) {
       tracks_.sample(speed_.time(), own_);
       own_.position = own_.position.cwiseMax(lowest).cwiseMin(highest);  // rounding
-      copy_joints(speed_.apply(own_), reference_, [&](int j) { return tracks_.follows(j); });
+      copy_joints(speed_.apply(own_), reference_, tracks_.follows());
     }
     if (rest_.moves()) arrival_ = speed_.time();
   }
@@ -126,7 +127,7 @@ class TrajectoryMotion {
   [[nodiscard]] Reference present() const noexcept {
     Reference own = speed_.unapply(reference_);
     // At a speed of almost 0, the division by its square would leave nothing but rounding.
-    if (speed_.speed() > 0) copy_joints(own_, own, [&](int j) { return tracks_.follows(j); });
+    if (speed_.speed() > 0) copy_joints(own_, own, tracks_.follows());
     return own;
   }
 
@@ -137,7 +138,7 @@ class TrajectoryMotion {
     Position target = rest_.target();
     for (int j = 0; j < joint_count; ++j) {
       if (is_new[j]) target[j] = std::numeric_limits<double>::quiet_NaN();
-      if (tracks_.follows(j)) from.velocity[j] = from.acceleration[j] = 0;
+      if (tracks_.follows()[j]) from.velocity[j] = from.acceleration[j] = 0;
     }
     rest_.begin(from, target);
   }
@@ -147,16 +148,16 @@ class TrajectoryMotion {
     JointArray<bool, joint_count> ended = tracks_.follows();
     Reference last;
     tracks_.end(end, last);
-    for (int j = 0; j < joint_count; ++j) ended[j] = ended[j] && !tracks_.follows(j);
-    copy_joints(speed_.apply(last), resting, [&](int j) { return ended[j]; });
+    for (int j = 0; j < joint_count; ++j) ended[j] = ended[j] && !tracks_.follows()[j];
+    copy_joints(speed_.apply(last), resting, ended);
     begin_rest(resting, ended);
   }
 
-  /// Copies the references of those joints for which a condition holds.
-  template <class Condition>
-  static void copy_joints(const Reference& from, Reference& to, Condition condition) noexcept {
+  /// Copies the references of selected joints.
+  static void copy_joints(const Reference& from, Reference& to,
+                          const JointArray<bool, joint_count>& selected) noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      if (!condition(j)) continue;
+      if (!selected[j]) continue;
       set_motion(to, j, motion_of(from, j));
       to.effort[j] = from.effort[j];
     }
