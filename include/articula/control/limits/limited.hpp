@@ -6,8 +6,7 @@
 #include "articula/control/laws/drive_spring.hpp"
 #include "articula/control/laws/effort_law.hpp"
 #include "articula/control/limits/effort_limiter.hpp"
-#include "articula/control/limits/joint_limiter.hpp"
-#include "articula/control/limits/position_limiter.hpp"
+#include "articula/control/limits/limit_position.hpp"
 #include "articula/control/safety/resume.hpp"
 #include "articula/control/safety/tells_failure.hpp"
 #include "articula/core/joint_command.hpp"
@@ -25,7 +24,7 @@
 namespace articula {
 
 /// A controller whose commands keep limits of position, velocity, acceleration, jerk and effort, so
-/// that every joint can always stop before its position limit (see JointLimiter):
+/// that every joint can always stop before its position limit (see limit_motion):
 ///
 ///     template <class R>
 ///     using CarefulPid = articula::Limited<R, articula::PidPlusGravity>;
@@ -160,13 +159,11 @@ class Limited {
   using Vector = JointVector<joint_count>;
   static constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
   static constexpr bool by_position = std::same_as<Command, PositionCommand<joint_count>>;
-  using OfJoint = std::conditional_t<by_position, PositionLimiter, JointLimiter>;
-  using OfJoints = std::array<OfJoint, static_cast<std::size_t>(joint_count)>;
-  using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, OfJoints>;
-
-  [[nodiscard]] static constexpr std::size_t index(int j) noexcept {
-    return static_cast<std::size_t>(j);
-  }
+  using OfJoint = std::conditional_t<by_position, PositionLimitState, StoppingMotion>;
+  using LimitState = std::conditional_t<by_effort, EffortLimitState<joint_count>,
+                                        JointArray<OfJoint, joint_count>>;
+  struct NoModel {};
+  using Limiter = std::conditional_t<by_effort, EffortLimiter<R>, NoModel>;
 
   [[nodiscard]] static ControllerType controller_of(const R& robot) {
     if constexpr (std::constructible_from<ControllerType, const R&>) {
@@ -187,9 +184,7 @@ class Limited {
     if constexpr (by_effort) {
       return EffortLimiter<R>(robot, limits);
     } else {
-      OfJoints limiters;
-      for (int j = 0; j < joint_count; ++j) limiters[index(j)] = OfJoint(limits, j);
-      return limiters;
+      return {};
     }
   }
 
@@ -203,7 +198,7 @@ class Limited {
     }
     if (unasked_cycles_ > detail::borne_cycles && is_finite(state)) {
       Vector last;
-      for (int j = 0; j < joint_count; ++j) last[j] = report_[index(j)].given;
+      for (int j = 0; j < joint_count; ++j) last[j] = report_[j].given;
       detail::resume(controller_, state, reference, period, last);
     }
     unasked_cycles_ = 0;
@@ -217,17 +212,14 @@ class Limited {
   void begin_cycle(const State& state, double period) noexcept {
     const bool usable = period > 0 && period < 1e6;  // s; beyond, motions overflow
     const bool begins = !started_ && is_finite(state);
-    const bool changes = started_ && usable && period != period_;
     if (usable) period_ = period;
     if constexpr (by_effort) {
-      if (begins) limiter_.start(state, period_);
-      if (begins && goes_on_) limiter_.given(last_given_);
-      if (changes) limiter_.set_period(period_);
-    } else {
+      if (begins) limit_state_ = {.effort = goes_on_ ? last_given_ : state.effort};
+    } else if (begins) {
       for (int j = 0; j < joint_count; ++j) {
-        OfJoint& limiter = limiter_[index(j)];
-        if (begins) limiter.start({state.position[j], state.velocity[j], 0}, period_);
-        if (changes) limiter.set_period(period_);
+        const JointCommandLimits limits = limits_.of_joint(j);
+        limit_state_[j] = {StoppingMotion({state.position[j], state.velocity[j], 0},
+                                          limits.deceleration, limits.jerk, period_)};
       }
     }
     started_ = started_ || begins;
@@ -237,14 +229,14 @@ class Limited {
     if constexpr (by_effort) {
       goes_on_ = is_finite(command);
       last_given_ = command;
-      if (started_) limiter_.given(command);
+      if (started_ && goes_on_) limit_state_.effort = command;
     }
   }
 
   /// Notes what became of a command, and tells the controller.
   [[nodiscard]] const Vector& told(const Vector& asked, const Vector& given) noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      JointLimitReport& report = report_[index(j)];
+      JointLimitReport& report = report_[j];
       // What only rounding has changed is not worth a report. What is no number always is, and so
       // is a stiffness or damping that has changed, though it may pull nothing at this state.
       if (std::abs(asked[j] - given[j]) <= 1e-12 * (1 + std::abs(given[j]))) {
@@ -267,9 +259,11 @@ class Limited {
     const bool brake = !is_finite(asked);
     Vector given;
     for (int j = 0; j < joint_count; ++j) {
-      JointLimitReport& report = report_[index(j)];
-      given[j] =
-          brake ? limiter_[index(j)].brake(report) : limiter_[index(j)].limit(asked[j], report);
+      const PositionStep step = articula::limit_position(
+          limit_state_[j], brake ? not_a_number : asked[j], limits_.of_joint(j), period_);
+      limit_state_[j] = step.next;
+      report_[j] = step.report;
+      given[j] = step.next.stop.motion().position;
     }
     return given;
   }
@@ -279,16 +273,24 @@ class Limited {
     const bool brake = !is_finite(asked) || !is_finite(state.position);
     Vector given;
     for (int j = 0; j < joint_count; ++j) {
-      JointLimiter& limiter = limiter_[index(j)];
-      if (is_finite(state.position[j])) limiter.measured(state.position[j]);
-      static_cast<void>(limiter.move(brake ? not_a_number : asked[j], report_[index(j)]));
-      given[j] = limiter.motion().velocity;
+      const MotionStep step =
+          articula::limit_velocity(limit_state_[j], state.position[j],
+                                   brake ? not_a_number : asked[j], limits_.of_joint(j), period_);
+      limit_state_[j] = step.next;
+      report_[j] = step.report;
+      given[j] = step.next.motion().velocity;
     }
     return given;
   }
 
-  [[nodiscard]] Vector limit_effort(const State& state, const Vector& asked) noexcept {
-    return started_ ? limiter_.limit(state, asked, report_) : Vector(Vector::Zero());
+  [[nodiscard]] Vector limit_effort(const State& state, const Vector& asked,
+                                    const Vector& stiffness = Vector::Zero(),
+                                    const Vector& damping = Vector::Zero()) noexcept {
+    if (!started_) return Vector::Zero();
+    const auto step = limiter_.limit(limit_state_, state, asked, period_, stiffness, damping);
+    limit_state_ = step.next;
+    report_ = step.report;
+    return step.next.effort;
   }
 
   [[nodiscard]] Command limit_multi_mode(const State& state, const Command& asked) noexcept {
@@ -304,11 +306,9 @@ class Limited {
     given.stiffness = given.stiffness.cwiseMax(0);
     given.damping = given.damping.cwiseMax(0);
     const Vector total = spring_pull(given, state) + asked.effort;
-    const Vector effort =
-        started_ ? limiter_.limit(state, total, report_, given.stiffness, given.damping)
-                 : Vector(Vector::Zero());
+    const Vector effort = limit_effort(state, total, given.stiffness, given.damping);
     for (int j = 0; j < joint_count; ++j) {
-      JointLimitReport& report = report_[index(j)];
+      JointLimitReport& report = report_[j];
       report.position = report.position || given.position[j] != asked.position[j];
       report.velocity = report.velocity || given.velocity[j] != asked.velocity[j];
       report.stiffness = given.stiffness[j] != asked.stiffness[j];
@@ -322,7 +322,8 @@ class Limited {
 
   ControllerType controller_;
   CommandLimits<joint_count> limits_;
-  Limiter limiter_;
+  [[no_unique_address]] Limiter limiter_;
+  LimitState limit_state_{};
   LimitReport<joint_count> report_{};
   double period_ = 1e-3;
   Vector last_given_ = Vector::Zero();  ///< before the first update, if it goes on from there
