@@ -310,7 +310,7 @@ TEST_CASE("a node that restarts is found by its boot-up message, and does not mo
   bench.bus->drives.restart(1);
   bench.cycles(2);
   CHECK(bench.reading == Status::hardware_fault);
-  CHECK(bench.arm.fault().cause == CanCause::drive_let_go);
+  CHECK(bench.arm.fault().cause == CanCause::drive_disabled);
   CHECK(bench.arm.fault().joint == 1);
   bench.cycles(2);
   CHECK(bench.bus->drives.effort() == JointVector<2>(0, 0));
@@ -380,7 +380,7 @@ TEST_CASE("drives without power get no further requests") {
                             answers);
   bench.cycles(100);
   REQUIRE(bench.reading == Status::hardware_fault);
-  REQUIRE(bench.arm.codec().let_go());
+  REQUIRE(bench.arm.codec().all_off());
   bench.bus->to_drives.clear();
   bench.cycles(1000);
   for (const CanFrame& frame : bench.bus->to_drives) {

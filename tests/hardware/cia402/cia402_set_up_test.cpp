@@ -284,7 +284,7 @@ TEST_CASE("a drive that does not follow its target any more has let go") {
     return true;
   };
   CHECK_FALSE(bench.cycles(3, {{3, 3}}));
-  CHECK(bench.arm.fault().cause == CanCause::drive_let_go);
+  CHECK(bench.arm.fault().cause == CanCause::drive_disabled);
   CHECK(bench.arm.fault().joint == 1);
   bench.bus->on_feedback = [](CanFrame&) { return true; };
 }

@@ -223,7 +223,7 @@ class Cia402Codec {
 
   /// The bus did not take all frames of the last output, so it did not take SYNC, the last.
   /// Real-time: yes. O(N).
-  void withdraw() noexcept {
+  void cancel_output() noexcept {
     if (sends_sync) syncs_.withdraw_sync();
     for (Cia402Stop& stop : stops_) stop.withdraw();
     for (Cia402Feedback& feedback : feedbacks_) feedback.withdraw();
@@ -256,7 +256,7 @@ class Cia402Codec {
     return reports_;
   }
   /// Whether all drives have said that they exert nothing. Real-time: yes.
-  [[nodiscard]] bool let_go() const noexcept {
+  [[nodiscard]] bool all_off() const noexcept {
     return std::ranges::none_of(feedbacks_, [](const Cia402Feedback& f) { return f.powered(); });
   }
   /// How far the set-up of one drive is, for messages. Real-time: yes.
@@ -265,10 +265,10 @@ class Cia402Codec {
   }
   [[nodiscard]] const Cia402DriveList<joint_count>& drives() const noexcept { return drives_; }
   /// How many SYNC of another node have been heard. Real-time: yes.
-  [[nodiscard]] std::uint64_t heard_cycles() const noexcept
+  [[nodiscard]] std::uint64_t begun_cycles() const noexcept
     requires(!sends_sync)
   {
-    return heard_cycles_;
+    return begun_cycles_;
   }
 
  private:
@@ -365,7 +365,7 @@ class Cia402Codec {
     if (frame.length > 1) return CanDecoding::malformed;  // 1: with a counter, of no use here
     begin_cycle(true);
     heard_ = true;
-    ++heard_cycles_;
+    ++begun_cycles_;
     return CanDecoding::accepted;
   }
 
@@ -441,7 +441,7 @@ class Cia402Codec {
   std::uint8_t host_node_ = 0;  ///< that the host's heartbeats come from; 0: there are none
   int since_beat_ = 0;          ///< cycles since the last one
   bool heard_ = false;          ///< SYNC has come since the last output
-  std::uint64_t heard_cycles_ = 0;
+  std::uint64_t begun_cycles_ = 0;
 };
 
 }  // namespace articula
