@@ -36,7 +36,7 @@ enum class Mode : std::uint8_t {
   cyclic_synchronous_torque = 10,
 };
 
-/// The mode that follows a kind of command.
+/// The mode for a type of command.
 template <class Command>
 inline constexpr Mode mode_of =
     std::same_as<Command, PositionCommand<Command::joint_count>> ? Mode::cyclic_synchronous_position
@@ -44,7 +44,7 @@ inline constexpr Mode mode_of =
         ? Mode::cyclic_synchronous_velocity
         : Mode::cyclic_synchronous_torque;
 
-/// The object that the commands of a mode go to.
+/// The target object of a mode.
 struct Target {
   canopen::ObjectAddress address{};
   std::uint8_t size = 0;  ///< [bytes]
@@ -67,7 +67,7 @@ enum class State : std::uint8_t {
   fault,
 };
 
-/// The state that a statusword tells; nothing if its bits are none of the profile's.
+/// The state in a statusword; nothing if its bits are no state of the profile.
 /// @param bits  of the statusword
 /// Real-time: yes.
 [[nodiscard]] constexpr std::optional<State> state_of(std::uint16_t bits) noexcept {
@@ -97,19 +97,18 @@ enum class State : std::uint8_t {
   }
 }
 
-/// Whether a statusword tells State::operation_enabled. Real-time: yes.
+/// Whether the state in a statusword is State::operation_enabled. Real-time: yes.
 [[nodiscard]] constexpr bool in_operation(std::uint16_t bits) noexcept {
   return (bits & 0x6f) == 0x27;
 }
 
-/// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
-/// Real-time: yes.
+/// Whether a drive may exert effort in a state: it follows commands, or brakes. Real-time: yes.
 [[nodiscard]] constexpr bool may_exert(State state) noexcept {
   return state == State::operation_enabled || state == State::quick_stop_active ||
          state == State::fault_reaction_active;
 }
 
-/// In the cyclic modes this bit of the statusword says that the drive follows the target
+/// Bit of the statusword: in the cyclic modes the drive follows the target
 /// [CiA 402-2, cyclic synchronous modes]. Some drives never set it.
 inline constexpr std::uint16_t follows_target = 0x1000;
 
@@ -120,9 +119,8 @@ inline constexpr std::uint16_t switch_on = 0x07;
 inline constexpr std::uint16_t enable_operation = 0x0f;
 inline constexpr std::uint16_t fault_reset = 0x80;
 
-/// The controlword that leads from a state towards operation enabled; from a state that the drive
-/// leaves by itself it is the one that asks for nothing.
-/// Real-time: yes.
+/// The controlword for the next transition towards operation enabled; disable_voltage in states that
+/// the drive leaves by itself. Real-time: yes.
 [[nodiscard]] constexpr std::uint16_t towards_operation(State state) noexcept {
   switch (state) {
     case State::switch_on_disabled:
