@@ -276,7 +276,8 @@ TEST_CASE("a node that is no CiA 402 drive, or refuses, is named") {
   Arm arm = make_arm(bus);
   CHECK(arm.activate() == Status::hardware_fault);
   CHECK(arm.fault().cause == CanCause::no_activation);
-  CHECK(arm.codec().set_up_of(1).object() == canopen::ObjectAddress{0x1000, 0});
+  CHECK(arm.fault().joint == 1);
+  CHECK(arm.fault().object == canopen::ObjectAddress{0x1000, 0});
   CHECK_FALSE(bus->drives.enabled(0));
 
   bus->on_feedback = [](CanFrame& frame) {
@@ -287,7 +288,8 @@ TEST_CASE("a node that is no CiA 402 drive, or refuses, is named") {
     return true;
   };
   CHECK(arm.activate() == Status::hardware_fault);
-  CHECK(arm.codec().set_up_of(0).abort_code() == 0x0609'0030);
+  CHECK(arm.fault().joint == 0);
+  CHECK(arm.fault().abort_code == 0x0609'0030);
 }
 
 TEST_CASE("a drive's fault has the code of its emergency message") {

@@ -17,29 +17,34 @@ namespace articula {
 struct Cia402Step {
   enum class Action : unsigned char {
     write,
-    expect,              ///< checks that 16 bits are within `value` .. `highest`
-    skip_if_zero,        ///< skips `value` steps if the object is zero or missing
-    remember,            ///< stores the object's value
-    write_remembered,    ///< writes the last stored value
-    command_node,        ///< network management, which has no answer
-    set_up_pdos,         ///< all requests of Cia402PdoSetUp
-    await_mode,          ///< for 100 ms; skips `value` steps once the drive shows the mode
-    read_state,          ///< reads the statusword
-    advance_state,       ///< writes the next controlword
-    confirm_mode,        ///< repeats read_state until the drive shows the mode
-    disarm,              ///< writes, in the pre-operational state if the drive requires that
+    expect,            ///< checks that 16 bits are within `value` .. `highest`
+    skip_if_zero,      ///< skips `value` steps if the object is zero or missing
+    remember,          ///< stores the object's value
+    write_remembered,  ///< writes the last stored value
+    command_node,      ///< network management, which has no answer
+    set_up_pdos,       ///< all requests of Cia402PdoSetUp
+    await_mode,        ///< for 100 ms; skips `value` steps once the drive shows the mode
+    read_state,        ///< reads the statusword
+    advance_state,     ///< writes the next controlword
+    confirm_mode,      ///< repeats read_state until the drive shows the mode
+    disarm,            ///< writes, in the pre-operational state if the drive requires that
   };
   canopen::ObjectAddress address{};
   Action action = Action::write;
   std::uint32_t value = 0;
-  std::uint8_t size = 0;   ///< [bytes]; 0: the object is read
-  bool optional = false;   ///< the drive may refuse
-  bool impatient = false;  ///< the step ends after 100 ms without an answer
-  std::uint32_t highest = 0;
+  std::uint8_t size = 0;      ///< [bytes]; 0: the object is read
+  bool optional = false;      ///< the drive may refuse
+  bool impatient = false;     ///< the step ends after 100 ms without an answer
+  std::uint32_t highest = 0;  ///< for Action::expect
 
   [[nodiscard]] constexpr canopen::Sdo request() const noexcept {
     return size == 0 ? canopen::read_request(address)
                      : canopen::write_request(address, value, size);
+  }
+  /// Whether an answer shows that the object has the value already.
+  [[nodiscard]] constexpr bool is_met_by(const canopen::Sdo& answer) const noexcept {
+    const std::uint32_t mask = ~std::uint32_t{0} >> (8 * (4 - size));
+    return answer.kind == canopen::SdoKind::upload && (answer.value & mask) == (value & mask);
   }
 };
 

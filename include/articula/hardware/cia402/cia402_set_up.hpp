@@ -94,12 +94,7 @@ class Cia402SetUp {
     if (step_ == end_ || !client_.take(answer)) return;
     const Cia402Step& step = script_[step_];
     if (step.action == Action::set_up_pdos) return take_for_pdos(answer);
-    if (std::exchange(verifies_, false)) {
-      const std::uint32_t mask = ~std::uint32_t{0} >> (8 * (4 - step.size));
-      const bool same =
-          answer.kind == canopen::SdoKind::upload && (answer.value & mask) == (step.value & mask);
-      return same ? void(++step_) : fail();
-    }
+    if (std::exchange(verifies_, false)) return step.is_met_by(answer) ? void(++step_) : fail();
     if (answer.kind == canopen::SdoKind::abort) return take_abort(step, answer);
     const bool shows_mode = (answer.value & 0xff) == static_cast<std::uint32_t>(mode_);
     switch (step.action) {
@@ -122,26 +117,21 @@ class Cia402SetUp {
       case Action::read_state:
         return take_state(static_cast<std::uint16_t>(answer.value & 0xffff));
       case Action::advance_state:
-        step_ = script_.start() + 1;  // reads the state
-        return;
-      case Action::confirm_mode:
+        return void(step_ = script_.start() + 1);  // reads the state
+      case Action::confirm_mode:                   // some drives show the mode only now
         if (shows_mode) break;
-        step_ = script_.start() + 1;  // reads the state: some drives show the mode only now
-        return;
+        return void(step_ = script_.start() + 1);
       default:
         break;
     }
     ++step_;
   }
 
-  /// The layout of the drive's process data, once the set-up is done.
   [[nodiscard]] const cia402::ProcessData& process_data() const noexcept {
     return pdos_.process_data();
   }
-  /// Whether the last step is done, or the set-up has failed.
   [[nodiscard]] bool ended() const noexcept { return failed_ || step_ == end_; }
   [[nodiscard]] bool failed() const noexcept { return failed_; }
-  /// Whether the set-up has failed because the drive lacks its watchdog.
   [[nodiscard]] bool lacks_watchdog() const noexcept { return lacks_watchdog_; }
   /// The code of the node's last refusal of something necessary; 0 without one.
   [[nodiscard]] std::uint32_t abort_code() const noexcept { return abort_code_; }
@@ -166,8 +156,7 @@ class Cia402SetUp {
   void fail() noexcept {
     constexpr std::uint32_t present_device_state = 0x0800'0022;
     if (abort_code_ == present_device_state && !retried_) {
-      // The command to leave operation may have been lost, or is not executed yet.
-      restart();
+      restart();  // the command to leave operation may have been lost, or is not executed yet
       retried_ = true;
       return;
     }
