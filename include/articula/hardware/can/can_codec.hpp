@@ -75,12 +75,16 @@ enum class [[nodiscard]] CanSetUp : unsigned char {
 /// - `decode(frame)` enters a frame into the reports. It accepts any frame.
 /// - `reports()` are the last reports of the drives, in the order of the joints.
 ///
-/// A codec may have two more functions:
+/// A codec may have four more functions:
 ///
 /// - `cancel_output()`: the bus did not take all frames of the last `set_up`, `encode` or
 ///   `encode_stop`. For codecs that count the frames that they expect in return.
 /// - `all_off()`: whether all drives have reported that they exert no effort, where they report that
 ///   by other means than feedback. Without this function, the reports decide.
+/// - `release(elapsed, batch)` appends the frames that switch off watchdogs, which would report a
+///   fault after a clean end. The driver calls it once the drives are disabled, about once a cycle,
+///   with `elapsed` from zero on, until it returns CanSetUp::done.
+/// - `set_up_fault()` is the CanFault that explains why the set-up has not succeeded.
 ///
 /// All functions but `subscription` are noexcept and real-time. Examples: QuanserCodec, Cia402Codec.
 /// @tparam C  the codec
@@ -100,21 +104,6 @@ concept CanCodec =
       } noexcept -> std::convertible_to<
           std::span<const DriveReport, static_cast<std::size_t>(C::joint_count)>>;
     };
-
-/// A codec whose drives have watchdogs that would report a fault after a clean end. Once the drives
-/// are disabled, `release(elapsed, batch)` appends the frames that switch the watchdogs off. The
-/// driver calls it about once a cycle, with `elapsed` from zero on, until it returns CanSetUp::done.
-template <class C>
-concept ReleasingCanCodec =
-    CanCodec<C> && requires(C codec, std::chrono::nanoseconds elapsed, CanBatch& batch) {
-      { codec.release(elapsed, batch) } noexcept -> std::same_as<CanSetUp>;
-    };
-
-/// A codec that names the drive, and what that drive has refused, when the set-up does not succeed.
-template <class C>
-concept ExplainingCanCodec = CanCodec<C> && requires(const C& constant) {
-  { constant.set_up_fault() } noexcept -> std::same_as<CanFault>;
-};
 
 /// A codec for a bus on which a frame of another node begins the cycles, so that the bus can pace a
 /// loop. `begun_cycles()` is the number of cycles begun so far.

@@ -5,6 +5,8 @@
 #include "articula/hardware/can/object_address.hpp"
 #include "articula/text/hexadecimal.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -40,33 +42,20 @@ struct CanFault {
 
 /// The cause in words. Real-time: yes.
 [[nodiscard]] constexpr std::string_view to_string(CanCause cause) noexcept {
-  switch (cause) {
-    case CanCause::none:
-      return "no fault";
-    case CanCause::no_activation:
-      return "the drives could not be enabled";
-    case CanCause::no_watchdog:
-      return "a drive has no watchdog";
-    case CanCause::link_down:
-      return "the CAN interface is down";
-    case CanCause::link_gone:
-      return "the CAN interface is gone";
-    case CanCause::bus_off:
-      return "the CAN controller is bus-off";
-    case CanCause::not_sent:
-      return "the CAN bus does not take frames";
-    case CanCause::no_sync:
-      return "the SYNC of another node is missing";
-    case CanCause::drive_silent:
-      return "a drive's feedback is missing or late";
-    case CanCause::drive_fault:
-      return "a drive reports a fault";
-    case CanCause::drive_disabled:
-      return "a drive has disabled itself";
-    case CanCause::encoder_mismatch:
-      return "two encoders of a joint contradict each other";
-  }
-  return "unknown fault";
+  constexpr std::array<std::string_view, 12> texts{"no fault",
+                                                   "the drives could not be enabled",
+                                                   "a drive has no watchdog",
+                                                   "the CAN interface is down",
+                                                   "the CAN interface is gone",
+                                                   "the CAN controller is bus-off",
+                                                   "the CAN bus does not take frames",
+                                                   "the SYNC of another node is missing",
+                                                   "a drive's feedback is missing or late",
+                                                   "a drive reports a fault",
+                                                   "a drive has disabled itself",
+                                                   "two encoders of a joint contradict each other"};
+  const auto index = static_cast<std::size_t>(cause);
+  return index < texts.size() ? texts[index] : "unknown fault";
 }
 
 /// A fault in words: cause, joint, the drive's code, and at activation the object that the drive has

@@ -5,8 +5,8 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/hardware/can/can_exchange.hpp"
-#include "articula/hardware/can/can_fault_watch.hpp"
 #include "articula/hardware/can/can_set_up.hpp"
+#include "articula/hardware/can/can_fault_search.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
@@ -74,7 +74,7 @@ class CanHardware {
     mode_ = Mode::inactive;
     fault_ = {};
     exchange_.dropped = exchange_.unconfirmed = 0;
-    watch_.restart();
+    search_.restart();
     exchange_.codec.restart();
     if (exchange_.transport.open(exchange_.codec.subscription()) != Status::ok) {
       fault_ = {CanCause::link_gone};
@@ -89,8 +89,8 @@ class CanHardware {
     }
     exchange_.dropped = exchange_.unconfirmed = 0;
     awaited_cycle_ = exchange_.begun_cycles();
-    static_cast<void>(watch_.note_cycles(awaited_cycle_));
-    watch_.restart();
+    static_cast<void>(search_.note_cycles(awaited_cycle_));
+    search_.restart();
     mode_ = Mode::active;
     return Status::ok;
   }
@@ -115,9 +115,9 @@ class CanHardware {
   /// Real-time: yes, but for the bus.
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     exchange_.receive();
-    if (is_paced && !watch_.note_cycles(exchange_.begun_cycles())) ++exchange_.statistics.unpaced;
+    if (is_paced && !search_.note_cycles(exchange_.begun_cycles())) ++exchange_.statistics.unpaced;
     if (mode_ == Mode::active)
-      fail_on(watch_.find(exchange_.transport.link(), reports(), options_));
+      fail_on(search_.find(exchange_.transport.link(), reports(), options_));
     bool stale = false, partial = false;
     int j = 0;
     for (const DriveReport& report : reports()) {
@@ -242,7 +242,7 @@ class CanHardware {
   CanHardwareOptions options_;
   OwnMode mode_{};
   CanFault fault_{};
-  detail::CanFaultWatch watch_{};
+  detail::CanFaultSearch search_{};
   std::uint64_t awaited_cycle_ = 0;  ///< cycles that had begun at the end of the last wait
 };
 

@@ -75,16 +75,10 @@ struct CanStatistics {
 
   /// Counts a frame by the result of decoding. Real-time: yes.
   constexpr void count(CanDecoding decoding) noexcept {
-    switch (decoding) {
-      case CanDecoding::accepted:
-        return void(++accepted);
-      case CanDecoding::outdated:
-        return void(++outdated);
-      case CanDecoding::foreign:
-        return void(++foreign);
-      case CanDecoding::malformed:
-        return void(++malformed);
-    }
+    accepted += decoding == CanDecoding::accepted;
+    outdated += decoding == CanDecoding::outdated;
+    foreign += decoding == CanDecoding::foreign;
+    malformed += decoding == CanDecoding::malformed;
   }
 };
 

@@ -4,7 +4,7 @@
 
 #include "articula/core/status.hpp"
 #include "articula/hardware/can/can_exchange.hpp"
-#include "articula/hardware/can/find_drive_fault.hpp"
+#include "articula/hardware/can/can_fault_search.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -37,7 +37,7 @@ template <class Codec, class Transport>
     if (progress == CanSetUp::done && is_young) return {};
   }
   CanFault fault = find_activation_fault(exchange.codec.reports(), options.stale_after);
-  if constexpr (ExplainingCanCodec<Codec>) fault = exchange.codec.set_up_fault();
+  if constexpr (requires { exchange.codec.set_up_fault(); }) fault = exchange.codec.set_up_fault();
   const bool no_cycle = PacedCanCodec<Codec> && exchange.begun_cycles() == begun_before;
   return no_cycle && fault.abort_code == 0 ? CanFault{CanCause::no_sync} : fault;
 }
@@ -67,7 +67,7 @@ template <class Codec, class Transport>
     exchange.wait_until(exchange.transport.now() + options.set_up_period);
     if (all_off()) status = Status::ok;
   }
-  if constexpr (ReleasingCanCodec<Codec>) {
+  if constexpr (requires(CanBatch& batch) { exchange.codec.release({}, batch); }) {
     constexpr std::chrono::milliseconds patience{250};  // two accesses may be lost
     const auto begin = exchange.transport.now();
     for (auto tick = begin; tick - begin <= patience; tick += options.set_up_period) {

@@ -31,17 +31,9 @@ enum class CanLink : unsigned char {
 
 /// The fault of a link; CanCause::none if it is up. Real-time: yes.
 [[nodiscard]] constexpr CanCause cause_of(CanLink link) noexcept {
-  switch (link) {
-    case CanLink::up:
-      return CanCause::none;
-    case CanLink::down:
-      return CanCause::link_down;
-    case CanLink::bus_off:
-      return CanCause::bus_off;
-    case CanLink::gone:
-      return CanCause::link_gone;
-  }
-  return CanCause::link_gone;
+  if (link == CanLink::up) return CanCause::none;
+  if (link == CanLink::down) return CanCause::link_down;
+  return link == CanLink::bus_off ? CanCause::bus_off : CanCause::link_gone;
 }
 
 /// The result of sending a cycle's frames. Frames that were not taken are dropped, never sent later.
