@@ -7,9 +7,10 @@
 #include "catch.hpp"
 #include "numbers.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 using namespace articula;
+using support::not_a_number;
 
 namespace {
 

@@ -26,6 +26,14 @@ struct CanFrame {
   return frame.identifier < (frame.extended ? 1U << 29 : 1U << 11) && frame.length <= 8;
 }
 
+/// The node number of a frame whose identifier is a base plus a node number of 1 .. `last`; 0 for
+/// another frame. Real-time: yes.
+[[nodiscard]] constexpr std::uint8_t node_after(std::uint32_t base, std::uint8_t last,
+                                                const CanFrame& frame) noexcept {
+  const bool is = !frame.extended && frame.identifier > base && frame.identifier <= base + last;
+  return is ? static_cast<std::uint8_t>(frame.identifier - base) : std::uint8_t{0};
+}
+
 /// The longest length of a frame on the bus [bit], with stuff bits and interframe space:
 /// g + 8 n + 13 + floor((g + 8 n - 1) / 4), where n is `length` and g is 34, or 54 if extended
 /// [Davis et al. 2007, eq. 1]. Divided by the bit rate, it is the longest time on the bus.

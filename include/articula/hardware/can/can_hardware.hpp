@@ -5,8 +5,8 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/hardware/can/can_exchange.hpp"
-#include "articula/hardware/can/can_set_up.hpp"
 #include "articula/hardware/can/can_fault_search.hpp"
+#include "articula/hardware/can/can_set_up.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>

@@ -80,23 +80,19 @@ struct Emergency {
 
 namespace detail {
 
-/// The node number in a frame of a service: 1 .. 127, or 0 if it is another frame.
-[[nodiscard]] constexpr std::uint8_t node_of(const CanFrame& frame, std::uint32_t base,
-                                             std::uint8_t length) noexcept {
-  const bool is = !frame.extended && frame.length == length && frame.identifier > base &&
-                  frame.identifier <= base + last_node;
-  return is ? static_cast<std::uint8_t>(frame.identifier - base) : std::uint8_t{0};
+[[nodiscard]] constexpr bool is(const CanFrame& frame, std::uint32_t base,
+                                std::uint8_t length) noexcept {
+  return frame.length == length && node_after(base, last_node, frame) != 0;
+}
+[[nodiscard]] constexpr ObjectAddress address_in(const CanFrame& frame) noexcept {
+  return {load_little_endian<std::uint16_t, 1>(frame.data), frame.data[3]};
 }
 
 [[nodiscard]] constexpr CanFrame sdo_frame(std::uint32_t identifier, std::uint8_t command,
                                            const ObjectAddress& address,
                                            std::uint32_t value) noexcept {
-  CanFrame frame;
-  frame.identifier = identifier;
-  frame.length = 8;
-  frame.data[0] = command;
+  CanFrame frame{.identifier = identifier, .length = 8, .data = {command, 0, 0, address.subindex}};
   store_little_endian<1, 2>(frame.data, address.index);
-  frame.data[3] = address.subindex;
   store_little_endian<4, 4>(frame.data, value);
   return frame;
 }
@@ -113,10 +109,7 @@ namespace detail {
                                                       SdoKind kind) noexcept {
   const std::uint8_t command = frame.data[0];
   if ((command & 0xf2) != (specifier | 0x02)) return {};
-  Sdo sdo{kind,
-          {load_little_endian<std::uint16_t, 1>(frame.data), frame.data[3]},
-          load_little_endian<std::uint32_t, 4>(frame.data),
-          0};
+  Sdo sdo{kind, address_in(frame), load_little_endian<std::uint32_t, 4>(frame.data), 0};
   if ((command & 0x01) == 0) return sdo;  // the size is not indicated
   sdo.size = static_cast<std::uint8_t>(4 - (command >> 2 & 3));
   // Bytes beyond the size may have any value [CiA 301, 7.2.4.3.3: "do not care"].
@@ -128,20 +121,13 @@ namespace detail {
 
 /// A command to one node, or with node 0 to all. [CiA 301, 7.2.8.3.1]
 [[nodiscard]] constexpr CanFrame encode(NmtCommand command, std::uint8_t node) noexcept {
-  CanFrame frame;
-  frame.identifier = nmt_identifier;
-  frame.length = 2;
-  frame.data[0] = static_cast<std::uint8_t>(command);
-  frame.data[1] = node;
-  return frame;
+  return {.identifier = nmt_identifier,
+          .length = 2,
+          .data = {static_cast<std::uint8_t>(command), node}};
 }
 
 /// SYNC without counter. [CiA 301, 7.2.5]
-[[nodiscard]] constexpr CanFrame encode_sync() noexcept {
-  CanFrame frame;
-  frame.identifier = sync_identifier;
-  return frame;
-}
+[[nodiscard]] constexpr CanFrame encode_sync() noexcept { return {.identifier = sync_identifier}; }
 
 /// A request to read or write an object. [CiA 301, 7.2.4.3.3 and 7.2.4.3.6]
 [[nodiscard]] constexpr CanFrame encode_request(const Sdo& sdo, std::uint8_t node) noexcept {
@@ -160,16 +146,16 @@ namespace detail {
 
 /// Decodes a request, at the node.
 [[nodiscard]] constexpr std::optional<Sdo> decode_request(const CanFrame& frame) noexcept {
-  if (detail::node_of(frame, sdo_request_base, 8) == 0) return {};
+  if (!detail::is(frame, sdo_request_base, 8)) return {};
   if (frame.data[0] != 0x40) return detail::with_value(frame, 0x20, SdoKind::download);
-  return read_request({load_little_endian<std::uint16_t, 1>(frame.data), frame.data[3]});
+  return read_request(detail::address_in(frame));
 }
 
 /// Decodes a node's answer, at the host. Segmented transfers are not supported: the objects that the
 /// codec accesses have at most four bytes.
 [[nodiscard]] constexpr std::optional<Sdo> decode_answer(const CanFrame& frame) noexcept {
-  if (detail::node_of(frame, sdo_answer_base, 8) == 0) return {};
-  const ObjectAddress address{load_little_endian<std::uint16_t, 1>(frame.data), frame.data[3]};
+  if (!detail::is(frame, sdo_answer_base, 8)) return {};
+  const ObjectAddress address = detail::address_in(frame);
   if (frame.data[0] == 0x60) return Sdo{SdoKind::download, address, 0, 0};
   if (frame.data[0] == 0x80) {
     return Sdo{SdoKind::abort, address, load_little_endian<std::uint32_t, 4>(frame.data), 4};
@@ -179,36 +165,27 @@ namespace detail {
 
 /// A node's heartbeat. [CiA 301, 7.2.8.3.2.2]
 [[nodiscard]] constexpr CanFrame encode(NmtState state, std::uint8_t node) noexcept {
-  CanFrame frame;
-  frame.identifier = heartbeat_base + node;
-  frame.length = 1;
-  frame.data[0] = static_cast<std::uint8_t>(state);
-  return frame;
+  return {
+      .identifier = heartbeat_base + node, .length = 1, .data = {static_cast<std::uint8_t>(state)}};
 }
 [[nodiscard]] constexpr std::optional<NmtState> decode_heartbeat(const CanFrame& frame) noexcept {
-  if (detail::node_of(frame, heartbeat_base, 1) == 0) return {};
-  const auto state = static_cast<NmtState>(frame.data[0]);
-  switch (state) {
-    case NmtState::boot_up:
-    case NmtState::stopped:
-    case NmtState::operational:
-    case NmtState::pre_operational:
-      return state;
+  if (!detail::is(frame, heartbeat_base, 1)) return {};
+  for (const NmtState state :
+       {NmtState::boot_up, NmtState::stopped, NmtState::operational, NmtState::pre_operational}) {
+    if (frame.data[0] == static_cast<std::uint8_t>(state)) return state;
   }
   return {};
 }
 
 /// A node's emergency message. [CiA 301, 7.2.7]
 [[nodiscard]] constexpr CanFrame encode(const Emergency& emergency, std::uint8_t node) noexcept {
-  CanFrame frame;
-  frame.identifier = emergency_base + node;
-  frame.length = 8;
+  CanFrame frame{
+      .identifier = emergency_base + node, .length = 8, .data = {0, 0, emergency.register_bits}};
   store_little_endian<0, 2>(frame.data, emergency.code);
-  frame.data[2] = emergency.register_bits;
   return frame;
 }
 [[nodiscard]] constexpr std::optional<Emergency> decode_emergency(const CanFrame& frame) noexcept {
-  if (detail::node_of(frame, emergency_base, 8) == 0) return {};
+  if (!detail::is(frame, emergency_base, 8)) return {};
   return Emergency{load_little_endian<std::uint16_t, 0>(frame.data), frame.data[2]};
 }
 

@@ -24,7 +24,11 @@ class PdoSetUp {
     *this = {};
     task_ = task;
     fixed_ = !task.may_map;
-    stage_ = fixed_ ? Stage::read_count : Stage::read_identifier;
+    if (fixed_) {
+      read(Stage::read_count, task_.mapping(0));
+    } else {
+      read(Stage::read_identifier, task_.parameter(1));
+    }
   }
 
   [[nodiscard]] constexpr bool done() const noexcept { return stage_ == Stage::done; }
@@ -39,75 +43,51 @@ class PdoSetUp {
   /// The objects of the PDO; empty if the PDO is not used.
   [[nodiscard]] constexpr const PdoMapping& mapping() const noexcept { return mapping_; }
 
-  /// The next request.
-  [[nodiscard]] constexpr Sdo request() const noexcept {
-    constexpr std::uint32_t synchronous = 1;
-    switch (stage_) {
-      case Stage::read_identifier:
-        return read_request(task_.parameter(1));
-      case Stage::switch_off:
-        return write_request(task_.parameter(1), off | identifier(), 4);
-      case Stage::make_synchronous:
-        return write_request(task_.parameter(2), synchronous, 1);
-      case Stage::check_synchronous:
-        return read_request(task_.parameter(2));
-      case Stage::set_deadline:
-        return write_request(task_.parameter(5), task_.deadline, 2);
-      case Stage::clear:
-        return write_request(task_.mapping(0), 0, 1);
-      case Stage::map:
-        return write_request(task_.mapping(mapping_.size() + 1),
-                             task_.entries[next_].object.entry(), 4);
-      case Stage::count:
-        return write_request(task_.mapping(0), static_cast<std::uint32_t>(mapping_.size()), 1);
-      case Stage::read_count:
-        return read_request(task_.mapping(0));
-      case Stage::read_entry:
-        return read_request(task_.mapping(next_ + 1));
-      case Stage::switch_on:
-        return write_request(task_.parameter(1), identifier(), 4);
-      case Stage::done:
-      case Stage::failed:
-        break;
-    }
-    return {};
-  }
+  [[nodiscard]] constexpr const Sdo& request() const noexcept { return request_; }
 
   /// Processes the answer to the request.
   constexpr void take(const Sdo& answer) noexcept {
-    if (answer.kind == SdoKind::abort) return take_abort(answer);
+    const bool ok = answer.kind != SdoKind::abort;
+    if (!ok) note_refusal(answer);
     switch (stage_) {
       case Stage::read_identifier:
+        if (!ok) return end(false);  // there is no such PDO
         identifier_ = answer.value;
-        stage_ = Stage::switch_off;
-        return;
+        return write(Stage::switch_off, task_.parameter(1), off | identifier(), 4);
       case Stage::switch_off:
-        stage_ = Stage::make_synchronous;
-        return;
-      case Stage::check_synchronous:
-        if (!task_.is_synchronous(answer.value & 0xff)) return fail();
-        [[fallthrough]];
+        return ok || is_on() ? write(Stage::make_synchronous, task_.parameter(2), 1, 1) : fail();
       case Stage::make_synchronous:
-        return task_.is_receive() ? void(stage_ = Stage::set_deadline) : end_parameters();
+        return ok ? set_deadline() : read(Stage::check_synchronous, task_.parameter(2));
+      case Stage::check_synchronous:
+        return ok && task_.is_synchronous(answer.value & 0xff) ? set_deadline() : fail();
       case Stage::set_deadline:
-        return end_parameters();
+        lacks_deadline_ = !ok && task_.deadline > 0;
+        return lacks_deadline_ ? fail() : end_parameters();
       case Stage::clear:
-        mapping_.clear();
         next_ = 0;
-        return map_next();
+        mapping_.clear();
+        if (ok) return map_next();
+        fixed_ = true;
+        return read(Stage::read_count, task_.mapping(0));
       case Stage::map:
-        if (!mapping_.push_back(task_.entries[next_].object)) return fail();
+        if (ok ? !mapping_.push_back(task_.entries[next_].object) : task_.entries[next_].required) {
+          return fail();
+        }
         ++next_;
         return map_next();
       case Stage::count:
-        stage_ = mapping_.empty() ? Stage::done : Stage::switch_on;
-        return;
+        if (ok) return mapping_.empty() ? end(true) : switch_on();
+        if (!maps_optional_) return fail();
+        maps_optional_ = false;  // some nodes check the entries only here
+        return write(Stage::clear, task_.mapping(0), 0, 1);
       case Stage::read_count:
+        if (!ok) return end(false);
         count_ = std::min(answer.value & 0xff, std::uint32_t{PdoMapping::capacity});
         next_ = 0;
         mapping_.clear();
         return read_next();
       case Stage::read_entry:
+        if (!ok) return end(false);
         ++next_;
         if (!mapping_.push_back(MappedObject::of_entry(answer.value))) {
           mapping_.clear();  // parts of bytes, or groups of PDOs, are not supported
@@ -115,8 +95,7 @@ class PdoSetUp {
         }
         return read_next();
       case Stage::switch_on:
-        stage_ = Stage::done;
-        return;
+        return ok || is_on() ? end(true) : fail();
       case Stage::done:
       case Stage::failed:
         return;
@@ -146,75 +125,65 @@ class PdoSetUp {
     return (identifier_ & no_remote_requests) | task_.identifier();
   }
 
+  /// Whether the PDO is right as it is: it has the identifier and is on.
+  [[nodiscard]] constexpr bool is_on() const noexcept {
+    return (identifier_ & (off | 0x7ff)) == (identifier() & 0x7ff);
+  }
+
+  constexpr void read(Stage stage, const ObjectAddress& address) noexcept {
+    stage_ = stage;
+    request_ = read_request(address);
+  }
+  constexpr void write(Stage stage, const ObjectAddress& address, std::uint32_t value,
+                       std::uint8_t size) noexcept {
+    stage_ = stage;
+    request_ = write_request(address, value, size);
+  }
+  constexpr void set_deadline() noexcept {
+    if (!task_.is_receive()) return end_parameters();
+    write(Stage::set_deadline, task_.parameter(5), task_.deadline, 2);
+  }
   constexpr void end_parameters() noexcept {
     has_parameters_ = true;
-    stage_ = fixed_ ? Stage::switch_on : Stage::clear;
+    fixed_ ? switch_on() : write(Stage::clear, task_.mapping(0), 0, 1);
   }
+  constexpr void switch_on() noexcept {
+    write(Stage::switch_on, task_.parameter(1), identifier(), 4);
+  }
+  constexpr void end(bool is_used) noexcept {
+    if (!is_used) mapping_.clear();
+    stage_ = Stage::done;
+  }
+  constexpr void fail() noexcept { stage_ = Stage::failed; }
+
   [[nodiscard]] constexpr bool is_left_out(const PdoTask::Entry& entry) const noexcept {
     return !entry.required && (!maps_optional_ || mapping_.length() + entry.object.bits / 8U > 8);
   }
   constexpr void map_next() noexcept {
     while (next_ < task_.entry_count && is_left_out(task_.entries[next_])) ++next_;
-    stage_ = next_ < task_.entry_count ? Stage::map : Stage::count;
+    const auto mapped = static_cast<std::uint32_t>(mapping_.size());
+    if (next_ == task_.entry_count) return write(Stage::count, task_.mapping(0), mapped, 1);
+    write(Stage::map, task_.mapping(mapped + 1), task_.entries[next_].object.entry(), 4);
   }
   constexpr void read_next() noexcept {
-    if (next_ < count_) {
-      stage_ = Stage::read_entry;
-      return;
-    }
+    if (next_ < count_) return read(Stage::read_entry, task_.mapping(next_ + 1));
     const auto has = [&](const PdoTask::Entry& entry) { return mapping_.contains(entry.object); };
     const auto entries = std::span(task_.entries).first(task_.entry_count);
     const bool of_use =
         task_.is_receive() ? std::ranges::all_of(entries, has) : std::ranges::any_of(entries, has);
-    if (!of_use) mapping_.clear();
-    stage_ = !of_use ? Stage::done : has_parameters_ ? Stage::switch_on : Stage::read_identifier;
+    if (!of_use) return end(false);
+    has_parameters_ ? switch_on() : read(Stage::read_identifier, task_.parameter(1));
   }
-  constexpr void fail() noexcept { stage_ = Stage::failed; }
 
-  constexpr void take_abort(const Sdo& answer) noexcept {
+  constexpr void note_refusal(const Sdo& answer) noexcept {
     const bool tolerated = stage_ == Stage::set_deadline && task_.deadline == 0;
     const bool first = refusal_.kind != SdoKind::abort;
     if (!tolerated && (first || !fixed_)) refusal_ = answer;
-    const bool is_on = (identifier_ & (off | 0x7ff)) == (identifier() & 0x7ff);
-    switch (stage_) {
-      case Stage::switch_off:  // right as it is, if it has the identifier and is on
-        return is_on ? void(stage_ = Stage::make_synchronous) : fail();
-      case Stage::make_synchronous:
-        stage_ = Stage::check_synchronous;
-        return;
-      case Stage::set_deadline:
-        lacks_deadline_ = task_.deadline > 0;
-        return lacks_deadline_ ? fail() : end_parameters();
-      case Stage::clear:
-        fixed_ = true;
-        stage_ = Stage::read_count;
-        return;
-      case Stage::map:
-        if (task_.entries[next_].required) return fail();
-        ++next_;
-        return map_next();
-      case Stage::count:  // some nodes check the entries only here
-        if (!maps_optional_) return fail();
-        maps_optional_ = false;
-        stage_ = Stage::clear;
-        return;
-      case Stage::read_identifier:  // there is no such PDO
-      case Stage::read_count:
-      case Stage::read_entry:
-        mapping_.clear();
-        stage_ = Stage::done;
-        return;
-      case Stage::switch_on:
-        return is_on ? void(stage_ = Stage::done) : fail();
-      case Stage::check_synchronous:
-      case Stage::done:
-      case Stage::failed:
-        return fail();
-    }
   }
 
   PdoTask task_{};
   Stage stage_ = Stage::done;
+  Sdo request_{};
   PdoMapping mapping_{};
   Sdo refusal_{};
   std::uint32_t identifier_ = 0;

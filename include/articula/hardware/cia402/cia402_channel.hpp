@@ -20,28 +20,20 @@ namespace articula {
 
 /// The host's side of one drive: set-up, commands, feedback and stop. All functions but the
 /// constructor are real-time.
-class Cia402Channel {
- public:
+struct Cia402Channel {
   Cia402Channel() = default;
   /// Parameters as those of Cia402SetUp.
-  Cia402Channel(const Cia402Drive& drive, cia402::Mode mode, std::uint8_t period,
-                std::uint16_t deadline, SyncProducer sync)
-      : drive_(drive), sync_(sync), set_up_(drive, mode, period, deadline, sync) {}
+  Cia402Channel(const Cia402Drive& its_drive, cia402::Mode mode, std::uint8_t period,
+                std::uint16_t deadline, SyncProducer sync_producer)
+      : drive(its_drive),
+        sync(sync_producer),
+        set_up(its_drive, mode, period, deadline, sync_producer) {}
 
-  void restart() noexcept {
-    feedback_.restart();
-    stop_.restart();
-    set_up_.restart();
-  }
-
-  /// Appends the next request of the set-up, which is a mark as well.
-  [[nodiscard]] CanSetUp advance(std::chrono::nanoseconds elapsed, const SyncHistory& syncs,
-                                 CanBatch& batch) noexcept {
-    const std::size_t before = batch.size();
-    const CanSetUp progress = set_up_.advance(elapsed, batch);
-    if (batch.size() != before) feedback_.age().place_mark(set_up_.object(), syncs);
-    return progress;
-  }
+  Cia402Drive drive{};
+  SyncProducer sync = SyncProducer::host;
+  Cia402SetUp set_up{};
+  Cia402Stop stop{};
+  Cia402Feedback feedback{};
 
   /// Appends an RPDO.
   /// @tparam Mode   of operation
@@ -51,7 +43,7 @@ class Cia402Channel {
   template <cia402::Mode Mode>
   void push_command(std::uint16_t controlword, double value, const DriveReport& report,
                     CanBatch& batch) const noexcept {
-    const cia402::ReceiveLayout& layout = set_up_.process_data().receive;
+    const cia402::ReceiveLayout& layout = set_up.process_data().receive;
     if (!batch.push_back(layout.frame)) return;
     auto& data = batch.back().data;
     store_little_endian(data, layout.controlword, controlword);
@@ -59,30 +51,20 @@ class Cia402Channel {
     constexpr bool is_position = Mode == cia402::Mode::cyclic_synchronous_position;
     if (!is_finite(value)) value = is_position ? report.position : 0;
     if constexpr (is_position) {
-      store_little_endian(data, layout.target, nearest_units(drive_.position_units(value), most));
+      store_little_endian(data, layout.target, nearest_units(drive.position_units(value), most));
     } else if constexpr (Mode == cia402::Mode::cyclic_synchronous_velocity) {
-      store_little_endian(data, layout.target, nearest_units(drive_.velocity_units(value), most));
+      store_little_endian(data, layout.target, nearest_units(drive.velocity_units(value), most));
     } else {
-      const std::int32_t per_mille = nearest_units(drive_.per_mille(value), 32767);
+      const std::int32_t per_mille = nearest_units(drive.per_mille(value), 32767);
       store_little_endian(data, layout.target, static_cast<std::int16_t>(per_mille));
     }
   }
   /// Appends a request that tells lost feedback from late feedback, if it is due.
   /// @return number of frames appended
   std::size_t push_mark(const SyncHistory& syncs, CanBatch& batch) noexcept {
-    const auto request = feedback_.age().next_mark(set_up_.process_data().stream_count, syncs);
+    const auto request = feedback.age().next_mark(set_up.process_data().stream_count, syncs);
     if (!request) return 0;
-    return batch.push_back(canopen::encode_request(*request, drive_.node)) ? 1 : 0;
-  }
-  /// Appends the next frames that stop the drive, unless it has reported that it is off.
-  /// @return number of frames appended
-  std::size_t push_stop(const SyncHistory& syncs, CanBatch& batch) noexcept {
-    return feedback_.powered() ? stop_.advance(drive_.node, syncs.cycle(), batch) : 0;
-  }
-  /// Notes that the bus did not take all of the last frames.
-  void cancel_output() noexcept {
-    stop_.cancel_request();
-    feedback_.age().cancel_mark();
+    return batch.push_back(canopen::encode_request(*request, drive.node)) ? 1 : 0;
   }
 
   /// Decodes a frame of a TPDO.
@@ -92,8 +74,8 @@ class Cia402Channel {
                                                                 SyncHistory& syncs,
                                                                 DriveReport& report) noexcept {
     if constexpr (Number < cia402::usual_transmit.size()) {
-      const bool taken = feedback_.template take_usual<Number>(frame, set_up_.process_data(),
-                                                               drive_, syncs, report);
+      const bool taken =
+          feedback.template take_usual<Number>(frame, set_up.process_data(), drive, syncs, report);
       if (taken) [[likely]]
         return CanDecoding::accepted;
     }
@@ -103,9 +85,9 @@ class Cia402Channel {
   // Not inlined: that would cost the decoding of each TPDO some registers.
   [[nodiscard, gnu::noinline]] CanDecoding take_other(const CanFrame& frame, SyncHistory& syncs,
                                                       DriveReport& report) noexcept {
-    switch (frame.identifier - drive_.node) {
+    switch (frame.identifier - drive.node) {
       case canopen::emergency_base:
-        return feedback_.take_emergency(frame);
+        return feedback.take_emergency(frame);
       case canopen::sdo_answer_base:
         return take_answer(frame, syncs);
       case canopen::heartbeat_base:
@@ -120,33 +102,22 @@ class Cia402Channel {
     }
   }
 
-  [[nodiscard]] const Cia402Drive& drive() const noexcept { return drive_; }
-  [[nodiscard]] const Cia402Feedback& feedback() const noexcept { return feedback_; }
-  [[nodiscard]] Cia402SetUp& set_up() noexcept { return set_up_; }
-  [[nodiscard]] const Cia402SetUp& set_up() const noexcept { return set_up_; }
-
  private:
   // Not inlined, as above.
   [[nodiscard, gnu::noinline]] CanDecoding take_unusual(std::size_t number, const CanFrame& frame,
                                                         SyncHistory& syncs,
                                                         DriveReport& report) noexcept {
-    return feedback_.take_pdo(number, frame, set_up_.process_data(), drive_, syncs, report);
+    return feedback.take_pdo(number, frame, set_up.process_data(), drive, syncs, report);
   }
   [[nodiscard]] CanDecoding take_answer(const CanFrame& frame, SyncHistory& syncs) noexcept {
     const auto answer = canopen::decode_answer(frame);
     if (!answer) return CanDecoding::malformed;
-    set_up_.take(*answer);
-    feedback_.age().take_answer(answer->address, set_up_.process_data().stream_count, syncs, sync_);
+    set_up.take(*answer);
+    feedback.age().take_answer(answer->address, set_up.process_data().stream_count, syncs, sync);
     syncs.note_missing();
-    if (const auto statusword = stop_.take(*answer)) feedback_.take_statusword(*statusword);
+    if (const auto statusword = stop.take(*answer)) feedback.take_statusword(*statusword);
     return CanDecoding::accepted;
   }
-
-  Cia402Drive drive_{};
-  SyncProducer sync_ = SyncProducer::host;
-  Cia402SetUp set_up_{};
-  Cia402Stop stop_{};
-  Cia402Feedback feedback_{};
 };
 
 }  // namespace articula

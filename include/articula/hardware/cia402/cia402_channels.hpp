@@ -32,7 +32,11 @@ struct Cia402Channels {
     reports.fill({});
     syncs = {};
     next_stop_ = 0;
-    for (Cia402Channel& channel : channels) channel.restart();
+    for (Cia402Channel& channel : channels) {
+      channel.feedback.restart();
+      channel.stop.restart();
+      channel.set_up.restart();
+    }
   }
   void begin_cycle(bool with_sync) noexcept {
     syncs.begin_cycle(with_sync);
@@ -45,14 +49,18 @@ struct Cia402Channels {
     bool all_enabled = true, all_known = true;
     all_follow_ = true;
     for (int j = 0; j < N; ++j) {
-      const CanSetUp progress = channels[j].advance(elapsed, syncs, batch);
+      Cia402Channel& channel = channels[j];
+      const std::size_t before = batch.size();
+      const CanSetUp progress = channel.set_up.advance(elapsed, batch);
       if (progress == CanSetUp::failed) return progress;
+      // Each request is a mark as well.
+      if (batch.size() != before) channel.feedback.age().place_mark(channel.set_up.object(), syncs);
       all_enabled = all_enabled && progress == CanSetUp::done;
       constexpr std::uint32_t doubtful_age = 20;  // [cycles]
       const bool known = reports[j].age < doubtful_age && reports[j].enabled;
-      if (!known) channels[j].set_up().check_again(elapsed);
+      if (!known) channel.set_up.check_again(elapsed);
       all_known = all_known && known;
-      all_follow_ = all_follow_ && channels[j].feedback().has_followed();
+      all_follow_ = all_follow_ && channel.feedback.has_followed();
     }
     if (!all_known) known_since_ = elapsed;
     all_known_ = all_known;
@@ -70,9 +78,9 @@ struct Cia402Channels {
   [[nodiscard]] CanSetUp release(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
     bool all_done = true;
     for (Cia402Channel& channel : channels) {
-      if (elapsed.count() == 0) channel.set_up().begin_release();
-      if (channel.feedback().powered()) continue;
-      all_done = channel.set_up().advance(elapsed, batch) == CanSetUp::done && all_done;
+      if (elapsed.count() == 0) channel.set_up.begin_release();
+      if (channel.feedback.powered()) continue;
+      all_done = channel.set_up.advance(elapsed, batch) == CanSetUp::done && all_done;
     }
     return all_done ? CanSetUp::done : CanSetUp::in_progress;
   }
@@ -85,18 +93,18 @@ struct Cia402Channels {
       while (j < N && !condition(j)) ++j;
       return j;
     };
-    int j = first([this](int k) { return channels[k].set_up().failed(); });
-    if (j == N) j = first([this](int k) { return !channels[k].set_up().ended(); });
+    int j = first([this](int k) { return channels[k].set_up.failed(); });
+    if (j == N) j = first([this](int k) { return !channels[k].set_up.ended(); });
     if (j == N) j = first([this](int k) { return !reports[k].enabled; });
     if (j == N) return {CanCause::no_activation};
-    const Cia402SetUp& set_up = channels[j].set_up();
+    const Cia402SetUp& set_up = channels[j].set_up;
     return {set_up.lacks_watchdog() ? CanCause::no_watchdog : CanCause::no_activation, j,
             reports[j].fault, set_up.object(), set_up.abort_code()};
   }
 
   /// Whether all drives have reported that they are off.
   [[nodiscard]] bool all_off() const noexcept {
-    return std::ranges::none_of(channels, [](const auto& c) { return c.feedback().powered(); });
+    return std::ranges::none_of(channels, [](const auto& c) { return c.feedback.powered(); });
   }
 
   /// Appends requests that tell lost feedback from late feedback.
@@ -111,14 +119,20 @@ struct Cia402Channels {
 
   /// Notes that the bus did not take all frames of the last output.
   void cancel_output() noexcept {
-    for (Cia402Channel& channel : channels) channel.cancel_output();
+    for (Cia402Channel& channel : channels) {
+      channel.stop.cancel_request();
+      channel.feedback.age().cancel_mark();
+    }
     syncs.note_missing();
   }
 
  private:
   [[gnu::noinline]] void push_due_stops(CanBatch& batch) noexcept {
     next_stop_ = syncs.cycle() + Cia402Stop::patience;
-    access([&](Cia402Channel& channel) { return channel.push_stop(syncs, batch); });
+    access([&](Cia402Channel& channel) {
+      if (!channel.feedback.powered()) return std::size_t{0};
+      return channel.stop.advance(channel.drive.node, syncs.cycle(), batch);
+    });
   }
   /// Appends accesses to the objects of a few drives in turn.
   /// @param append_for  appends frames for a drive, and returns their number

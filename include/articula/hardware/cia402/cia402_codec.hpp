@@ -95,8 +95,7 @@ class Cia402Codec {
         .frames_per_cycle = joint_count + Cia402Channels<joint_count>::most_accesses + 1};
     if (!sends_sync) {
       subscription.identifiers.push_back(canopen::sync_identifier);
-      subscription.last_of_cycle =
-          canopen::receive_pdo_1_base + drives_.channels.back().drive().node;
+      subscription.last_of_cycle = canopen::receive_pdo_1_base + drives_.channels.back().drive.node;
       --subscription.frames_per_cycle;
     }
     if (host_node_ != 0) ++subscription.frames_per_cycle;
@@ -105,7 +104,7 @@ class Cia402Codec {
            {canopen::transmit_pdo_1_base, canopen::transmit_pdo_2_base,
             canopen::transmit_pdo_3_base, canopen::transmit_pdo_4_base, canopen::emergency_base,
             canopen::sdo_answer_base, canopen::heartbeat_base}) {
-        subscription.identifiers.push_back(base + channel.drive().node);
+        subscription.identifiers.push_back(base + channel.drive.node);
       }
     }
     return subscription;

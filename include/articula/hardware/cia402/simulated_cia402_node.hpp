@@ -53,12 +53,12 @@ class SimulatedCia402Node {
       if (const auto request = canopen::decode_request(frame)) {
         answers.push_back(canopen::encode_answer(serve(*request), node_));
       }
-    } else if (canopen::decode_heartbeat(frame) && is_of_host(frame)) {
+    } else if (canopen::decode_heartbeat(frame) && objects_.is_heartbeat_of_host(frame)) {
       host_.feed();
     } else if (nmt_ == canopen::NmtState::operational) {
-      for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
+      for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) {
         // A missing PDO has 0, which is the identifier of network management.
-        if (frame.identifier == value(parameter(0x1400, k))) received_[k] = {true, frame};
+        if (frame.identifier == value(Objects::parameter(0x1400, k))) received_[k] = {true, frame};
       }
     }
   }
@@ -66,11 +66,11 @@ class SimulatedCia402Node {
   /// SYNC: sends the measured figures, and puts the received process data into force.
   /// @param sync  a frame without the expected counter, or with an unexpected one, is ignored
   void take_sync(const CanFrame& sync, CanBatch& answers) noexcept {
-    const bool has_counter = value(SimulatedCia402Objects::sync_counter) != 0;
+    const bool has_counter = value(Objects::sync_counter) != 0;
     if (sync.length != (has_counter ? 1 : 0)) return;
     send_emergency(answers);
     report(answers);
-    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) put_into_force(k);
+    for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) put_into_force(k);
   }
 
   /// Simulates a period: boot-up message, heartbeat, deadlines, emergency.
@@ -127,6 +127,7 @@ class SimulatedCia402Node {
   }
 
  private:
+  using Objects = SimulatedCia402Objects;
   struct Received {
     bool is_new = false;
     CanFrame frame{};
@@ -146,24 +147,13 @@ class SimulatedCia402Node {
     }
   };
 
-  [[nodiscard]] static canopen::ObjectAddress parameter(std::uint16_t base, std::uint16_t number,
-                                                        std::uint8_t subindex = 1) noexcept {
-    return {static_cast<std::uint16_t>(base + number), subindex};
-  }
-  /// Whether a heartbeat is from the node in object 1016h.
-  [[nodiscard]] bool is_of_host(const CanFrame& frame) const noexcept {
-    const std::uint32_t consumer = value(SimulatedCia402Objects::heartbeat_consumer);
-    return (consumer & 0xffff) != 0 &&
-           frame.identifier == canopen::heartbeat_base + (consumer >> 16 & 0x7f);
-  }
-
   void put_into_force(std::uint16_t number) noexcept {
     if (!std::exchange(received_[number].is_new, false)) return;
     const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
     if (!objects_.unpack(mapping, received_[number].frame)) return;
     execute(static_cast<std::uint16_t>(value(cia402::controlword)));
     commands_.feed();
-    deadline_ = value(parameter(0x1400, number, 5)) * 1e-3;
+    deadline_ = value(Objects::parameter(0x1400, number, 5)) * 1e-3;
   }
 
   void send_emergency(CanBatch& answers) noexcept {
@@ -174,9 +164,9 @@ class SimulatedCia402Node {
 
   void report(CanBatch& answers) noexcept {
     if (nmt_ != canopen::NmtState::operational) return;
-    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
-      const std::uint32_t identifier = value(parameter(0x1800, k));
-      if (identifier == 0 || (identifier & SimulatedCia402Objects::off) != 0) continue;
+    for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) {
+      const std::uint32_t identifier = value(Objects::parameter(0x1800, k));
+      if (identifier == 0 || (identifier & Objects::off) != 0) continue;
       answers.push_back(objects_.pack(static_cast<std::uint16_t>(0x1a00 + k), identifier & 0x7ff));
     }
   }
@@ -186,8 +176,7 @@ class SimulatedCia402Node {
       emergency_ = 0x8250;  // RPDO timeout [CiA 301, table 26]
       if (enabled()) raise_fault(emergency_);
     }
-    const std::uint32_t consumer = value(SimulatedCia402Objects::heartbeat_consumer);
-    if (host_.pass(period_, (consumer & 0xffff) * 1e-3)) {
+    if (host_.pass(period_, (value(Objects::heartbeat_consumer) & 0xffff) * 1e-3)) {
       emergency_ = 0x8130;  // heartbeat error
       if (nmt_ == canopen::NmtState::operational) leave_operation();
     }
@@ -224,13 +213,13 @@ class SimulatedCia402Node {
   [[nodiscard]] canopen::Sdo serve(const canopen::Sdo& request) noexcept {
     const canopen::Sdo answer = objects_.serve(request, nmt_ == canopen::NmtState::operational);
     if (answer.kind != canopen::SdoKind::download) return answer;
-    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
-      const std::uint32_t identifier = value(parameter(0x1400, k));
+    for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) {
+      const std::uint32_t identifier = value(Objects::parameter(0x1400, k));
       // A frame for a process data object that is off is dropped.
-      if ((identifier & SimulatedCia402Objects::off) != 0) received_[k] = {};
-      if (request.address == parameter(0x1400, k, 5)) deadline_ = request.value * 1e-3;
+      if ((identifier & Objects::off) != 0) received_[k] = {};
+      if (request.address == Objects::parameter(0x1400, k, 5)) deadline_ = request.value * 1e-3;
     }
-    if (request.address == SimulatedCia402Objects::heartbeat_consumer) host_.active = false;
+    if (request.address == Objects::heartbeat_consumer) host_.active = false;
     if (request.address == cia402::controlword) execute(static_cast<std::uint16_t>(request.value));
     show_state();
     return answer;
@@ -254,7 +243,7 @@ class SimulatedCia402Node {
   SimulatedCia402Objects objects_{};
   canopen::NmtState nmt_ = canopen::NmtState::boot_up;
   SimulatedCia402Machine machine_{};
-  std::array<Received, SimulatedCia402Objects::pdo_count> received_{};
+  std::array<Received, Objects::pdo_count> received_{};
   Deadline commands_{};
   Deadline host_{};              ///< for the host's heartbeats
   double deadline_ = 0;          ///< for commands [s]

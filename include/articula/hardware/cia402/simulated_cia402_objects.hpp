@@ -97,6 +97,18 @@ class SimulatedCia402Objects : public SimulatedObjectDictionary {
     return frame;
   }
 
+  /// Whether a heartbeat is from the node in object 1016h.
+  [[nodiscard]] bool is_heartbeat_of_host(const CanFrame& frame) const noexcept {
+    const std::uint32_t consumer = value(heartbeat_consumer);
+    return (consumer & 0xffff) != 0 &&
+           frame.identifier == canopen::heartbeat_base + (consumer >> 16 & 0x7f);
+  }
+
+  /// The address of a parameter of a process data object.
+  [[nodiscard]] static canopen::ObjectAddress parameter(std::uint16_t base, std::uint16_t number,
+                                                        std::uint8_t subindex = 1) noexcept {
+    return {static_cast<std::uint16_t>(base + number), subindex};
+  }
   static constexpr canopen::ObjectAddress heartbeat_consumer{0x1016, 1};
   static constexpr canopen::ObjectAddress sync_period{0x1006, 0};
   static constexpr canopen::ObjectAddress sync_counter{0x1019, 0};

@@ -87,8 +87,7 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 
 [[nodiscard]] constexpr bool is(const CanFrame& frame, std::uint32_t base,
                                 std::uint8_t length) noexcept {
-  return !frame.extended && frame.length == length && frame.identifier > base &&
-         frame.identifier <= base + last_node;
+  return frame.length == length && node_after(base, last_node, frame) != 0;
 }
 /// Reserved bits are 0, and a module is not enabled while it is faulty.
 [[nodiscard]] constexpr bool is_status(std::uint8_t bits) noexcept {
@@ -96,29 +95,20 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 [[nodiscard]] constexpr bool is_faults(std::uint8_t bits) noexcept { return bits < 1 << 7; }
 
-[[nodiscard]] constexpr CanFrame frame_of(std::uint32_t identifier, std::uint8_t length) noexcept {
-  CanFrame frame;
-  frame.identifier = identifier;
-  frame.length = length;
-  return frame;
-}
-
 }  // namespace detail
 
 /// The module's node number in a frame: 1 .. 31, or 0 if it is another frame.
 [[nodiscard]] constexpr std::uint8_t node_of(const CanFrame& frame) noexcept {
   for (const std::uint32_t base :
        {control_base, effort_base, position_base, motion_base, heartbeat_base}) {
-    const bool in_range = frame.identifier > base && frame.identifier <= base + last_node;
-    if (!frame.extended && in_range) return static_cast<std::uint8_t>(frame.identifier - base);
+    if (const std::uint8_t node = node_after(base, last_node, frame)) return node;
   }
   return 0;
 }
 
 [[nodiscard]] constexpr CanFrame encode(Control control, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(control_base + node, 1);
-  frame.data[0] = static_cast<std::uint8_t>(control);
-  return frame;
+  return {
+      .identifier = control_base + node, .length = 1, .data = {static_cast<std::uint8_t>(control)}};
 }
 [[nodiscard]] constexpr std::optional<Control> decode_control(const CanFrame& frame) noexcept {
   if (!detail::is(frame, control_base, 1)) return {};
@@ -127,9 +117,8 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Effort& effort, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(effort_base + node, 3);
+  CanFrame frame{.identifier = effort_base + node, .length = 3, .data = {0, 0, effort.counter}};
   store_little_endian<0, 2>(frame.data, effort.millinewton_metres);
-  frame.data[2] = effort.counter;
   return frame;
 }
 [[nodiscard]] constexpr std::optional<Effort> decode_effort(const CanFrame& frame) noexcept {
@@ -141,9 +130,7 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 
 /// Host to all modules: begins cycle `counter`.
 [[nodiscard]] constexpr CanFrame encode_sync(std::uint8_t counter) noexcept {
-  CanFrame frame = detail::frame_of(sync_identifier, 1);
-  frame.data[0] = counter;
-  return frame;
+  return {.identifier = sync_identifier, .length = 1, .data = {counter}};
 }
 [[nodiscard]] constexpr std::optional<std::uint8_t> decode_sync(const CanFrame& frame) noexcept {
   if (frame.extended || frame.identifier != sync_identifier || frame.length != 1) return {};
@@ -151,7 +138,7 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Position& position, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(position_base + node, 8);
+  CanFrame frame{.identifier = position_base + node, .length = 8};
   store_little_endian<0, 3>(frame.data, position.motor_counts);
   store_little_endian<3, 3>(frame.data, position.load_counts);
   frame.data[6] = position.counter;
@@ -169,7 +156,7 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Motion& motion, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(motion_base + node, 6);
+  CanFrame frame{.identifier = motion_base + node, .length = 6};
   store_little_endian<0, 2>(frame.data, motion.milliradians_per_second);
   store_little_endian<2, 2>(frame.data, motion.millinewton_metres);
   frame.data[4] = motion.counter;
@@ -187,9 +174,9 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Heartbeat& heartbeat, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(heartbeat_base + node, 4);
-  frame.data[0] = heartbeat.status;
-  frame.data[1] = heartbeat.faults;
+  CanFrame frame{.identifier = heartbeat_base + node,
+                 .length = 4,
+                 .data = {heartbeat.status, heartbeat.faults}};
   store_little_endian<2, 2>(frame.data, heartbeat.count);
   return frame;
 }
