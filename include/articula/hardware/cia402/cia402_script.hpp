@@ -92,31 +92,29 @@ class Cia402Script {
       add({cia402::abort_connection, Action::expect, 1, 0, false, false, 3});
       add({heartbeat_consumer, Action::write, std::uint32_t{drive.host_node} << 16 | deadline, 4});
     }
-    prepare_ = size_;
-    prepare(mode);
-    start_ = size_;
+    prepare = size_;
+    prepare_mode(mode);
+    start = size_;
     command_node(canopen::NmtCommand::start);
     add({cia402::statusword, Action::read_state});
     add({cia402::controlword, Action::advance_state, 0, 2});
     add({cia402::mode_display, Action::confirm_mode});
-    set_up_ = {0, size_};
+    set_up = {0, size_};
     if (drive.watchdog == Cia402Watchdog::commands) {
       add({first_deadline, Action::disarm, 0, 2, true});
     }
     if (beats) add({heartbeat_consumer, Action::disarm, 0, 4, true});
-    release_ = {set_up_.end, size_};
+    release = {set_up.end, size_};
   }
 
   [[nodiscard]] const Cia402Step& operator[](std::size_t step) const noexcept {
     return steps_[step];
   }
-  [[nodiscard]] const Part& set_up() const noexcept { return set_up_; }
-  [[nodiscard]] const Part& release() const noexcept { return release_; }
-  /// The first step that prepares mode and target. Real-time: yes.
-  [[nodiscard]] std::size_t prepare() const noexcept { return prepare_; }
-  /// The step that starts the node. The steps read_state, advance_state and confirm_mode follow.
-  /// Real-time: yes.
-  [[nodiscard]] std::size_t start() const noexcept { return start_; }
+
+  Part set_up{};
+  Part release{};
+  std::size_t prepare = 0;  ///< the first step that prepares mode and target
+  std::size_t start = 0;    ///< starts the node; read_state, advance_state and confirm_mode follow
 
  private:
   using Action = Cia402Step::Action;
@@ -143,7 +141,7 @@ class Cia402Script {
 
   /// Sets mode and target. A drive that shows the mode only when enabled may still be in another
   /// mode until then. The targets of the other modes are therefore made safe, too.
-  void prepare(cia402::Mode mode) noexcept {
+  void prepare_mode(cia402::Mode mode) noexcept {
     using cia402::Mode;
     add({cia402::controlword, Action::write, cia402::disable_voltage, 2});
     add({cia402::mode_of_operation, Action::write, static_cast<std::uint32_t>(mode), 1});
@@ -167,10 +165,6 @@ class Cia402Script {
 
   std::array<Cia402Step, capacity> steps_{};
   std::size_t size_ = 0;
-  std::size_t prepare_ = 0;
-  std::size_t start_ = 0;
-  Part set_up_{};
-  Part release_{};
 };
 
 }  // namespace articula

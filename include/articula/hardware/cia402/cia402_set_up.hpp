@@ -43,7 +43,7 @@ class Cia402SetUp {
   }
 
   void restart() noexcept {
-    begin(script_.set_up());
+    begin(script_.set_up);
     pdos_.restart();
     abort_code_ = stop_option_refusal_ = 0;
     failed_object_ = {};
@@ -51,13 +51,13 @@ class Cia402SetUp {
   }
 
   /// Begins to switch the watchdog of a disabled drive off. A failed set-up keeps its reason.
-  void begin_release() noexcept { begin(script_.release()); }
+  void begin_release() noexcept { begin(script_.release); }
 
   /// Starts the node again 100 ms after the last step, and reads its state. For a drive whose
   /// feedback does not show that it is enabled: the start command may have been lost.
   void check_again(std::chrono::nanoseconds elapsed) noexcept {
     if (step_ < end_ || elapsed - finished_ < canopen::SdoClient::patience) return;
-    step_ = script_.start();
+    step_ = script_.start;
     finished_ = std::chrono::nanoseconds(-1);
     checks_again_ = true;
   }
@@ -117,10 +117,10 @@ class Cia402SetUp {
       case Action::read_state:
         return take_state(static_cast<std::uint16_t>(answer.value & 0xffff));
       case Action::advance_state:
-        return void(step_ = script_.start() + 1);  // reads the state
-      case Action::confirm_mode:                   // some drives show the mode only now
+        return void(step_ = script_.start + 1);  // reads the state
+      case Action::confirm_mode:                 // some drives show the mode only now
         if (shows_mode) break;
-        return void(step_ = script_.start() + 1);
+        return void(step_ = script_.start + 1);
       default:
         break;
     }
@@ -196,9 +196,9 @@ class Cia402SetUp {
   void take_state(std::uint16_t statusword) noexcept {
     state_ = cia402::state_of(statusword);
     if (state_ == cia402::State::operation_enabled) {
-      step_ = script_.start() + 3;
+      step_ = script_.start + 3;
     } else if (std::exchange(checks_again_, false)) {
-      step_ = script_.prepare();  // the drive was disabled, and its joint may have moved
+      step_ = script_.prepare;  // the drive was disabled, and its joint may have moved
     } else {
       // The rise of a bit resets a fault, so a second try needs a fall in between.
       resets_fault_ = state_ == cia402::State::fault && !resets_fault_;

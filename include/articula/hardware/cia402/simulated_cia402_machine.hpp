@@ -17,7 +17,6 @@ class SimulatedCia402Machine {
   explicit SimulatedCia402Machine(double transition_time) noexcept
       : transition_time_(transition_time) {}
 
-  [[nodiscard]] cia402::State state() const noexcept { return state_; }
   [[nodiscard]] bool enabled() const noexcept { return state_ == cia402::State::operation_enabled; }
 
   void fault() noexcept { state_ = next_ = cia402::State::fault; }

@@ -14,11 +14,10 @@
 
 namespace articula {
 
-/// A CANopen node of the profile CiA 402: object dictionary with an expedited server, network
-/// management, process data after their mapping objects, state machine, heartbeat and emergency
-/// messages, and the deadlines for commands and for the host's heartbeat. It implements the standard
-/// and shares only the layout of frames with the codec, so each checks the other. All functions but
-/// the constructor are real-time.
+/// A CANopen node of the profile CiA 402: objects, network management, process data, state machine,
+/// heartbeat, emergency messages, and the deadlines for commands and for the host's heartbeat. It
+/// shares only the layout of frames with the codec, so each checks the other. All functions are
+/// real-time.
 class SimulatedCia402Node {
  public:
   SimulatedCia402Node() = default;
@@ -31,7 +30,6 @@ class SimulatedCia402Node {
     restart();
   }
 
-  /// Sets the state after switching on.
   void restart() noexcept {
     objects_.restart(node_, quirks_);
     nmt_ = canopen::NmtState::boot_up;
@@ -110,7 +108,6 @@ class SimulatedCia402Node {
   }
 
   [[nodiscard]] bool enabled() const noexcept { return machine_.enabled(); }
-  [[nodiscard]] cia402::State state() const noexcept { return machine_.state(); }
   [[nodiscard]] cia402::Mode mode() const noexcept {
     return static_cast<cia402::Mode>(value(cia402::mode_display));
   }
@@ -185,8 +182,7 @@ class SimulatedCia402Node {
   void manage(std::uint8_t command) noexcept {
     switch (static_cast<canopen::NmtCommand>(command)) {
       case canopen::NmtCommand::start:
-        nmt_ = canopen::NmtState::operational;
-        return;
+        return void(nmt_ = canopen::NmtState::operational);
       case canopen::NmtCommand::stop:
         leave_operation();
         nmt_ = canopen::NmtState::stopped;
@@ -244,8 +240,7 @@ class SimulatedCia402Node {
   canopen::NmtState nmt_ = canopen::NmtState::boot_up;
   SimulatedCia402Machine machine_{};
   std::array<Received, Objects::pdo_count> received_{};
-  Deadline commands_{};
-  Deadline host_{};              ///< for the host's heartbeats
+  Deadline commands_{}, host_{};
   double deadline_ = 0;          ///< for commands [s]
   std::uint16_t emergency_ = 0;  ///< code of the next emergency message
   double booting_ = 0;           ///< remaining time [s]
