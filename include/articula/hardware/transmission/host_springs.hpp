@@ -62,7 +62,7 @@ class HostSprings : public detail::HardwareAdapter<H> {
     return this->hardware_.write(total);
   }
 
-  [[nodiscard]] const RobotType& robot() const noexcept { return this->hardware_.robot(); }
+  [[nodiscard]] decltype(auto) robot() const noexcept { return this->hardware_.robot(); }
 
  private:
   JointVector<joint_count> limits_;
