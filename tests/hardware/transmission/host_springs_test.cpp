@@ -83,7 +83,7 @@ TEST_CASE("an impedance in the host moves an arm to where drives with springs mo
   Loop<HostSprings<Q2dSim>, DriveImpedance> host{HostSprings<Q2dSim>(Q2dSim()),
                                                  DriveImpedance<Q2d>(gains)};
   drives.reference().position = host.reference().position = Vector(0.4, -0.3);
-  for (int k = 0; k < 3000; ++k) {
+  for (int k = 0; k < 8000; ++k) {
     REQUIRE(drives.update() == Status::ok);
     REQUIRE(host.update() == Status::ok);
     // One period of delay at 1 kHz and this damping.
