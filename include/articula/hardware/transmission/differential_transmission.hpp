@@ -5,6 +5,7 @@
 #include "articula/hardware/transmission/transmission.hpp"
 
 #include <array>
+#include <string_view>
 
 namespace articula {
 
@@ -21,6 +22,7 @@ namespace articula {
 /// sign in effort_2. All functions are real-time.
 struct DifferentialTransmission {
   static constexpr int size = 2;
+  static constexpr std::string_view urdf_name = "DifferentialTransmission";
   using Vector = JointVector<2>;  ///< 2 x 1
 
   std::array<double, 2> actuator_reduction{1, 1};  ///< n [1, rad/m, ...]

@@ -4,6 +4,8 @@
 
 #include "articula/hardware/transmission/transmission.hpp"
 
+#include <string_view>
+
 namespace articula {
 
 /// A gear between one actuator and one joint:
@@ -14,6 +16,7 @@ namespace articula {
 /// reduction reverses the direction. All functions are real-time.
 struct SimpleTransmission {
   static constexpr int size = 1;
+  static constexpr std::string_view urdf_name = "SimpleTransmission";
   using Vector = JointVector<1>;  ///< 1 x 1
 
   double reduction = 1;     ///< n, turns of the actuator per turn of the joint [1, rad/m, ...]

@@ -17,22 +17,6 @@
 
 namespace articula {
 
-namespace detail {
-
-/// The name of a transmission in URDFs.
-template <class T>
-inline constexpr std::string_view urdf_transmission = "";
-template <>
-inline constexpr std::string_view urdf_transmission<SimpleTransmission> = "SimpleTransmission";
-template <>
-inline constexpr std::string_view urdf_transmission<DifferentialTransmission> =
-    "DifferentialTransmission";
-template <>
-inline constexpr std::string_view urdf_transmission<FourBarTransmission> =
-    "FourBarLinkageTransmission";
-
-}  // namespace detail
-
 /// The gearing of a URDF's <transmission>. Joints and actuators are sorted by their roles ("joint1",
 /// "actuator2"); without roles they keep the order of the file. The reduction of a simple
 /// transmission is that of its actuator (ROS 1) times that of its joint (ros2_control). The type in
@@ -48,7 +32,7 @@ inline constexpr std::string_view urdf_transmission<FourBarTransmission> =
 ///         or another number of joints or actuators, or if their roles are incomplete
 /// Real-time: no (searches by name, throws).
 template <Transmission T>
-  requires(!detail::urdf_transmission<T>.empty())
+  requires requires { T::urdf_name; }
 [[nodiscard]] Gearing<T> gearing_of(const UrdfDescription& description, std::string_view name) {
   const std::string where = description.file + ": transmission '" + std::string(name) + "'";
   const auto found = std::ranges::find(description.transmissions, name, &UrdfTransmission::name);
@@ -57,11 +41,10 @@ template <Transmission T>
   }
   // The last part of, for example, "transmission_interface/SimpleTransmission".
   const std::string type = found->type.substr(found->type.find_last_of("/:") + 1);
-  constexpr std::array known = {detail::urdf_transmission<SimpleTransmission>,
-                                detail::urdf_transmission<DifferentialTransmission>,
-                                detail::urdf_transmission<FourBarTransmission>};
-  if (type != detail::urdf_transmission<T> && std::ranges::find(known, type) != known.end()) {
-    detail::refuse({where, " is a ", type, ", not a ", detail::urdf_transmission<T>});
+  constexpr std::array known = {SimpleTransmission::urdf_name, DifferentialTransmission::urdf_name,
+                                FourBarTransmission::urdf_name};
+  if (type != T::urdf_name && std::ranges::find(known, type) != known.end()) {
+    detail::refuse({where, " is a ", type, ", not a ", T::urdf_name});
   }
   const auto in_order = [&](std::vector<UrdfTransmissionEnd> ends, const char* kind) {
     if (ends.size() != Gearing<T>::size) {
