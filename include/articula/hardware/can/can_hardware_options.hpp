@@ -62,16 +62,15 @@ inline void validate(const CanHardwareOptions& options) {
 
 /// Counters of the CAN driver since its construction.
 struct CanStatistics {
-  std::uint64_t cycles = 0;    ///< commands written
-  std::uint64_t not_sent = 0;  ///< of these, not or not completely taken by the bus
-  std::uint64_t unconfirmed =
-      0;                       ///< of these, sent without a sign that the one before was on the bus
-  std::uint64_t partial = 0;   ///< readings with missing feedback of some joint
-  std::uint64_t unpaced = 0;   ///< readings before which another node should have begun a cycle
-  std::uint64_t accepted = 0;  ///< frames that the codec has accepted
-  std::uint64_t outdated = 0;  ///< drives' frames that were too old
-  std::uint64_t foreign = 0;   ///< frames with unknown identifiers
-  std::uint64_t malformed = 0;  ///< drives' frames with invalid content
+  std::uint64_t cycles = 0;       ///< commands written
+  std::uint64_t not_sent = 0;     ///< of these, not or not completely taken by the bus
+  std::uint64_t unconfirmed = 0;  ///< of these, sent without a sign of the one before
+  std::uint64_t partial = 0;      ///< readings with missing feedback of some joint
+  std::uint64_t unpaced = 0;      ///< readings before which another node should have begun a cycle
+  std::uint64_t accepted = 0;     ///< frames that the codec has accepted
+  std::uint64_t outdated = 0;     ///< drives' frames that were too old
+  std::uint64_t foreign = 0;      ///< frames with unknown identifiers
+  std::uint64_t malformed = 0;    ///< drives' frames with invalid content
 
   /// Counts a frame by the result of decoding. Real-time: yes.
   constexpr void count(CanDecoding decoding) noexcept {

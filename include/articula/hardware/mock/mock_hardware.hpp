@@ -81,31 +81,10 @@ class MockHardware {
     JointState<joint_count> fresh = joints_;
     for (const MockFault& fault : script_) {
       if (!fault.covers(reading)) continue;
-      switch (fault.kind) {
-        case MockFaultKind::fails_to_read:
-          return Status::hardware_fault;
-        case MockFaultKind::goes_silent:
-          status = Status::stale_state;
-          if (fault.joint < 0) {
-            fresh = measured_;
-          } else {
-            fresh.position[fault.joint] = measured_.position[fault.joint];
-            fresh.velocity[fault.joint] = measured_.velocity[fault.joint];
-            fresh.effort[fault.joint] = measured_.effort[fault.joint];
-          }
-          break;
-        case MockFaultKind::measures_nan:
-          set(fresh.position, fault.joint, std::numeric_limits<double>::quiet_NaN());
-          break;
-        case MockFaultKind::measures_position:
-          set(fresh.position, fault.joint, fault.value);
-          break;
-        case MockFaultKind::measures_velocity:
-          set(fresh.velocity, fault.joint, fault.value);
-          break;
-        case MockFaultKind::refuses_activation:
-        case MockFaultKind::fails_to_write:
-          break;
+      if (fault.kind == MockFaultKind::fails_to_read) return Status::hardware_fault;
+      if (fault.kind == MockFaultKind::goes_silent) status = Status::stale_state;
+      for (int j = 0; j < joint_count; ++j) {
+        if (fault.joint < 0 || fault.joint == j) distort(fault, j, fresh);
       }
     }
     measured_ = fresh;
@@ -171,12 +150,17 @@ class MockHardware {
     }
   }
 
-  static void set(JointVector<joint_count>& values, int joint, double value) noexcept {
-    if (joint < 0) {
-      values.setConstant(value);
-    } else {
-      values[joint] = value;
+  /// Changes the measured figures of joint j.
+  void distort(const MockFault& fault, int j, JointState<joint_count>& fresh) const noexcept {
+    if (fault.kind == MockFaultKind::goes_silent) {
+      fresh.position[j] = measured_.position[j];
+      fresh.velocity[j] = measured_.velocity[j];
+      fresh.effort[j] = measured_.effort[j];
     }
+    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    if (fault.kind == MockFaultKind::measures_nan) fresh.position[j] = not_a_number;
+    if (fault.kind == MockFaultKind::measures_position) fresh.position[j] = fault.value;
+    if (fault.kind == MockFaultKind::measures_velocity) fresh.velocity[j] = fault.value;
   }
 
   [[no_unique_address]] R robot_;
