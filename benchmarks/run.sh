@@ -12,7 +12,7 @@ command=benchmarks/run.sh
 results=$(dirname "$0")/results
 for argument in "$@"; do
   case $argument in
-    --output=*) results=${argument#*=} && continue ;; # whose folder it is is nobody's business
+    --output=*) results=${argument#*=} && continue ;; # the recorded command omits the folder
     --*) options+=("$argument") ;;
     *) subjects+=("$argument") ;;
   esac
@@ -23,7 +23,7 @@ mkdir -p "$results"
 results=$(cd "$results" && pwd)
 cd "$(dirname "$0")/.."
 
-peers=OFF # takes other libraries and minutes to compile, so it is built when it is asked for
+peers=OFF # needs other libraries and minutes to compile, so it is built on request only
 for subject in ${subjects[@]+"${subjects[@]}"}; do [[ $subject != peers ]] || peers=ON; done
 cmake --preset bench -DARTICULA_BENCHMARK_PEERS=$peers
 cmake --build --preset bench
@@ -35,15 +35,15 @@ if ((${#subjects[@]} == 0)); then
   done
 fi
 
-# What a result is worth without: where it comes from.
+# The context of a result: its origin.
 cached() { sed -n "s/^$1:[A-Z]*=//p" build/bench/CMakeCache.txt; }
 cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo | head -n 1)
 lanes=sse2
 for wider in avx2 avx512f; do
   if grep -qw "$wider" /proc/cpuinfo; then lanes=$wider; fi
 done
-# The name alone does not say how wide the registers are inside: Zen 4 has halves of AVX-512's, Zen 5
-# has whole ones.
+# The name alone does not show the internal width of the registers: Zen 4 has halves of AVX-512's,
+# Zen 5 has whole ones.
 number_of() { sed -n "s/^$1[[:space:]]*: //p" /proc/cpuinfo | head -n 1; }
 family=$(number_of 'cpu family') model=$(number_of model) generation=''
 if [[ $(number_of vendor_id) == AuthenticAMD ]]; then
@@ -70,13 +70,13 @@ context_of() { # <subject>
 
 for subject in ${subjects[@]+"${subjects[@]}"}; do
   result=$results/$subject.json
-  order=() # ratios are to be believed if what disturbs one case disturbs the others as well
+  order=() # random order: a disturbance then affects all cases, and ratios stay correct
   [[ $subject != peers && $subject != packs ]] || order=(--benchmark_enable_random_interleaving=true)
   "$programs/${subject}_benchmark" \
     --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
     --benchmark_out_format=json --benchmark_out="$result" \
     ${order[@]+"${order[@]}"} ${options[@]+"${options[@]}"}
-  # In place of the machine's name, which is nobody's business.
+  # The context replaces the name of the machine.
   sed -i -e '/"host_name"/{r /dev/stdin' -e 'd}' "$result" < <(context_of "$subject")
   echo "written: $result"
   [[ $subject != peers ]] || benchmarks/peers/table.sh "$result" "$results"

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-# The component config: the target articula::config, for the headers that read YAML. Read by our own
-# build and, installed, by find_package(articula). Without yaml-cpp there is no such target. The name
-# of this file is longer than its siblings': CMake would take articula-config.cmake for the package.
+# The component config: the target articula::config, for the headers that read YAML. The build of
+# articula includes this file, and find_package(articula) includes the installed one. The target
+# exists only if yaml-cpp is found. The file's name contains "component" because CMake would read
+# articula-config.cmake as the package itself.
 
 find_package(yaml-cpp CONFIG QUIET)
 
-# yaml-cpp 0.8 gave its target a namespace.
+# The target has a namespace since yaml-cpp 0.8.
 if(TARGET yaml-cpp::yaml-cpp)
   set(articula_yaml_cpp yaml-cpp::yaml-cpp)
 else()

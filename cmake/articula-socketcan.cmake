@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# The component socketcan: the target articula::socketcan, on Linux. Read by our own build and,
-# installed, by find_package(articula). It needs nothing but the kernel's headers.
+# The component socketcan: the target articula::socketcan, on Linux. The build of articula includes
+# this file, and find_package(articula) includes the installed one. It needs only the kernel's
+# headers.
 if(CMAKE_SYSTEM_NAME STREQUAL Linux)
   if(NOT TARGET articula::socketcan)
     add_library(articula::socketcan INTERFACE IMPORTED GLOBAL)

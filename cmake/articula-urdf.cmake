@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-# The component urdf: the target articula::urdf and the function articula_add_robot. Read by our own
-# build and, installed, by find_package(articula). Without urdfdom there is no such target.
+# The component urdf: the target articula::urdf and the function articula_add_robot. The build of
+# articula includes this file, and find_package(articula) includes the installed one. The target
+# exists only if urdfdom is found.
 
 find_package(urdfdom CONFIG QUIET)
 find_package(console_bridge CONFIG QUIET)
 
-# urdfdom 4 went from TinyXML to TinyXML-2; the header tells.
+# urdfdom 4 uses TinyXML-2, older versions TinyXML. The header shows which one.
 find_path(
   ARTICULA_URDF_PARSER_INCLUDE_DIR urdf_parser/urdf_parser.h
   HINTS ${urdfdom_INCLUDE_DIRS}
@@ -33,7 +34,7 @@ if(TARGET urdfdom::urdfdom_model AND TARGET console_bridge::console_bridge AND A
 else()
   set(articula_urdf_FOUND FALSE)
   set(articula_NOT_FOUND_MESSAGE
-      "articula's component urdf needs urdfdom, console_bridge and TinyXML (Debian: liburdfdom-dev)")
+      "articula's component urdf needs urdfdom, console_bridge, TinyXML (Debian: liburdfdom-dev)")
 endif()
 
 include(${CMAKE_CURRENT_LIST_DIR}/articula_add_robot.cmake)

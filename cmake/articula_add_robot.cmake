@@ -4,51 +4,55 @@
 #                    [LOCK <joint>[=<position>]...] [GRAVITY <x> <y> <z>]
 #                    [RIGHT_ANGLE_TOLERANCE <number>] [ALLOW_UNPHYSICAL] [KINEMATIC])
 #
-# Makes an INTERFACE target <Name>. Who links it can include <name>.hpp (the name in snake case:
-# LbrIiwa is in lbr_iiwa.hpp), which defines `struct <Name>`, in the namespace if one is given, with
-# the robot as a constexpr RobotDescription. The header is made anew when the URDF changes; a URDF
-# with a fault stops the build with the element, the reason and figures.
+# Defines an INTERFACE target <Name> with the header <name>.hpp. The header's name is in snake case:
+# LbrIiwa is in lbr_iiwa.hpp. It defines `struct <Name>`, in the namespace if there is one, with the
+# robot as a constexpr RobotDescription. The build makes the header again when the URDF changes. A
+# URDF with an error stops the build with the element, the reason and the figures.
 #
-#   ROOT              link that becomes the fixed base, instead of the URDF's root
-#   TIP               link at which a chain from the root ends; the rest is left out with its mass, with a
-#                     warning if joints of the chain carry it
-#   LOCK              joints to be held in place, at 0 or at a position [rad or m]; beyond the joint's
-#                     limits with a warning. Joints that mimic one of them are held, too
-#   GRAVITY           acceleration of free fall in the root link's frame, 0 0 -9.81 [m/s^2] if not given
-#   RIGHT_ANGLE_TOLERANCE  how far from 0, 1 and -1 the elements of rotations may be that dynamics
-#                     takes for those of right angles written with few digits, 1e-7 if not given; 0
-#                     takes every angle as it is written, 0.1 is the largest
-#   ALLOW_UNPHYSICAL  accept inertias that no real body has, with a warning for each
-#   KINEMATIC         leave out all masses: the robot has kinematics, and no dynamics. For files without
-#                     masses
+#   ROOT              the link that becomes the fixed base. Default: the URDF's root
+#   TIP               the last link of a chain from the root. The rest is left out with its mass,
+#                     with a warning if joints of the chain carry it
+#   NAMESPACE         the namespace of the struct. Default: none
+#   LOCK              joints held at 0 or at a position [rad or m], with a warning beyond the
+#                     joint's limits. Joints that mimic one of them are held, too
+#   GRAVITY           acceleration of free fall in the root link's frame [m/s^2]. Default: 0 0 -9.81
+#   RIGHT_ANGLE_TOLERANCE  tolerance for right angles written with few digits: the largest
+#                     difference of a rotation's element from 0, 1 and -1, for dynamics. Default:
+#                     1e-7. 0 leaves every angle as written. The largest value is 0.1
+#   ALLOW_UNPHYSICAL  accepts inertias that no real body has, with a warning for each
+#   KINEMATIC         omits all masses: the robot has kinematics and no dynamics. For files
+#                     without masses
 #
-# The program that reads the URDF is built along, for the machine that builds. When cross-compiling,
-# set ARTICULA_URDF_TO_ROBOT to one that was built before.
+# The build also builds the program that reads the URDF, for the build machine. When
+# cross-compiling, set ARTICULA_URDF_TO_ROBOT to the path of such a program.
 function(articula_add_robot name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "ALLOW_UNPHYSICAL;KINEMATIC"
                         "URDF;ROOT;TIP;NAMESPACE;RIGHT_ANGLE_TOLERANCE" "LOCK;GRAVITY")
-  if(DEFINED arg_UNPARSED_ARGUMENTS) # the text OFF is something, too
-    message(FATAL_ERROR "articula_add_robot(${name}): unknown: ${arg_UNPARSED_ARGUMENTS}; options: "
-                        "URDF, ROOT, TIP, NAMESPACE, LOCK, GRAVITY, RIGHT_ANGLE_TOLERANCE, "
-                        "ALLOW_UNPHYSICAL, KINEMATIC")
+  if(DEFINED arg_UNPARSED_ARGUMENTS) # DEFINED, because the argument may be the text OFF
+    message(FATAL_ERROR "articula_add_robot(${name}): unknown argument ${arg_UNPARSED_ARGUMENTS}; "
+                        "expected one of URDF, ROOT, TIP, NAMESPACE, LOCK, GRAVITY, "
+                        "RIGHT_ANGLE_TOLERANCE, ALLOW_UNPHYSICAL, KINEMATIC")
   endif()
   if(DEFINED arg_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "articula_add_robot(${name}): without value: ${arg_KEYWORDS_MISSING_VALUES}")
+    message(FATAL_ERROR "articula_add_robot(${name}): ${arg_KEYWORDS_MISSING_VALUES} has no value; "
+                        "add one")
   endif()
   if(NOT arg_URDF)
-    message(FATAL_ERROR "articula_add_robot(${name}): URDF <file> is missing")
+    message(FATAL_ERROR "articula_add_robot(${name}): the argument URDF <file> is missing; add it")
   endif()
   if(NOT name MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
-    message(FATAL_ERROR "articula_add_robot(${name}): that cannot be the name of a struct")
+    message(FATAL_ERROR "articula_add_robot(${name}): '${name}' cannot be the name of a struct; "
+                        "expected a letter, then letters, digits and _")
   endif()
   if(TARGET ${name} OR TARGET ${name}_header)
-    message(FATAL_ERROR "articula_add_robot(${name}): there is a target of that name already")
+    message(FATAL_ERROR "articula_add_robot(${name}): a target ${name} or ${name}_header exists; "
+                        "choose another name")
   endif()
   set(urdf ${arg_URDF})
   cmake_path(ABSOLUTE_PATH urdf BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} NORMALIZE)
   get_source_file_property(generated ${urdf} GENERATED)
   if(NOT generated AND NOT EXISTS ${urdf})
-    message(FATAL_ERROR "articula_add_robot(${name}): there is no file ${urdf}")
+    message(FATAL_ERROR "articula_add_robot(${name}): the file ${urdf} does not exist")
   endif()
   articula_urdf_to_robot(tool)
 
@@ -73,7 +77,8 @@ function(articula_add_robot name)
   if(DEFINED arg_GRAVITY)
     list(LENGTH arg_GRAVITY numbers)
     if(NOT numbers EQUAL 3)
-      message(FATAL_ERROR "articula_add_robot(${name}): GRAVITY takes x y z, not '${arg_GRAVITY}'")
+      message(FATAL_ERROR "articula_add_robot(${name}): GRAVITY is '${arg_GRAVITY}', "
+                          "expected x y z")
     endif()
     list(APPEND options --gravity ${arg_GRAVITY})
   endif()
@@ -90,7 +95,7 @@ function(articula_add_robot name)
     DEPENDS ${urdf} ${tool}
     COMMENT "Making ${snake_case}.hpp from ${arg_URDF}"
     VERBATIM)
-  # Part of a whole build, so that a URDF with a fault stops it even where nobody links the robot yet.
+  # ALL: a URDF with an error stops a whole build even if no target links the robot.
   add_custom_target(${name}_header ALL DEPENDS ${header})
   add_library(${name} INTERFACE)
   add_dependencies(${name} ${name}_header)
@@ -98,19 +103,21 @@ function(articula_add_robot name)
   target_link_libraries(${name} INTERFACE articula::articula)
 endfunction()
 
-# Sets the variable to the target or file of the program that reads URDFs.
+# Sets the variable to the target or the file of the program that reads URDFs.
 function(articula_urdf_to_robot variable)
-  set(ARTICULA_URDF_TO_ROBOT "" CACHE FILEPATH "urdf_to_robot built before, for cross-compiling")
+  set(ARTICULA_URDF_TO_ROBOT "" CACHE FILEPATH "urdf_to_robot for the build machine")
   mark_as_advanced(ARTICULA_URDF_TO_ROBOT)
   if(ARTICULA_URDF_TO_ROBOT)
     set(${variable} ${ARTICULA_URDF_TO_ROBOT} PARENT_SCOPE)
     return()
   endif()
   if(NOT TARGET articula::urdf)
-    message(FATAL_ERROR "articula_add_robot needs urdfdom (Debian: liburdfdom-dev)")
+    message(FATAL_ERROR "articula_add_robot needs urdfdom, which was not found; install it "
+                        "(Debian: liburdfdom-dev)")
   endif()
   if(CMAKE_CROSSCOMPILING)
-    message(FATAL_ERROR "articula_add_robot: set ARTICULA_URDF_TO_ROBOT to a program for this machine")
+    message(FATAL_ERROR "articula_add_robot cannot build urdf_to_robot when cross-compiling; set "
+                        "ARTICULA_URDF_TO_ROBOT to the path of one for this machine")
   endif()
   if(NOT TARGET articula_urdf_to_robot)
     set(source ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/urdf_to_robot)

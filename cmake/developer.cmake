@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# What our own tests, benchmarks and examples are built with. Nothing here reaches a user.
+# Options for articula's own tests, benchmarks and examples. Users' targets do not get them.
 
 set(ARTICULA_SANITIZE "" CACHE STRING "Sanitizers to build with, as address;undefined or thread")
 
-# ISO C++; with GNU extensions g++ would also be free to fuse multiplications and additions.
+# ISO C++. With GNU extensions g++ may also fuse multiplications and additions.
 set(CMAKE_CXX_EXTENSIONS OFF)
 
-# Warnings are errors in our code. Eigen and the others are imported targets, hence system includes.
+# Warnings are errors in articula's code. Eigen and other libraries are imported targets, so their
+# headers are system includes without warnings.
 add_library(articula_warnings INTERFACE)
 target_compile_options(
   articula_warnings

@@ -1,23 +1,23 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs, on Debian 12 or newer and its kin, what articula is built and tested with.
+# Installs the packages for building and testing articula, on Debian 12 or newer and derivatives.
 #
-#   cmake/install-dependencies.sh          for the demo, the tests and the benchmarks of our own
-#   cmake/install-dependencies.sh --all    also what .ci/run, the benchmarks beside other libraries and
-#                                          the developers' tools need
+#   cmake/install-dependencies.sh          for the demo, the tests and articula's own benchmarks
+#   cmake/install-dependencies.sh --all    also for .ci/run, the benchmarks beside other libraries
+#                                          and the developers' tools
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache pkg-config git
-  libeigen3-dev      # the one dependency of articula::articula
+  libeigen3-dev      # the only dependency of articula::articula
   liburdfdom-dev     # robots from URDF files
   nlohmann-json3-dev # recordings as JSON
   libyaml-cpp-dev    # configuration files
   catch2             # tests
-  libxsimd-dev       # another library's packs, which programs run for as well: tests
+  libxsimd-dev       # another library's packs, for tests of programs over them
   binutils           # nm, for the check of the object code
   libbenchmark-dev   # benchmarks
-  rt-tests           # cyclictest, beside our own jitter
+  rt-tests           # cyclictest, for comparison with benchmarks/jitter
   libcli11-dev       # command line of the examples
   gnuplot-nox        # plots of the examples
 )
@@ -26,14 +26,18 @@ case ${1:-} in
   --all)
     packages+=(clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19 valgrind)
     packages+=(liborocos-kdl-dev libmujoco-dev) # peers, in tests and benchmarks
-    # tests/vcan: a virtual machine whose kernel has CAN, where this one has none
+    # tests/webassembly
+    packages+=(lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
+    packages+=(wasi-libc nodejs)
+    # tests/vcan: a virtual machine with CAN in its kernel, if this kernel has none
     packages+=(qemu-system-x86 busybox-static dash cpio xz-utils iproute2 can-utils)
     ;;
   *) echo "usage: $0 [--all]" >&2; exit 2 ;;
 esac
 
 if ! { command -v dpkg-query && command -v apt-get; } >/dev/null; then
-  echo "$0: no Debian-like system; install by other means: ${packages[*]}" >&2
+  echo "$0: dpkg-query or apt-get was not found; install these packages by other means:" \
+    "${packages[*]}" >&2
   exit 1
 fi
 
@@ -43,7 +47,7 @@ for package in "${packages[@]}"; do
   [[ $state == *installed* && $state != *not-installed* ]] || missing+=("$package")
 done
 
-# The kernel of that virtual machine is not installed, only unpacked.
+# The kernel of that virtual machine is only unpacked, not installed.
 fetch_kernel() {
   [[ ${1:-} != --all || $(dpkg --print-architecture) != amd64 ]] ||
     "$(dirname "$0")/../tests/vcan/fetch_kernel.sh"
@@ -56,7 +60,7 @@ fi
 as_root=()
 if ((EUID != 0)); then
   if ! command -v sudo >/dev/null; then
-    echo "$0: run as root, or install sudo, to get: ${missing[*]}" >&2
+    echo "$0: no right to install: ${missing[*]}; run as root, or install sudo" >&2
     exit 1
   fi
   as_root=(sudo)

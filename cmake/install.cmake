@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Installs the headers and the package that find_package(articula) reads.
+# Installs the headers and the CMake package for find_package(articula).
 include(CMakePackageConfigHelpers)
 
 set(articula_package_dir ${CMAKE_INSTALL_DATADIR}/cmake/articula)
@@ -15,7 +15,7 @@ configure_package_config_file(
   cmake/articulaConfig.cmake.in ${PROJECT_BINARY_DIR}/articulaConfig.cmake
   INSTALL_DESTINATION ${articula_package_dir}
   NO_SET_AND_CHECK_MACRO)
-# Before 1.0 a new minor version may break its users. Headers fit every architecture.
+# Before 1.0 a new minor version may break its users. The headers do not depend on the architecture.
 write_basic_package_version_file(
   ${PROJECT_BINARY_DIR}/articulaConfigVersion.cmake
   COMPATIBILITY SameMinorVersion
@@ -24,7 +24,7 @@ install(
   FILES ${PROJECT_BINARY_DIR}/articulaConfig.cmake ${PROJECT_BINARY_DIR}/articulaConfigVersion.cmake
   DESTINATION ${articula_package_dir})
 
-# The component urdf, with the source of the program that turns a URDF into a header.
+# The component urdf, with the source of the program that makes a header of a URDF.
 install(FILES cmake/articula-urdf.cmake cmake/articula_add_robot.cmake
         DESTINATION ${articula_package_dir})
 install(DIRECTORY cmake/urdf_to_robot DESTINATION ${articula_package_dir})
@@ -38,9 +38,9 @@ install(FILES cmake/articula-recording.cmake DESTINATION ${articula_package_dir}
 # The component config.
 install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_package_dir})
 
-# What README.md and docs link to lies beside them, as it does here; but for headers, which are
-# where headers are.
+# The files that README.md and docs link to, in the same folders as here. Headers are the exception:
+# they are in the folder of headers.
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)
 install(DIRECTORY docs TYPE DOC)
-install(DIRECTORY examples TYPE DOC PATTERN CMakeLists.txt EXCLUDE) # of our build
+install(DIRECTORY examples TYPE DOC PATTERN CMakeLists.txt EXCLUDE) # part of articula's build
 install(DIRECTORY benchmarks/results DESTINATION ${CMAKE_INSTALL_DOCDIR}/benchmarks)

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // A step of the UR10's elbow to 0.5 rad with a teaching lab's gains, the same on all six joints.
 //
-// With the public description as it is, these gains are unstable at 1 kHz: the last wrist joint has
-// 0.0005 kg m^2, so its loop crosses over at 19 000 rad/s and bears a delay of 0.08 ms, but an
-// effort that is held for a period is 0.5 ms late on average. The joint chatters at 60 rad/s
-// between the limits of its drive; at 10 kHz it is quiet. What the description leaves out are the
-// rotors of the drives, which a wrist feels through its gears far more than its links. Here each
-// joint gets 0.1 kg m^2 of them, the figure of MuJoCo Menagerie's UR10e.
+// With the public description alone, these gains are unstable at 1 kHz:
+// - The last wrist joint has 0.0005 kg m^2, so its crossover is 19 000 rad/s. Its delay margin is
+//   0.08 ms.
+// - An effort that is held for a period is late by 0.5 ms on average.
+// - The joint chatters at 60 rad/s between the limits of its drive. At 10 kHz it is quiet.
+//
+// The description omits the rotors of the drives. Through the gears of a wrist they have far more
+// inertia than the links. Here each joint gets 0.1 kg m^2, the value of MuJoCo Menagerie's UR10e.
 #include <articula/articula.hpp>
 #include <articula/robots/ur10.hpp>
 
@@ -30,7 +32,7 @@ struct Arm {
   static constexpr JointPidGains<6> pid_gains{lab, lab, lab, lab, lab, lab};
 };
 
-/// Where the elbow is after a while [rad].
+/// The elbow's position after the motion [rad].
 double step(auto loop, Plot& plot) {
   loop.reference().position[2] = 0.5;
   for (int k = 0; k <= 8000; ++k) {
@@ -64,4 +66,4 @@ int main() {
 // PID and gravity: elbow at 0.500 rad
 //
 // In both plots the shoulder lift rings for seconds: for its inertia, d 10 is a phase margin of
-// 5 degrees. Without gravity compensation the arm sags, for i 0.01 takes hours to hold it up.
+// 5 degrees. Without gravity compensation the arm sags, because i 0.01 needs hours to lift it.

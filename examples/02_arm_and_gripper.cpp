@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An arm with six joints reaches out along a trajectory with tolerances, then its gripper closes.
-// One drive moves both fingers; their other five joints mimic it. The loop runs at 100 Hz.
+// An arm with six joints follows a trajectory with tolerances, then its gripper closes. One drive
+// moves both fingers. Their other five joints mimic its joint. The loop runs at 100 Hz.
 #include <articula/articula.hpp>
 #include <articula/robots/gripper_arm.hpp>
 
@@ -15,7 +15,7 @@ using Arm = GripperArm;
 using ArmLoop = Loop<GripperArmSim, ComputedTorque>;
 using Pose = JointVector<7>;
 
-/// Follows a trajectory to its end and tells what has become of it.
+/// Follows a trajectory to its end and prints the outcome.
 void follow(const char* what, const Trajectory<Arm>& trajectory,
             const TrajectoryTolerances<7>& tolerances, ArmLoop& loop,
             TrajectoryFollower<Arm>& follower, Plot& plot) {
@@ -67,4 +67,4 @@ int main() {
 // grip: successful at 3.66 s
 // the fingertips' joints were 124 mm apart and are 66 mm apart
 //
-// The gripper is 0.36 s late, for 100 Hz is slow where a speed decays within 3 ms. 1 kHz is not.
+// The gripper is 0.36 s late: its speed decays within 3 ms, which needs 1 kHz instead of 100 Hz.

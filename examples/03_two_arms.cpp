@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A torso waves its two arms in opposite phase, shoulders by 1 rad at 1 Hz, elbows bent by 1 rad.
-// The signals keep the joints' limits, whatever their amplitude. The loop runs at 100 Hz.
+// A torso moves its two arms in opposite phase: shoulders by 1 rad at 1 Hz, elbows bent by 1 rad.
+// The signals keep the joints' limits at any amplitude. The loop runs at 100 Hz.
 #include <articula/articula.hpp>
 #include <articula/robots/two_arm_torso.hpp>
 
@@ -22,7 +22,7 @@ int main() {
         SineSignal{.amplitude = 1, .frequency = 1, .phase = -quarter}}},
       bent);
 
-  // The arms start at rest, so they start where the waves turn back.
+  // The arms start at rest, so they start at an extreme of the waves.
   Loop<TwoArmTorsoSim, ComputedTorque> loop(TwoArmTorsoSim(
       {.period = 0.01, .substeps = 10, .initial_position = waves.sample(0).position}));
   Plot plot("two_arms",

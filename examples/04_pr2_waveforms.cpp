@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sinusoidal torques from a file on some joints of a PR2, whose springs carry its arms.
+// Sinusoidal torques from a YAML file act on some joints of a PR2. Springs carry its arms.
 #include <articula/articula.hpp>
 #include <articula/config/load_signals.hpp>
 #include <articula/robots/pr2.hpp>
@@ -11,7 +11,7 @@
 
 using namespace articula;
 
-/// The reference's effort, on top of what carries the weight.
+/// The reference's effort, added to the gravity effort.
 template <class R>
 using Counterbalanced =
     EffortController<R, GravityCompensation<R>, EffortFeedforward<joint_count<R>>>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Q2D in real time: 1 kHz under SCHED_FIFO, supervised, recorded, until it is there or Ctrl-C.
+// The Q2D in real time: 1 kHz under SCHED_FIFO, supervised and recorded. The run ends at the target
+// or by Ctrl-C.
 #include <articula/articula.hpp>
 #include <articula/loop/realtime/run_realtime.hpp>
 #include <articula/loop/realtime/stop_on_signal.hpp>
@@ -14,12 +15,12 @@ using namespace articula;
 
 int main() {
   // On the real arm: Q2dCan in place of Q2dSim.
-  // A desktop machine is forgiven its overruns; leave `overruns` out for an arm.
+  // `overruns` tolerates the overruns of a desktop machine; omit it for an arm.
   SupervisedLoop<Q2dSim, PidPlusGravity> arm(
       SupervisionOptions{.behaviour = SafeBehaviour::hold, .overruns = 1000});
   using Record = CycleRecordOf<decltype(arm)>;
 
-  // Recorded on another thread, so that the loop never waits for the disk.
+  // Another thread writes the records, so that the loop never waits for the disk.
   CsvWriter<Q2d, EffortCommand<2>> csv("realtime_loop.csv");
   RecordStream<Record> stream({[&](const Record& record) { csv.write(record); }});
 

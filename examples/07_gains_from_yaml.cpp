@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the course's configuration files to a running loop.
+// A loop with gains and update rate from the YAML files of a course.
 #include <articula/articula.hpp>
 #include <articula/config/load_controller_manager.hpp>
 #include <articula/config/load_pid_gains.hpp>
@@ -27,10 +27,10 @@ int main() try {
   }
   std::printf("(%.3f, %.3f) rad\n", loop.state().position[0], loop.state().position[1]);
 
-  // A file for another robot is an error that says where.
+  // A file for another robot is an error with file, line and column.
   return static_cast<int>(
       load_pid_gains(Q2d(), ConfigSource::text("joint: elbow", "slip")).gains.size());
-} catch (const ConfigError& error) {
+} catch (const FileError& error) {
   std::printf("%s\n", error.what());
 }
 // pid_plus_gravity_controller at 1000 Hz, gravity -9.8 m/s^2, priority 99

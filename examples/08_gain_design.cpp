@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gain design for the Q2D: a course's gains checked, a slip in its inertia found, and gains from
-// the right one. Plant (1/I)/(s (s + 1/T)), crossover at 2 pi/(10.97 T), 60 degrees of margin.
+// Gain design for the Q2D. The program checks a course's gains, shows a slip in its inertia, and
+// designs gains for the correct one. The plant is (1/I)/(s (s + 1/T)), the crossover
+// 2 pi/(10.97 T), and the phase margin 60 degrees.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -11,7 +12,7 @@ using namespace articula;
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// What becomes of gains on a joint with this inertia [kg m^2] and time constant [s].
+/// Prints the loop of these gains on a joint with this inertia [kg m^2] and time constant [s].
 void judge(const char* what, double inertia, double time_constant, const PidGains& gains) {
   const JointPlant plant{.inertia = inertia, .time_constant = time_constant};
   const double crossover = 2 * std::numbers::pi / 10.97 / time_constant;
@@ -27,12 +28,12 @@ void judge(const char* what, double inertia, double time_constant, const PidGain
 }
 
 int main() {
-  // The course takes inertias about centres of mass, each joint with all that it carries.
+  // The course uses inertias about centres of mass, of each joint with its whole load.
   const JointVector<2> stretched(0, 0);
   const CarriedBody shoulder = carried_body(Q2d(), stretched, "shoulder_active_joint");
   const CarriedBody elbow = carried_body(Q2d(), stretched, "elbow_active_joint");
-  // The slip: the shoulder's mass already holds the elbow's, yet the sum of all moments is divided
-  // by both. The inertia is then taken about a point that is not the centre of mass.
+  // The slip: the shoulder's mass already contains the elbow's, but the sum of all moments is
+  // divided by both. The reference point of the inertia is then not the centre of mass.
   const double wrong = shoulder.mass * shoulder.lever / (shoulder.mass + elbow.mass);
   const double off = shoulder.lever - wrong;
   const double slip = shoulder.about_center + shoulder.mass * off * off;
@@ -42,7 +43,7 @@ int main() {
   judge("shoulder, course", slip, 0.005, Q2d::pid_gains[0]);
   judge("shoulder, without the slip", shoulder.about_center, 0.005, Q2d::pid_gains[0]);
 
-  // But a drive turns its load about the joint's axis: that is the diagonal of the mass matrix.
+  // A drive turns its load about the joint's axis: this is the diagonal of the mass matrix.
   const double axis = equivalent_inertia(Q2d(), stretched, "shoulder_active_joint");
   judge("shoulder, about its axis", axis, 0.005, Q2d::pid_gains[0]);
   const LoopTarget target{.crossover = 2 * std::numbers::pi / 10.97 / 0.005,
@@ -63,6 +64,6 @@ int main() {
 // shoulder, designed, I 0.211797: p 5592 i 21391 d 1.462
 //   |L| 1.000, margin 60.0 deg; |L| 1 at 114.6 rad/s; overshoot 13.2 %, settled 119 ms
 //
-// What the slip adds is little beside what the centre of mass leaves out: about its axis the
-// shoulder's inertia is 2.7 times as much, and the course's gains make half the crossover they were
-// meant for. The right ones reach the drive's 27.94 N m in steps above 5 mrad.
+// The slip matters less than the choice of the centre of mass: about its axis the shoulder's
+// inertia is 2.7 times as large. The course's gains give half of the planned crossover. The correct
+// gains reach the drive's 27.94 N m in steps above 5 mrad.

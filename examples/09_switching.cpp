@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Switching under load: a constant torque moves the Q2D, then two controllers keep it moving, and
-// then none does. The effort makes no step.
+// Switching under load. A constant torque moves the Q2D, then two controllers continue the motion,
+// and then none is active. The effort makes no step.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -21,7 +21,7 @@ int main() {
             {"shoulder [rad]", "elbow [rad]", "shoulder effort [N m]", "elbow effort [N m]"});
 
   loop.reference().effort = {8, -1};  // N m, for the bypass, which is active at first
-  JointReference<2> moving;           // from there on at the same speed
+  JointReference<2> moving;           // continues at the same speed
   double largest = 0;                 // change of the shoulder's effort in a cycle
   for (int k = 0; k < 4000; ++k) {
     const Name before = loop.controller().active();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trying out what surrounds an arm without one: mock hardware does what it is told, and fails by a
-// script. Here it goes silent for a while; the loop notices, is safe, and goes on when asked to.
+// A test of supervision without an arm. Mock hardware follows every command, and fails by a script.
+// Here it sends no measurements for a while. The loop reports a fault, writes safe commands, and
+// continues after a request.
 #include <articula/articula.hpp>
 #include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/robots/q2d.hpp>
@@ -26,13 +27,13 @@ int main() {
   run(2);
   arm.post({.position = {-0.5, 0.5}});
   run(20);
-  run(100);  // silent from the 100th reading on: three such cycles are borne with
+  run(100);  // silent from the 100th reading on: three such cycles are tolerated
   std::printf("why: %s\n", to_string(arm.fault()).data());
-  run(100);  // it stays there until somebody has looked
+  run(100);  // the fault lasts until it is acknowledged
   arm.acknowledge_fault();
   run(1);
   arm.request_activation();
-  run(10);  // and nobody's old wish is carried out
+  run(10);  // older references are dropped
 }
 //   9 ms: inactive, at (0.00, 0.00) rad
 //  11 ms: active, at (0.00, 0.00) rad

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Trajectories with tolerances on the Q2D: followed, replaced on the way, aborted.
+// Trajectories with tolerances on the Q2D: one is followed, one replaced on the way, one aborted.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 using Q2dLoop = Loop<Q2dSim, PidPlusGravity>;
 using Follower = TrajectoryFollower<Q2d>;
 
-/// Follows the trajectory from now on, for a while, and tells what has become of it.
+/// Follows the trajectory for a number of cycles and prints the outcome.
 void follow(const Trajectory<Q2d>& trajectory, const TrajectoryTolerances<2>& tolerances,
             Q2dLoop& loop, Follower& follower, int cycles) {
   if (follower.start(trajectory, tolerances) != TrajectoryOutcome::active) std::exit(1);
@@ -36,11 +36,11 @@ int main() {
        {.time_from_start = 2, .position = {-1, 1}, .velocity = still}});
   const Trajectory<Q2d> back({{.time_from_start = 2, .position = {0, 0}, .velocity = still}});
 
-  // Stops keep these limits, and the way into a trajectory that replaces another one does.
+  // The limits of stops, and of the way into a trajectory that replaces another one.
   const MotionLimits<2> limits = motion_limits(Q2d(), {10, 30}, {200, 600});  // rad/s^2, rad/s^3
   const TrajectoryTolerances<2> wide{
       .path_position = {0.1, 0.1}, .goal_position = {0.01, 0.01}, .goal_time = 0.5};
-  const TrajectoryTolerances<2> tight{.path_position = {0.002, 0.002}};  // the PID is not that good
+  const TrajectoryTolerances<2> tight{.path_position = {0.002, 0.002}};  // too tight for the PID
 
   Q2dLoop loop;
   Follower follower(loop.state().position, limits);

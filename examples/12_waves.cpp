@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waves on two joints: in opposite phase, with a second wave on one of them, slowed to a pause.
+// Waves on two joints in opposite phase, with a second wave on one of them. A clock slows them to a
+// pause.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -20,7 +21,7 @@ int main() {
   SpeedOverride clock;
   JointVector<2> worst(0, 0);
   for (int k = 0; k <= 5000; ++k) {
-    if (k == 4000) clock.set(0);  // the waves run out, smoothly
+    if (k == 4000) clock.set(0);  // the waves stop smoothly
     loop.reference() = clock.apply(waves.sample(clock.time()));
     if (loop.update() != Status::ok) return 1;
     clock.advance(loop.period());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drives that count at the motors: the Q2D's two joints behind a differential of two motors. Here
-// the motors are simulated, by the same differential turned round; on a real arm `Motors` is the
-// driver.
+// A transmission: the Q2D's two joints behind a differential of two motors. The drives measure at
+// the motors. Here the same differential, reversed, simulates the motors. On a real arm `Motors` is
+// the driver.
 #include <articula/articula.hpp>
 #include <articula/hardware/transmission/differential_transmission.hpp>
 #include <articula/hardware/transmission/reversed_transmission.hpp>
@@ -14,8 +14,8 @@
 using namespace articula;
 
 using Differential = DifferentialTransmission;
-using Motors = TransmittedHardware<Q2dSim, Q2d, Reversed<Differential>>;  // what a driver would be
-using Arm = TransmittedHardware<Motors, Q2d, Differential>;               // what the loop controls
+using Motors = TransmittedHardware<Q2dSim, Q2d, Reversed<Differential>>;  // a driver's place
+using Arm = TransmittedHardware<Motors, Q2d, Differential>;               // the loop's hardware
 
 int main() {
   const Differential differential{.actuator_reduction = {50, 50},  // n_1, n_2
@@ -23,7 +23,7 @@ int main() {
                                   .joint_offset = {0.1, 0}};       // [rad]
   const std::array<Name, 2> joints{"shoulder_active_joint", "elbow_active_joint"};
 
-  // A motor goes by the name of one of its hardware's joints, which here are the simulator's.
+  // A motor has the name of one of its hardware's joints, here the simulator's.
   Motors motors(Q2dSim(), {.joints = joints,
                            .actuators = joints,
                            .transmission = Reversed<Differential>{differential}});

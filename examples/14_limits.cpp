@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limits between controller and drives: a step that is far too large, and a position beyond the
-// arm's range. What was limited is told, and whether the limits held is checked.
+// arm's range. The program counts the limited cycles and checks that the limits held.
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -14,7 +14,7 @@ template <class R>
 using Careful = Limited<R, PidPlusGravity<R>>;
 
 int main() {
-  CommandLimits<2> limits = command_limits(Q2d());  // position, velocity, effort: the description's
+  CommandLimits<2> limits = command_limits(Q2d());  // the description's
   limits.velocity = {0.5, 2};                       // rad/s
   limits.acceleration = {10, 100};                  // rad/s^2
   Loop<Q2dSim, Careful> loop{Careful<Q2d>(limits)};
@@ -48,8 +48,8 @@ int main() {
   std::printf("at most (%.4f, %.4f) rad, (%.3f, %.3f) rad/s, (%.2f, %.2f) rad/s^2\n", furthest[0],
               furthest[1], fastest[0], fastest[1], hardest[0], hardest[1]);
   plot.save();
-  // The motion is foreseen at the beginning of each cycle: within it the other joint pulls a
-  // little.
+  // The model predicts the motion at the beginning of each cycle. Within it the other joint adds a
+  // small acceleration.
   const bool held = (furthest.array() <= limits.upper.array() + 1e-3).all() &&
                     (fastest.array() <= 1.01 * limits.velocity.array()).all() &&
                     (hardest.array() <= 1.05 * limits.acceleration.array()).all();

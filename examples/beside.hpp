@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-/// The path of a file beside this one, from whichever folder the program runs. CMake defines the
-/// folder as ARTICULA_EXAMPLES; without it, the compiler's own name of this file tells.
+/// The path of a file beside this one, for a program that runs in any folder. CMake defines the
+/// folder as ARTICULA_EXAMPLES. Without it, the folder is that of __FILE__.
 inline std::string beside(std::string_view file) {
 #ifdef ARTICULA_EXAMPLES
   const std::filesystem::path folder = ARTICULA_EXAMPLES;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The picture of a run, for the numbered examples.
+/// @file Figures of runs, drawn by gnuplot: a general one, and one for the numbered examples.
 #pragma once
 
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <stdexcept>
@@ -12,8 +13,83 @@
 #include <utility>
 #include <vector>
 
-/// Collects what an example did and draws it with gnuplot: one curve per column, one panel per
-/// unit.
+/// A curve of a panel.
+struct Curve {
+  std::string data;   ///< what gnuplot draws: a function, or as from `column_of`
+  std::string style;  ///< in gnuplot's words; may be empty
+  std::string title;  ///< in the key; none if empty
+};
+
+/// A column of a CSV file over its first column.
+/// @param number  of the column, from 1
+/// @param skip    every so many rows are drawn
+inline std::string column_of(const std::string& csv, std::size_t number, long skip = 1) {
+  return "'" + csv + "' every " + std::to_string(skip) + "::1 using 1:" + std::to_string(number);
+}
+
+/// Curves of one unit over time.
+struct Panel {
+  std::string title;  ///< may be empty
+  std::string unit;   ///< label of the vertical axis
+  std::vector<Curve> curves{};
+  std::string range = "[*:*]";  ///< of the vertical axis
+  std::string times = "[]";     ///< of the horizontal axis; all data by default
+};
+
+/// Panels in rows. The script, the drawing and the data lie in one folder.
+struct Figure {
+  std::string name;  ///< of <name>.gp and <name>.svg
+  int width = 900, height = 700;
+  std::size_t columns = 1;
+  std::string layout{};  ///< more words for gnuplot's `set multiplot`
+  std::string key = "outside center top horizontal";
+  std::vector<Panel> panels{};
+
+  /// Writes <name>.gp.
+  /// @throws std::runtime_error if the file cannot be written
+  void write_script(const std::filesystem::path& folder) const {
+    const std::filesystem::path path = folder / (name + ".gp");
+    std::ofstream script(path);
+    script << "# Draws " << name << ".svg in this folder: gnuplot " << name << ".gp\n"
+           << "set terminal svg size " << width << ',' << height
+           << " font 'Helvetica,15' background rgb 'white'\nset output '" << name << ".svg'\n"
+           << "set datafile separator ','\nset autoscale xfix\nset lmargin 10\n"
+           << "set offsets 0, 0, graph 0.05, graph 0.05\nset grid linecolor rgb '#d0d0d0'\n"
+           << "set key " << key << "\nset multiplot layout "
+           << (panels.size() + columns - 1) / columns << ',' << columns << ' ' << layout << '\n';
+    for (std::size_t k = 0; k < panels.size(); ++k) {
+      const Panel& panel = panels[k];
+      if (k + columns == panels.size()) script << "set xlabel 'time [s]'\n";
+      script << "set title '" << panel.title << "' offset 0,-0.5\nset ylabel '" << panel.unit
+             << "'\nplot " << panel.times << ' ' << panel.range;
+      const char* separator = " ";
+      for (const auto& [data, style, title] : panel.curves) {
+        script << separator << "\\\n  " << data << " with lines " << style << " title '" << title
+               << "' noenhanced";
+        separator = ", ";
+      }
+      script << '\n';
+    }
+    script << "unset multiplot\n";
+    script.close();
+    if (!script) throw std::runtime_error("cannot write " + path.string());
+  }
+
+  /// Runs the script.
+  /// @return false if gnuplot is not installed
+  /// @throws std::runtime_error if gnuplot fails
+  [[nodiscard]] bool draw(const std::filesystem::path& folder) const {
+    if (std::system("command -v gnuplot >/dev/null") != 0) return false;
+    const std::filesystem::path here = std::filesystem::current_path();
+    std::filesystem::current_path(folder);  // so that no shell has to read the folder's name
+    const int status = std::system(("gnuplot " + name + ".gp").c_str());
+    std::filesystem::current_path(here);
+    if (status != 0) throw std::runtime_error("gnuplot failed on " + name + ".gp");
+    return true;
+  }
+};
+
+/// Collects the values of a run and draws them: one curve per column, one panel per unit.
 ///
 ///     Plot plot("waves", {"shoulder [rad]", "elbow [rad]", "elbow effort [N m]"});
 ///     plot.add(loop.time(), {state.position[0], state.position[1], state.effort[1]});
@@ -21,73 +97,51 @@
 class Plot {
  public:
   /// @param name     of the files, made of letters, digits and underscores
-  /// @param columns  what is drawn, each with its unit in brackets at the end
-  Plot(std::string name, std::vector<std::string> columns)
-      : name_(std::move(name)), columns_(std::move(columns)), file_(name_ + ".csv") {
+  /// @param columns  names of the curves, each with its unit in brackets at the end
+  Plot(std::string name, const std::vector<std::string>& columns)
+      : figure_{.name = std::move(name)}, width_(columns.size()), file_(csv()) {
     file_.precision(9);
     file_ << "time [s]";
-    for (const std::string& column : columns_) file_ << ',' << column;
+    for (std::size_t c = 0; c < width_; ++c) {
+      file_ << ',' << columns[c];
+      const std::size_t end = columns[c].rfind('[');
+      panel_of(columns[c].substr(end))
+          .curves.push_back(
+              {column_of(csv(), c + 2), "linewidth 2", columns[c].substr(0, end - 1)});
+    }
     file_ << '\n';
+    figure_.height = 80 + 300 * static_cast<int>(figure_.panels.size());
   }
 
   /// One point in time [s], with a value for each column.
   void add(double time, std::initializer_list<double> values) {
-    if (values.size() != columns_.size()) throw std::invalid_argument("plot: columns and values");
+    if (values.size() != width_) throw std::invalid_argument("plot: one value for each column");
     file_ << time;
     for (const double value : values) file_ << ',' << value;
     file_ << '\n';
   }
 
-  /// Writes the files and draws. Without gnuplot, says so and leaves the rest.
+  /// Writes the files and draws. Without gnuplot, prints a line and leaves the data.
   /// @throws std::runtime_error if a file cannot be written or gnuplot fails
   void save() {
     file_.close();
-    if (!file_) throw std::runtime_error("plot: cannot write " + name_ + ".csv");
-    write_script();
-    if (std::system("command -v gnuplot >/dev/null") != 0) {
-      std::printf("no plot: gnuplot is not installed; the numbers are in %s.csv\n", name_.c_str());
-      return;
-    }
-    if (std::system(("gnuplot " + name_ + ".gp").c_str()) != 0) {
-      throw std::runtime_error("plot: gnuplot failed on " + name_ + ".gp");
-    }
+    if (!file_) throw std::runtime_error("plot: cannot write " + csv());
+    figure_.write_script(".");
+    if (figure_.draw(".")) return;
+    std::printf("no plot: gnuplot is not installed; the numbers are in %s\n", csv().c_str());
   }
 
  private:
-  static std::string unit(const std::string& column) { return column.substr(column.rfind('[')); }
+  [[nodiscard]] std::string csv() const { return figure_.name + ".csv"; }
 
-  void write_script() const {
-    std::vector<std::string> units;  // in the order of their first column
-    for (const std::string& column : columns_) {
-      bool known = false;
-      for (const std::string& u : units) known = known || u == unit(column);
-      if (!known) units.push_back(unit(column));
+  Panel& panel_of(const std::string& unit) {
+    for (Panel& panel : figure_.panels) {
+      if (panel.unit == unit) return panel;
     }
-    std::ofstream script(name_ + ".gp");
-    script << "set terminal svg size 900," << 80 + 300 * units.size()
-           << " font 'Helvetica,15' background rgb 'white'\n"
-           << "set output '" << name_ << ".svg'\n"
-           << "set datafile separator ','\nset grid\nset offsets 0, 0, graph 0.05, graph 0.05\n"
-           << "set lmargin 10\nset key outside center top horizontal\nset multiplot layout "
-           << units.size() << ",1\n";
-    for (std::size_t u = 0; u < units.size(); ++u) {
-      if (u + 1 == units.size()) script << "set xlabel 'time [s]'\n";
-      script << "set ylabel '" << units[u] << "'\nplot ";
-      for (std::size_t c = 0; c < columns_.size(); ++c) {
-        const std::string& column = columns_[c];
-        if (unit(column) != units[u]) continue;
-        script << "'" << name_ << ".csv' every ::1 using 1:" << c + 2
-               << " with lines linewidth 2 title '" << column.substr(0, column.rfind(" ["))
-               << "' noenhanced, ";
-      }
-      script << "\n";
-    }
-    script << "unset multiplot\n";
-    script.close();
-    if (!script) throw std::runtime_error("plot: cannot write " + name_ + ".gp");
+    return figure_.panels.emplace_back(Panel{.title = "", .unit = unit});
   }
 
-  std::string name_;
-  std::vector<std::string> columns_;
+  Figure figure_;
+  std::size_t width_;
   std::ofstream file_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "header_text.hpp"
 
-#include <articula/urdf/xml/numbers.hpp>
+#include <articula/text/numbers.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file Turns a URDF into a header with the robot's description; articula_add_robot runs it.
 #include "header_text.hpp"
 
-#include <articula/urdf/xml/numbers.hpp>
+#include <articula/text/numbers.hpp>
 
 #include <cstdio>
 #include <exception>

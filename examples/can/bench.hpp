@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Plays an arm's drives on a CAN interface.
+/// @file Simulated drives of an arm on a CAN interface.
 #pragma once
 
 #include "articula/hardware/can/socketcan.hpp"
@@ -20,19 +20,19 @@
 
 namespace articula::examples {
 
-/// How the drives are played.
+/// Options of the simulated drives.
 struct BenchOptions {
   std::string interface = "vcan0";
   bool cia402 = false;
-  bool lockstep = false;   ///< time passes with SYNC only
-  double sync_period = 0;  ///< CiA 402: the drives send SYNC, so often [s]; 0: the host does
+  bool lockstep = false;   ///< time passes only with SYNC
+  double sync_period = 0;  ///< CiA 402: period of SYNC from the drives [s]; 0: from the host
   double duration = 0;     ///< by the clock [s]; 0: until stopped
-  unsigned seed = 1;       ///< of the garbage
+  unsigned seed = 1;       ///< of the random bytes
   SimulatorOptions<2> simulator{};
   std::vector<ScriptedFault> faults{};
 };
 
-/// What came of it.
+/// Counts and figures of a run.
 struct BenchReport {
   std::uint64_t syncs = 0;
   std::uint64_t silent_periods = 0;
@@ -42,12 +42,12 @@ struct BenchReport {
   JointVector<2> highest_effort = JointVector<2>::Zero();
 };
 
-/// Plays drives on an interface. While SYNC comes, it gives the time; while it does not, the clock.
-/// SYNC comes from the host or, by the clock, from here.
+/// Simulates drives on an interface. Time passes with each SYNC, and by the clock while SYNC is
+/// missing. SYNC is from the host or, by the clock, from the drives.
 template <class Protocol>
 class Bench {
  public:
-  /// @throws std::runtime_error if there is no such interface
+  /// @throws std::runtime_error if the interface does not exist
   explicit Bench(const BenchOptions& options)
       : options_(options),
         drives_(Protocol::make(options.simulator)),
@@ -57,7 +57,7 @@ class Bench {
     open();
   }
 
-  /// Plays until the flag is raised or the time is over.
+  /// Runs until the flag is raised or the duration is over.
   BenchReport play(const StopFlag& stop) {
     const auto begin = socket_.now();
     last_period_ = next_sync_ = begin;
@@ -88,7 +88,7 @@ class Bench {
     return options_.sync_period > 0 ? next_sync_ - socket_.now() : std::chrono::seconds(1);
   }
 
-  /// Sends SYNC if it is due, and takes it as the drives do.
+  /// Sends SYNC to host and drives if it is due.
   void send_sync() {
     if (time_to_sync().count() > 0) return;
     const std::chrono::nanoseconds period(std::llround(options_.sync_period * 1e9));
@@ -114,10 +114,10 @@ class Bench {
     post(answers);
   }
 
-  /// Lets the periods pass for which no SYNC came.
+  /// Simulates the periods without SYNC.
   void catch_up() {
     const auto period = std::chrono::nanoseconds(std::llround(options_.simulator.period * 1e9));
-    const auto patience = 2 * period;  // a SYNC may be a little late
+    const auto patience = 2 * period;  // SYNC may be late
     while (socket_.now() - last_period_ > patience) {
       CanBatch answers;
       drives_.pass_silent_period(answers);
@@ -128,7 +128,7 @@ class Bench {
     }
   }
 
-  /// Faults that happen once.
+  /// Begins faults that occur once.
   void begin_faults() {
     for (std::size_t k = 0; k < options_.faults.size(); ++k) {
       const ScriptedFault& fault = options_.faults[k];
@@ -143,7 +143,7 @@ class Bench {
     }
   }
 
-  /// The fault of a kind that is on for a joint now.
+  /// Whether a fault is active for a joint now.
   [[nodiscard]] bool is_on(FaultKind kind, int joint) const {
     for (const ScriptedFault& fault : options_.faults) {
       if (fault.kind == kind && fault.applies_to(joint) && fault.is_on(time())) return true;
@@ -151,7 +151,7 @@ class Bench {
     return false;
   }
 
-  /// Queues frames, in the condition in which the faults leave them.
+  /// Queues frames, changed by the active faults.
   void post(const CanBatch& answers) {
     for (CanFrame frame : answers) {
       int joint = 0;
@@ -176,7 +176,7 @@ class Bench {
     }
   }
 
-  /// What a controller would report to everybody on its interface.
+  /// Sends the error frame of a controller that has left the bus.
   void report_bus_off() {
     const int socket = ::socket(PF_CAN, SOCK_RAW, CAN_RAW);
     sockaddr_can address{};

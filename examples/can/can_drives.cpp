@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Plays the Quanser arm's drives on a CAN interface, with a simulated arm behind them.
+/// @file Simulates the Quanser arm and its drives on a CAN interface.
 #include "bench.hpp"
 
 #include "articula/loop/realtime/stop_on_signal.hpp"
@@ -22,41 +22,43 @@ using namespace articula::examples;
 namespace {
 
 /// Reads the command line.
-/// @return empty if it asked for help, which has been printed
-/// @throws std::invalid_argument saying what makes no sense
+/// @return empty after printing help
+/// @throws std::invalid_argument with the invalid option
 std::optional<BenchOptions> parse_options(int argc, const char* const* argv) {
   BenchOptions options;
   std::string protocol = "quanser";
   std::array<double, 2> initial{};
   std::vector<std::string> faults;
   CLI::App app{
-      "Plays the drives of the Quanser arm on a CAN interface, with a simulated arm behind them, "
-      "until interrupted. Time passes with each SYNC, and by the clock while there is none."};
+      "Simulates the Quanser arm and its drives on a CAN interface until interrupted. "
+      "Time passes with each SYNC, and by the clock while SYNC is missing."};
   app.add_option("--interface", options.interface, "The CAN interface")
       ->type_name("NAME")
       ->capture_default_str();
-  app.add_option("--protocol", protocol, "What the drives speak: quanser or cia402")
+  app.add_option("--protocol", protocol, "Protocol of the drives: quanser or cia402")
       ->type_name("NAME")
       ->check(CLI::IsMember({"quanser", "cia402"}))
       ->capture_default_str();
-  app.add_option("--initial", initial, "Where the arm stands at first, shoulder and elbow [rad]")
+  app.add_option("--initial", initial, "Initial position of shoulder and elbow [rad]")
       ->type_name("J1,J2")
       ->delimiter(',');
-  app.add_option("--duration", options.duration, "How long to play [s]; 0: until interrupted")
+  app.add_option("--duration", options.duration, "Duration [s]; 0: until interrupted")
       ->type_name("T")
       ->capture_default_str();
-  app.add_flag("--lockstep", options.lockstep, "Time passes with SYNC only, never by the clock");
+  app.add_flag("--lockstep", options.lockstep, "Time passes only with SYNC, never by the clock");
   app.add_option(
          "--sync-period", options.sync_period,
-         "How often the drives send SYNC, by the clock, 0.001 to 1 s; 0: the host sends it. "
+         "Period of SYNC from the drives, by the clock, 0.001 to 1 s; 0: the host sends SYNC. "
          "CiA 402 only")
       ->type_name("T")
       ->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the garbage")->type_name("N")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of the random bytes")
+      ->type_name("N")
+      ->capture_default_str();
   app.add_option("--fault", faults,
-                 "Something that goes wrong, KIND[:JOINT]@START[+DURATION] in seconds of the "
+                 "A fault, KIND[:JOINT]@START[+DURATION] in seconds of the "
                  "drives' time, joints 1 and 2: silence, garbage, delay (5 ms), fault, restart, "
-                 "bus-off, no-sync; may be given again")
+                 "bus-off, no-sync; may be repeated")
       ->type_name("FAULT");
   try {
     app.parse(argc, argv);
@@ -75,11 +77,11 @@ std::optional<BenchOptions> parse_options(int argc, const char* const* argv) {
     if (!(options.sync_period >= 1e-3 && options.sync_period <= 1)) {
       throw std::invalid_argument("--sync-period: not a number from 0.001 to 1, or 0");
     }
-    if (!options.cia402) throw std::invalid_argument("--sync-period: for CiA 402 only");
+    if (!options.cia402) throw std::invalid_argument("--sync-period: only for CiA 402");
     if (options.lockstep) {
-      throw std::invalid_argument("--sync-period: SYNC comes by the clock, and not in lockstep");
+      throw std::invalid_argument("--sync-period: SYNC by the clock excludes --lockstep");
     }
-    // A period between two SYNC, in steps of a millisecond as usual.
+    // One period between two SYNC, integrated in steps of a millisecond.
     options.simulator.substeps = static_cast<int>(std::ceil(options.sync_period / 1e-3));
     options.simulator.period = options.sync_period;
   }
@@ -109,7 +111,7 @@ int complain(std::string message, int exit_status) {
 
 }  // namespace
 
-/// @return 0; 1 if the interface fails; 2 if the options make no sense
+/// @return 0; 1 if the interface fails; 2 for invalid options
 int main(int argc, char** argv) try {
   const std::optional<BenchOptions> options = parse_options(argc, argv);
   if (!options) return 0;

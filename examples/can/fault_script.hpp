@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Faults on request: what goes wrong at the drives' end of the bus, and when.
+/// @file Scripted faults of the drives on the bus: kinds and times.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 
 namespace articula::examples {
 
-/// What can go wrong.
+/// Kinds of faults.
 enum class FaultKind {
-  silence,  ///< a drive's frames are not sent
+  silence,  ///< a drive sends no frames
   garbage,  ///< a drive's feedback is replaced by frames of random bytes
   delay,    ///< all frames are sent 5 ms late
   fault,    ///< a drive faults by itself
-  restart,  ///< a drive loses its supply for a moment
-  no_sync,  ///< SYNC is not sent, where the drives send it
-  bus_off,  ///< the controllers report that they have left the bus
+  restart,  ///< a drive loses its supply briefly
+  no_sync,  ///< the drives send no SYNC
+  bus_off,  ///< the controllers report bus-off
 };
 
 /// One fault: `kind[:joint]@start[+duration]`, joints counted from 1, times in seconds.
@@ -29,7 +29,7 @@ struct ScriptedFault {
   FaultKind kind = FaultKind::silence;
   int joint = 0;        ///< index; -1: all
   double start = 0;     ///< by the drives' time [s]
-  double duration = 0;  ///< [s]; 0: once, or for good
+  double duration = 0;  ///< [s]; 0: once, or until the end
 
   [[nodiscard]] bool applies_to(int which) const { return joint < 0 || joint == which; }
   [[nodiscard]] bool is_on(double time) const {
@@ -39,7 +39,7 @@ struct ScriptedFault {
 
 namespace detail {
 
-/// Names of the kinds, and whether they concern one drive.
+/// The name of a kind, and whether it is for one drive.
 struct FaultName {
   std::string_view name;
   FaultKind kind;
@@ -58,7 +58,7 @@ inline constexpr std::array fault_names{
 }  // namespace detail
 
 /// Reads a fault.
-/// @throws std::invalid_argument saying what makes no sense
+/// @throws std::invalid_argument with the invalid part
 [[nodiscard]] inline ScriptedFault parse_fault(const std::string& text, int joints) {
   const auto refuse = [&](const std::string& why) -> void {
     throw std::invalid_argument("--fault: '" + text + "': " + why);
@@ -75,16 +75,16 @@ inline constexpr std::array fault_names{
   ScriptedFault fault{.joint = -1};
   std::string_view rest = text;
   const std::size_t at = rest.find('@');
-  if (at == rest.npos) refuse("'@' and a start are missing");
+  if (at == rest.npos) refuse("'@START' is missing");
   std::string_view head = rest.substr(0, at), times = rest.substr(at + 1);
   const std::size_t colon = head.find(':');
   const auto known =
       std::ranges::find(detail::fault_names, head.substr(0, colon), &detail::FaultName::name);
-  if (known == detail::fault_names.end()) refuse("there is no such kind of fault");
+  if (known == detail::fault_names.end()) refuse("unknown kind of fault");
   fault.kind = known->kind;
   if (colon != head.npos) {
     const double joint = number(head.substr(colon + 1), "the joint");
-    if (!known->has_joint) refuse("this kind concerns no single joint");
+    if (!known->has_joint) refuse("this kind takes no joint");
     if (joint < 1 || joint > joints || joint != static_cast<int>(joint)) {
       refuse("the joint is not 1 .. " + std::to_string(joints));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The two protocols that the played drives speak.
+/// @file The two protocols of the simulated drives.
 #pragma once
 
 #include "articula/hardware/can/can_codec.hpp"
@@ -26,14 +26,14 @@ inline constexpr Cia402DriveList<2> q2d_cia402{{
      .velocity_scale = 1e6},
 }};
 
-/// The Quanser arm's own protocol.
+/// The protocol of the Quanser arm's joint modules.
 struct QuanserProtocol {
   using Drives = SimulatedQuanserDrives<Q2d>;
   static constexpr std::uint32_t sync = quanser::sync_identifier;
   static constexpr std::uint32_t feedback = quanser::position_base;
 
   static Drives make(const SimulatorOptions<2>& options) { return Drives(q2d_modules, options); }
-  /// What the drives listen to.
+  /// The frames that the drives receive.
   static CanSubscription subscription() {
     CanSubscription wanted{.identifiers = {sync}};
     for (const QuanserModule& module : q2d_modules) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Quanser arm on a CAN bus, or can_drives in its place: the same controller as on Q2dSim.
+// The Quanser arm, or can_drives, on a CAN bus, with the same controller as on Q2dSim.
 //
 //   q2d_over_can [<interface>] [<cycles>]        for example: q2d_over_can vcan0 2000
 #include <articula/articula.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Quanser arm with CiA 402 drives under the SYNC of another node, which paces the loop.
+// The Quanser arm with CiA 402 drives. Another node sends SYNC, which paces the loop.
 //
 //   can_drives --protocol=cia402 --sync-period=0.001 &
 //   q2d_paced_by_bus [<interface>] [<cycles>]    for example: q2d_paced_by_bus vcan0 2000
@@ -31,7 +31,7 @@ int main(int argc, char** argv) try {
   RealtimeOptions options{.thread = {.priority = 80}, .run = {.cycles = 2000, .stop = &stop}};
   if (argc > 2) options.run.cycles = std::strtoull(argv[2], nullptr, 10);
   options.thread.warn = [](const std::string& refusal) { std::puts(refusal.c_str()); };
-  const RunReport report = run(loop, options);  // in the pace of the bus, since the arm has one
+  const RunReport report = run(loop, options);  // paced by the bus
 
   std::printf("%d cycles, %s, %s, %d without SYNC, at %.3f %.3f rad\n",
               static_cast<int>(report.cycles), to_string(report.status).data(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The reference experiments: where the arm starts, what it is asked to do, and for how long.
+/// @file The reference experiments: initial position, reference and duration.
 #pragma once
 
 #include "articula/robots/q2d.hpp"

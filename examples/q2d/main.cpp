@@ -35,7 +35,9 @@ RunResult run(const Experiment& experiment, const std::string& controller, const
 /// Makes the output folder and puts the plot scripts there, which shows that it can be written to.
 void prepare_output(const Options& options) try {
   std::filesystem::create_directories(options.output);
-  for (const Experiment& experiment : options.experiments) write_plot_script(experiment, options);
+  for (const Experiment& experiment : options.experiments) {
+    figure_of(experiment, options).write_script(options.output);
+  }
 } catch (const std::runtime_error& error) {
   throw std::invalid_argument("--output: " + std::string(error.what()));
 }
@@ -50,10 +52,15 @@ void run_all(const Options& options) {
   }
   print_table(std::cout, runs);
   if (options.plots) {
-    for (const Experiment& experiment : options.experiments) draw_plot(experiment, options);
+    for (const Experiment& experiment : options.experiments) {
+      if (figure_of(experiment, options).draw(options.output)) continue;
+      throw std::runtime_error("no plots: gnuplot is not installed (Debian: gnuplot-nox); " +
+                               ("the recordings are in " + options.output.string()));
+    }
   }
   std::cout << "\nRecordings (CSV)" << (options.plots ? ", plots (SVG)" : "")
-            << " and plot scripts (gnuplot) are in " << options.output.string() << std::endl;
+            << " and plot scripts (gnuplot) are in " << options.output.string() << '\n'
+            << std::flush;
   if (!std::cout) throw std::runtime_error("cannot write to standard output");
 }
 

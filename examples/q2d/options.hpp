@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the user may choose on the command line.
+/// @file The options of the command line.
 #pragma once
 
 #include "experiments.hpp"
@@ -11,7 +11,7 @@
 
 namespace articula::examples {
 
-/// What to run, and how.
+/// Experiments, controllers and output.
 struct Options {
   std::vector<std::string> controllers{"bypass", "pid", "pid-plus-gravity", "computed-torque"};
   std::vector<Experiment> experiments = reference_experiments();
@@ -23,7 +23,7 @@ struct Options {
 
 /// Reads the command line.
 /// @return empty if it asked for help, which has been printed
-/// @throws std::invalid_argument saying what makes no sense
+/// @throws std::invalid_argument naming the wrong option
 [[nodiscard]] std::optional<Options> parse_options(int argc, const char* const* argv);
 
 }  // namespace articula::examples

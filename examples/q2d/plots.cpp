@@ -3,12 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <sstream>
-#include <stdexcept>
-
-#include <sys/wait.h>
 
 namespace articula::examples {
 
@@ -25,88 +20,61 @@ std::string title_of(const Experiment& e) {
   return e.name + ": " + pair(e.initial) + " to " + pair(e.target) + " rad";
 }
 
-// What all experiments share. Curves that lie on each other stay visible: the lower ones are wider.
-constexpr const char* body = R"(
-set terminal svg size 1100,800 font 'Helvetica,15' background rgb 'white'
-set output name.'.svg'
-set datafile separator ','
-set xrange [0:duration]
-set offsets 0, 0, graph 0.05, graph 0.05
-set grid linecolor rgb '#d0d0d0'
-set style line 1 linecolor rgb '#202020' linewidth 1.5 dashtype (10,6)  # reference
-set style line 2 linecolor rgb '#d02020' linewidth 1.5 dashtype (6,6)   # limits
-
-color(c) = c eq 'bypass' ? 0x909090 : c eq 'pid' ? 0xf5c060 : \
-           c eq 'pid-plus-gravity' ? 0xb04000 : 0x2060c0
-width(c) = c eq 'pid' ? 6 : 2
-file(c) = name.'_'.c.'.csv'
-column_of(j, what) = column(word(joints, j).'_active_joint '.what)
-limit(j) = real(word(limits, j))
-
-set multiplot layout 2,2 title 'Q2D, '.title margins 0.1,0.98,0.09,0.835 spacing 0.11,0.1
-set ylabel 'position [rad]'
-do for [j = 1:2] {
-  set title word(joints, j) offset 0,-0.5
-  set key at screen 0.54,0.955 center top vertical maxrows 2 Left reverse samplen 2.5
-  if (j == 2) { unset key }
-  plot for [c in controllers] file(c) every skip \
-         using 'time [s]':(column_of(j, 'position [rad]')) \
-         with lines linecolor rgb color(c) linewidth width(c) title c, \
-       file(word(controllers, 1)) every skip \
-         using 'time [s]':(column_of(j, 'position reference [rad]')) \
-         with lines linestyle 1 title 'reference', \
-       keyentry with lines linestyle 2 title 'limit'
+// Curves that lie on each other stay visible: the lower ones are wider.
+std::string style_of(const std::string& controller) {
+  if (controller == "bypass") return "linecolor rgb '#909090' linewidth 2";
+  if (controller == "pid") return "linecolor rgb '#f5c060' linewidth 6";
+  if (controller == "pid-plus-gravity") return "linecolor rgb '#b04000' linewidth 2";
+  return "linecolor rgb '#2060c0' linewidth 2";
 }
-unset title
-set xlabel 'time [s]'
-set ylabel 'effort command [N m]'
-do for [j = 1:2] {
-  set yrange [-1.15 * limit(j):1.15 * limit(j)]
-  plot for [c in controllers] file(c) every skip \
-         using 'time [s]':(column_of(j, 'effort command [N m]')) \
-         with lines linecolor rgb color(c) linewidth width(c), \
-       limit(j) linestyle 2, -limit(j) linestyle 2
-}
-unset multiplot
-)";
+const std::string reference_style = "linecolor rgb '#202020' linewidth 1.5 dashtype (10,6)";
+const std::string limit_style = "linecolor rgb '#d02020' linewidth 1.5 dashtype (6,6)";
+
+// Columns of a recording (csv_file.hpp): the time, and six for each joint.
+constexpr std::size_t position_reference = 2, position = 3, effort_command = 6, columns = 6;
 
 }  // namespace
 
-void write_plot_script(const Experiment& experiment, const Options& options) {
-  const std::filesystem::path path = options.output / (experiment.name + ".gp");
-  const Q2dVector limits = effort_limits(Q2d());
-  const double samples = experiment.duration / Q2dSim().period();
-  std::ofstream file(path);
-  file << "# Draws " << experiment.name << ".svg from the recordings in this folder: gnuplot "
-       << experiment.name << ".gp\n\n"
-       << "name = '" << experiment.name << "'\n"
-       << "title = '" << title_of(experiment) << "'\n"
-       << "controllers = '";
-  for (const std::string& controller : options.controllers) file << controller << ' ';
-  file << "'\njoints = '";
-  for (const std::string_view joint : joint_names(Q2d())) file << short_name(joint) << ' ';
-  file << "'\nlimits = '" << limits.transpose() << "'  # [N m]\n"
-       << "duration = " << experiment.duration << "  # [s]\n"
-       << "skip = " << std::max(1L, std::lround(samples / 1000))
-       << "  # draw every so many samples\n"
-       << body;
-  file.close();
-  if (!file) throw std::runtime_error("cannot write " + path.string());
-}
-
-void draw_plot(const Experiment& experiment, const Options& options) {
-  const std::filesystem::path here = std::filesystem::current_path();
-  // Work in the folder, which keeps its name out of the shell's hands.
-  std::filesystem::current_path(options.output);
-  const std::string command = "command -v gnuplot >/dev/null || exit 127; gnuplot ";
-  const int status = std::system((command + experiment.name + ".gp").c_str());
-  std::filesystem::current_path(here);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
-    throw std::runtime_error(
-        "no plots: gnuplot is not installed (Debian: gnuplot-nox); the recordings are in " +
-        options.output.string());
+Figure figure_of(const Experiment& experiment, const Options& options) {
+  const long samples = std::lround(experiment.duration / Q2dSim().period());
+  const long skip = std::max(1L, samples / 1000);
+  Figure figure{
+      .name = experiment.name,
+      .width = 1100,
+      .height = 800,
+      .columns = 2,
+      .layout =
+          "title 'Q2D, " + title_of(experiment) + "' margins 0.1,0.98,0.09,0.835 spacing 0.11,0.1",
+      .key = "at screen 0.54,0.955 center top vertical maxrows 2 Left reverse samplen 2.5"};
+  for (const bool is_effort : {false, true}) {
+    for (std::size_t joint = 0; joint < 2; ++joint) {
+      const bool has_key = !is_effort && joint == 0;  // of all panels
+      const auto title = [&](const std::string& text) { return has_key ? text : ""; };
+      Panel panel{.title = is_effort ? "" : std::string(short_name(joint_names(Q2d())[joint])),
+                  .unit = is_effort ? "effort command [N m]" : "position [rad]",
+                  .times = "[0:" + std::to_string(experiment.duration) + "]"};
+      const auto column = [&](const std::string& controller, std::size_t number) {
+        return column_of(csv_name(experiment, controller), number + columns * joint, skip);
+      };
+      for (const std::string& controller : options.controllers) {
+        panel.curves.push_back({column(controller, is_effort ? effort_command : position),
+                                style_of(controller), title(controller)});
+      }
+      if (is_effort) {
+        const double limit = effort_limits(Q2d())[static_cast<Eigen::Index>(joint)];
+        const std::string range = std::to_string(1.15 * limit);
+        panel.range = "[-" + range + ":" + range + "]";
+        panel.curves.push_back({std::to_string(limit), limit_style, ""});
+        panel.curves.push_back({std::to_string(-limit), limit_style, ""});
+      } else {
+        panel.curves.push_back({column(options.controllers.front(), position_reference),
+                                reference_style, title("reference")});
+        if (has_key) panel.curves.push_back({"NaN", limit_style, "limit"});
+      }
+      figure.panels.push_back(panel);
+    }
   }
-  if (status != 0) throw std::runtime_error("gnuplot failed on " + experiment.name + ".gp");
+  return figure;
 }
 
 }  // namespace articula::examples

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Plots of the recordings, drawn by gnuplot.
+/// @file The figure of an experiment: position and effort of both joints under all controllers.
 #pragma once
 
+#include "../plot.hpp"
 #include "options.hpp"
 
 namespace articula::examples {
@@ -12,13 +13,7 @@ namespace articula::examples {
   return experiment.name + "_" + controller + ".csv";
 }
 
-/// Writes <experiment>.gp into the output folder: the gnuplot script that draws <experiment>.svg,
-/// with position and effort under all controllers, from the recordings beside it.
-/// @throws std::runtime_error if the file cannot be written
-void write_plot_script(const Experiment& experiment, const Options& options);
-
-/// Draws <experiment>.svg.
-/// @throws std::runtime_error if gnuplot is missing or fails
-void draw_plot(const Experiment& experiment, const Options& options);
+/// The figure of the recordings of an experiment.
+[[nodiscard]] Figure figure_of(const Experiment& experiment, const Options& options);
 
 }  // namespace articula::examples

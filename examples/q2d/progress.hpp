@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A line that shows how far a long run has come.
+/// @file A progress line for long runs.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@ namespace articula::examples {
 /// One line on standard error, rewritten a few times a second. Less than a second shows nothing.
 class Progress {
  public:
-  /// @param what  is going on
+  /// @param what  name of the run
   explicit Progress(std::string what) : what_(std::move(what)) {}
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

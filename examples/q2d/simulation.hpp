@@ -18,7 +18,7 @@
 
 namespace articula::examples {
 
-/// What is said of one joint in one run.
+/// Results of one joint in one run.
 struct JointResult {
   StepMetrics step;
   double end_error = 0;        ///< position reference minus position in the last cycle [rad]
@@ -26,7 +26,7 @@ struct JointResult {
   double saturated_share = 0;  ///< share of the cycles whose command is at a limit of the drive
 };
 
-/// What is said of one run.
+/// Results of one run.
 struct RunResult {
   std::vector<JointResult> joints;
   double speed = 0;  ///< simulated seconds per second

@@ -10,7 +10,7 @@
 
 namespace articula::examples {
 
-/// One experiment under one controller, and what came of it.
+/// One experiment under one controller, with its result.
 struct Run {
   Experiment experiment;
   std::string controller;

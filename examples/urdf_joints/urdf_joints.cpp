@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Lists the joints of a URDF: what moves, about which axis, how far, how fast, how strongly.
+/// @file Lists the joints of a URDF with type, links, axis and limits.
 ///
 ///     urdf_joints robot.urdf [--moving] [--transmissions]
 ///                 [--model [--root LINK] [--tip LINK] [--lock JOINT]... [--allow-unphysical]]
 ///
-/// With --model it also says what the file, or that part of it, is to articula: the size to load it
-/// with, the joints in their order, and what should be known about it. A robot without masses is
-/// shown as load_kinematic_urdf loads it.
+/// With --model it also prints the call that loads the file, or that part of it: the sizes, the
+/// joints in their order, and the notices. A robot without masses is shown as load_kinematic_urdf
+/// loads it.
 ///
 /// Exit status 0; 1 if the file cannot be read or is no URDF, 2 if the options are wrong.
 #include <articula/model/build_model.hpp>

@@ -53,3 +53,4 @@
 #include "articula/tuning/stability_margins.hpp"
 #include "articula/tuning/step_metrics.hpp"
 #include "articula/tuning/step_response.hpp"
+#include "articula/version.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Feeds the readers of configuration files with anything. They must answer with parameters
-/// that can be used or with a ConfigError in one line, and with nothing else.
+/// that can be used or with a FileError in one line, and with nothing else.
 #include <articula/config/load_controller_manager.hpp>
 #include <articula/config/load_pid_gains.hpp>
 #include <articula/config/load_signals.hpp>
@@ -20,7 +20,7 @@ using namespace articula;
 void load(auto function) {
   try {
     function();
-  } catch (const ConfigError& error) {  // the right answer
+  } catch (const FileError& error) {  // the right answer
     const std::string_view message = error.what();
     for (const char c : message) {
       if (static_cast<unsigned char>(c) < 0x20) __builtin_trap();

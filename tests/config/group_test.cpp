@@ -84,7 +84,7 @@ TEST_CASE("of a group all joints have gains and lie in the chain") {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
       static_cast<void>(load_pid_gains(GripperArm(), yaml(text), "", GainsOf::some_joints));
-    } catch (const ConfigError& error) {
+    } catch (const FileError& error) {
       return error.what();
     }
     return "none";

@@ -38,7 +38,7 @@ const Load load_waves = [](const ConfigSource& source) {
 };
 
 /// A message is one line with everything in it.
-void check_message(const ConfigError& error) {
+void check_message(const FileError& error) {
   const std::string message = error.what();
   CHECK(std::none_of(message.begin(), message.end(),
                      [](char c) { return static_cast<unsigned char>(c) < 0x20; }));
@@ -76,7 +76,7 @@ void check_field(const Load& load, const Field& field) {
     try {
       load(yaml(text));
       CHECK(value == "taken");
-    } catch (const ConfigError& error) {
+    } catch (const FileError& error) {
       check_message(error);
       CAPTURE(std::string(error.what()));
       CHECK(error.line() == line);

@@ -24,7 +24,7 @@ PidConfig<2> loaded(const std::string& text, const std::string& name = "") {
 std::string complaint(const std::string& text, const std::string& name = "") {
   try {
     static_cast<void>(loaded(text, name));
-  } catch (const ConfigError& error) {
+  } catch (const FileError& error) {
     return error.what();
   }
   return "none";
@@ -70,7 +70,7 @@ TEST_CASE("a wildcard counts in its namespace") {
   CHECK(config.gains[1].integral == 0);
   REQUIRE(config.notes.size() == 1);
   CHECK(config.notes[0] ==
-        "test:1: /left/**.ros__parameters: not used, no section is in this namespace");
+        "test:1:12: /left/**.ros__parameters: not used, no section is in this namespace");
 }
 
 TEST_CASE("of several sections that mean a controller the later one is stronger, as in ROS 2") {
@@ -102,7 +102,7 @@ TEST_CASE("of several sections that mean a controller the later one is stronger,
   CHECK(config.gains[1].derivative == 2);
   CHECK(config.notes ==
         std::vector<std::string>{
-            "test:1: /left/arm.ros__parameters.elbow_active_joint.p: not used: "
+            "test:1:136: /left/arm.ros__parameters.elbow_active_joint.p: not used: "
             "/**.ros__parameters.elbow_active_joint.p in line 4 comes later and counts, as in "
             "ROS 2"});
 }
@@ -129,7 +129,7 @@ TEST_CASE("the forms of wildcards mean the controllers that they mean in ROS 2")
     for (const bool covered : {true, false}) {
       for (const std::string& name : covered ? each.covered : each.others) {
         CAPTURE(each.pattern, name);
-        CHECK(detail::SectionName(each.pattern).covers(detail::SectionName(name)) == covered);
+        CHECK(detail::SectionName(each.pattern).matches(detail::SectionName(name)) == covered);
         if (each.pattern.find('*') == std::string::npos) continue;
         // In a file that has both, whichever comes first; and with the key in two parts.
         const std::string own = name + ": " + controller("1");
@@ -204,7 +204,7 @@ TEST_CASE("constraints of a wildcard count, and what is for joints of others is 
     for (const std::string part : {"gains", "constraints"}) {
       CHECK(std::find(notes.begin(), notes.end(),
                       support::config_file("wildcard_controllers.yaml").name() +
-                          (part == "gains" ? ":7" : ":10") + ": /**.ros__parameters." + part +
+                          (part == "gains" ? ":7:20" : ":10:20") + ": /**.ros__parameters." + part +
                           ".wrist_joint: not used: joint 'wrist_joint' is not this "
                           "controller's") != notes.end());
     }
@@ -231,9 +231,9 @@ TEST_CASE("what a section inherits and does not know is noted with its own place
   const auto manager = load_controller_manager(yaml(text));
   CHECK(manager.update_rate == 500);
   REQUIRE(manager.notes.size() == 2);
-  CHECK(manager.notes[0] == "test:3: /**.ros__parameters.gravity: not used here");
+  CHECK(manager.notes[0] == "test:3:14: /**.ros__parameters.gravity: not used here");
   CHECK(loaded(text).notes ==
-        std::vector<std::string>{"test:4: /**.ros__parameters.foo: not used here"});
+        std::vector<std::string>{"test:4:10: /**.ros__parameters.foo: not used here"});
   CHECK(loaded(text).gravity == Vector3<double>{0, 0, -9.8});
 
   const std::string waves =
@@ -306,21 +306,21 @@ TEST_CASE("controllers of one joint each are put together where they say the sam
   CHECK(loaded(both("priority: 7", "priority: 7")).priority == 7);
 
   CHECK(complaint(both("priority: 7", "priority: 8")) ==
-        "test:2:55: b.priority: the priority is another one in line 1, expected the same for "
-        "controllers that are put together");
+        "test:2:55: b.priority: the priority differs from that in line 1, expected the same for "
+        "controllers that are combined");
   CHECK_THAT(complaint(both("gravity: {z: -9.8}", "gravity: {z: 9.8}")),
-             Contains("b.gravity: the gravity is another one in line 1"));
+             Contains("b.gravity: the gravity differs from that in line 1"));
   CHECK_THAT(complaint(both("chain: {root: base_link}", "chain: {root: origin_link}")),
-             Contains("b.chain.root: the root is another one in line 1"));
+             Contains("b.chain.root: the root differs from that in line 1"));
   CHECK_THAT(complaint(both("chain: {tip: base_link}", "chain: {tip: tool_link}")),
-             Contains("b.chain.tip: the tip is another one in line 1"));
+             Contains("b.chain.tip: the tip differs from that in line 1"));
   // What only the second one says is checked as well.
   CHECK_THAT(complaint(both("type: a/B", "type: a/B, chain: {root: nowhere}")),
              Contains("b.chain.root: robot 'q2d' has no link 'nowhere'"));
   CHECK_THAT(complaint(both("type: a/B", "type: a/B, gravity: {z: 9.8}")),
              Contains("b.gravity: gravity (0, 0, 9.8) m/s^2 is not that of robot 'q2d'"));
   CHECK_THAT(complaint(both("constraints: {goal_time: 1}", "constraints: {goal_time: 2}")),
-             Contains("b: its options of trajectories are not those in line 1"));
+             Contains("b: its options of trajectories differ from those in line 1"));
   CHECK_THAT(complaint(both("type: effort/Pos", "type: velocity/Pos")),
              Contains("b: its type is 'velocity/Pos', that of the controller in line 1 is "
                       "'effort/Pos', expected the name or the type"));
@@ -340,7 +340,7 @@ TEST_CASE("a controller of one joint may have any gain among its parameters") {
   CHECK_THAT(complaint("a: {type: x/Y, joint: elbow_active_joint, u_clamp_max: 3}\n", "a"),
              Contains("a: the key 'p' is missing"));
   CHECK_THAT(complaint("a: {type: x/Y, joint: elbow_active_joint, P: 1, i: 3}\n", "a"),
-             Contains("a.P: unknown key 'P', expected 'p'?"));
+             Contains("a.P: unknown key 'P', expected one of p, Kp, pid, ...; did you mean 'p'?"));
   CHECK_THAT(complaint("a: {joint: elbow_active_joint, p: 1, pid: {p: 2}}\n", "a"),
              Contains("gains of 'elbow_active_joint' a second time"));
 }

@@ -157,7 +157,7 @@ TEST_CASE("what stands under /** is weaker than what is the controller's own") {
   CHECK(config.gains[1].proportional == 3);
   CHECK(config.gains[1].derivative == 7);
   REQUIRE(config.notes.size() == 1);
-  CHECK(config.notes[0].find("test:2: ") == 0);
+  CHECK(config.notes[0].find("test:2:35: ") == 0);
   CHECK(config.notes[0].find("use_sim_time: not used") != std::string::npos);
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("the UR10 lab's pid maps, one controller for each joint, make one set 
   }
   CHECK(config.type == "effort_controllers/JointPositionController");
   REQUIRE(config.notes.size() == 8);  // ROS 1 has no integral without i_clamp; two sections
-  CHECK(config.notes[0].find(":16: ") != std::string::npos);
+  CHECK(config.notes[0].find(":16:23: ") != std::string::npos);
   CHECK(config.notes[0].find("no i_clamp is given") != std::string::npos);
 
   // By namespace and by type as well; one of the controllers alone is not enough for the robot.

@@ -95,9 +95,11 @@ TEST_CASE("a gripper's action controller over effort") {
   CHECK(gains.gains[1].proportional == 1);
   check_noted(gains.notes, {"action_monitor_rate", "goal_tolerance", "max_effort",
                             "stall_velocity_threshold", "stall_timeout", "allow_stalling"});
-  CHECK_THROWS_WITH(load_controller(yaml(text + "  max_effor: 1\n")),
-                    Contains("test:12:3: gripper_controller.max_effor: unknown key 'max_effor', "
-                             "expected 'max_effort'?"));
+  CHECK_THROWS_WITH(
+      load_controller(yaml(text + "  max_effor: 1\n")),
+      Contains("test:12:3: gripper_controller.max_effor: unknown key 'max_effor', "
+               "expected one of max_effort, max_effort_interface, max_velocity, ...; did "
+               "you mean 'max_effort'?"));
 }
 
 TEST_CASE("controllers of ROS 1") {

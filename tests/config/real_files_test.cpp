@@ -34,7 +34,7 @@ template <class F>
 std::string complaint_of(F load) {
   try {
     static_cast<void>(load());
-  } catch (const ConfigError& error) {
+  } catch (const FileError& error) {
     return error.what();
   }
   return "none";
@@ -76,11 +76,11 @@ TEST_CASE("a placeholder without a value is named, and how to give it") {
   CHECK(complaint_of([] { return load_controller(ur, trajectory); }) ==
         ur +
             ":33:14: joint_trajectory_controller.ros__parameters.joints[0]: the placeholder "
-            "'$(var tf_prefix)', which a template tool was to fill in, expected a name, or a "
+            "'$(var tf_prefix)' without a value, expected a name, or a "
             "value for it: " +
             how);
   CHECK_THAT(complaint_of([] { return load_controller({ur, {{"prefix", ""}}}, trajectory); }),
-             Contains("'$(var tf_prefix)'") && Contains(how + "; given were values for 'prefix'"));
+             Contains("'$(var tf_prefix)'") && Contains(how + "; there are values for 'prefix'"));
   CHECK_THAT(complaint_of([] {
                const std::string joints = "joints: [elbow_active_joint]\nconstraints: ";
                return load_trajectory_tolerances(
@@ -100,7 +100,7 @@ TEST_CASE("a placeholder without a value is named, and how to give it") {
                return load_signals(
                    Q2d(), yaml("waveforms: {$(var tf_prefix)elbow: {amplitude: 1, frequency: 1}}"));
              }),
-             Contains("has no joint '$(var tf_prefix)elbow', a placeholder") && Contains(how));
+             Contains("has no joint '$(var tf_prefix)elbow', expected") && Contains(how));
 }
 
 TEST_CASE("values fill in all kinds of placeholders, in all that loads") {
@@ -153,7 +153,7 @@ TEST_CASE("values fill in all kinds of placeholders, in all that loads") {
              Contains("test:2:10: pid.i: the word 'many'"));
   CHECK_THAT(
       complaint_of([&] { return load_controller(of("joint: $(var a)\n", {{"a", "b\nc"}})); }),
-      Contains("the value given for 'a' has a line break or tab"));
+      Contains("the value of 'a' has a line break or tab"));
 }
 
 TEST_CASE("a gripper, sections that say nothing, values between them") {
@@ -173,7 +173,8 @@ TEST_CASE("a gripper, sections that say nothing, values between them") {
     CHECK(has_note(gripper.notes, "gripper_controller.ros__parameters." + key + ": not used"));
   }
   CHECK_THROWS_WITH(load_controller(yaml(text + "    max_velocit: 1\n")),
-                    Contains("unknown key 'max_velocit', expected 'max_velocity'?"));
+                    Contains("unknown key 'max_velocit', expected one of max_velocity, max_effort, "
+                             "max_velocity_interface, ...; did you mean 'max_velocity'?"));
 }
 
 TEST_CASE("no unrelated section is a reason to refuse a file") {
@@ -264,7 +265,7 @@ TEST_CASE("what ROS calls save_i_term and enable_feedforward") {
   };
   const auto kept = loaded("", "save_i_term: true");
   CHECK(kept.keeps_integral == std::array{false, true});
-  CHECK(has_note(kept.notes, "save_i_term: not used, but by ControlToolboxPidLaw"));
+  CHECK(has_note(kept.notes, "save_i_term: used by ControlToolboxPidLaw only"));
   CHECK(loaded("", "save_i_term: false").notes.empty());
 
   const auto on = loaded("enable_feedforward: true\n", "feedforward_gain: 0.5");
@@ -299,8 +300,7 @@ TEST_CASE("the laws of control_toolbox take what they take there") {
   CHECK_THROWS_WITH(
       load_controller(yaml("gains: {a: {p: 1, u_clamp_min: 4, u_clamp_max: 1}}\n"), "",
                       GainSigns::any),
-      Contains(
-          "u_clamp_max: the number 1, expected a number that is not below that of u_clamp_min"));
+      Contains("u_clamp_max: the number 1, expected a number that is not below u_clamp_min"));
   CHECK_THROWS_WITH(load_controller(yaml("gains: {a: {p: 1, u_clamp_min: 1}}\n")),
                     Contains("u_clamp_min: the number 1, expected a number <= 0"));
 }

@@ -104,7 +104,7 @@ TEST_CASE("a square has the keys of a sine, and its height is the drive's to giv
   CHECK(sampled(square + "period: 2, offset: -1}}", 1.1).effort[1] == -3);
   CHECK_THROWS_WITH(sampled(square + "period: 2, offset: 12}}", 0), Contains("an effort of 14"));
   CHECK_THROWS_WITH(sampled(square + "period: 2, duty: 0.5}}", 0),
-                    Contains("unknown key 'duty', expected the keys of a square: amplitude, "));
+                    Contains("unknown key 'duty', expected one of frequency, amplitude, "));
   const std::string again = "{type: square, amplitude: 7, period: 2}";
   CHECK_THROWS_WITH(
       load_signals(Q2d(), yaml("waveforms: {elbow_active_joint: [" + again + ", " + again + "]}")),
@@ -115,7 +115,7 @@ TEST_CASE("waveforms that cannot be are refused") {
   const auto complaint = [](const std::string& text) -> std::string {
     try {
       static_cast<void>(load_signals(Q2d(), yaml(text)));
-    } catch (const ConfigError& error) {
+    } catch (const FileError& error) {
       return error.what();
     }
     return "none";
@@ -135,7 +135,7 @@ TEST_CASE("waveforms that cannot be are refused") {
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1}}"),
              Contains("the key 'frequency' is missing"));
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1, period: 1}}"),
-             Contains("expected one of them"));
+             Contains("period: 'frequency' has the same meaning, expected one of the two keys"));
   CHECK_THAT(complaint("waveforms: {elbow_active_joint: {amplitude: 1, frequency: 1, amp: 1}}"),
              Contains("unknown key 'amp'"));
   CHECK_THAT(complaint("waveforms:\n  - {amplitude: 1, frequency: 1}\n"),
@@ -153,7 +153,7 @@ TEST_CASE("waveforms of one joint may not add up to more than its drive gives") 
   const auto complaint = [](const std::string& waves) -> std::string {
     try {
       static_cast<void>(load_signals(Q2d(), yaml("waveforms:\n  elbow_active_joint:\n" + waves)));
-    } catch (const ConfigError& error) {
+    } catch (const FileError& error) {
       return error.what();
     }
     return "none";
@@ -219,5 +219,5 @@ TEST_CASE("a controller's type and joints may stand beside its waveforms") {
       loaded("w: {joint: elbow_active_joint, joints: [elbow_active_joint], waveforms: "
              "{elbow_active_joint: {" +
              wave + "}}}"),
-      Contains("joints a second time"));
+      Contains("joints: 'joint' has the same meaning, expected one of the two keys"));
 }

@@ -19,8 +19,8 @@ namespace articula {
                                                     const JointVector<N>&) noexcept;     \
   template JointMatrix<N> mass_matrix<Model<N, Bodies>>(const Model<N, Bodies>&,         \
                                                         const JointVector<N>&) noexcept; \
-  template JointVectors<N, 4> gravity<Model<N, Bodies>, 4>(const Model<N, Bodies>&,      \
-                                                           const JointVectors<N, 4>&) noexcept
+  template JointVectors<N, 4> gravity<Model<N, Bodies>, JointVectors<N, 4>>(             \
+      const Model<N, Bodies>&, const JointVectors<N, 4>&) noexcept
 // NOLINTEND(bugprone-macro-parentheses)
 
 ARTICULA_MODEL(1, 1);

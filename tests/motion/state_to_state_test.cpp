@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <articula/motion/rest_to_rest.hpp>
 #include <articula/reference/reference_generator.hpp>
 #include <articula/reference/state_to_state_profile.hpp>
 #include <articula/robots/q2d.hpp>
@@ -72,7 +73,7 @@ Case random_case(support::Random& random, bool may_begin_outside) {
 /// What is wrong with a motion; empty if nothing. Stretch by stretch, its figures are those that
 /// the jerk makes of those at the start, and they keep the limits, all up to rounding: 1e-11 of the
 /// largest figures on the way.
-std::string fault_of(const TimedMotion& motion, const Case& c) {
+std::string fault_of(const TransferMotion& motion, const Case& c) {
   const MotionBounds& b = c.bounds;
   const double T = motion.duration();
   JointMotion now = c.start;
@@ -195,7 +196,7 @@ TEST_CASE("roots of polynomials and their turning points are found in order") {
   const auto found = roots_and_turns(c, 0, 5);
   std::vector<double> roots;
   for (const double x : found) {
-    if (std::abs(detail::polynomial_value(c, x)) < 1e-12) roots.push_back(x);
+    if (std::abs(polynomial_value(c, x)) < 1e-12) roots.push_back(x);
   }
   CHECK(std::is_sorted(found.begin(), found.end()));
   REQUIRE(roots.size() >= 3);
@@ -327,7 +328,7 @@ TEST_CASE("durations are those of ruckig, or shorter") {
     CHECK(duration <= each.duration * (1 + 1e-5));  // they state five digits or more
     CHECK(duration >= each.duration * (1 - 1e-5));  // their tests allow 1.2e-5
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const TimedMotion motion = joints[j].motion(duration);
+      const TransferMotion motion = joints[j].motion(duration);
       CHECK(motion.duration() == Approx(duration).epsilon(1e-12));
       if (is_viable(each.joints[j].start, each.joints[j].bounds, 1)) {
         CHECK(fault_of(motion, each.joints[j]).empty());
@@ -352,7 +353,7 @@ TEST_CASE("half a million random motions, and as many longer ones, arrive and ke
       longer = motion.next_duration(longer);
       if (!motion.can_take(longer)) fault = "no longer one";
     }
-    const TimedMotion slow = motion.motion(longer);
+    const TransferMotion slow = motion.motion(longer);
     if (fault.empty()) fault = fault_of(slow, c);
     if (!(std::abs(slow.duration() - longer) <= 1e-11 * longer)) fault = "duration";
     if (fault.empty()) continue;
@@ -389,7 +390,7 @@ TEST_CASE("in the whole range of limits that are accepted, motions are found and
     for (const double factor : {1.0, 1.3, 4.0}) {
       const double wanted = factor * motion.least_duration();
       const double T = motion.can_take(wanted) ? wanted : motion.next_duration(wanted);
-      const TimedMotion found = motion.motion(T);
+      const TransferMotion found = motion.motion(T);
       REQUIRE(found.keeps(c.bounds));
       REQUIRE(found.duration() == T);
     }
@@ -426,7 +427,7 @@ TEST_CASE("what differs from 0 by rounding alone is 0") {
 }
 
 TEST_CASE("a motion is compared with its limits") {
-  TimedMotion motion({0, 0, 0});
+  TransferMotion motion({0, 0, 0});
   motion.append(1, 1);
   motion.append(-1, 2);
   motion.append(1, 1);
@@ -434,13 +435,13 @@ TEST_CASE("a motion is compared with its limits") {
   CHECK_FALSE(motion.keeps(either_way(0.99, 1, 1)));
   CHECK_FALSE(motion.keeps(either_way(1, 0.99, 1)));
   CHECK_FALSE(motion.keeps(either_way(1, 1, 0.99)));
-  TimedMotion jumps = motion;
+  TransferMotion jumps = motion;
   jumps.end_at({motion.end().position + 0.1, motion.end().velocity, 0});
   CHECK_FALSE(jumps.keeps(either_way(1, 1, 1)));
   jumps.end_at({motion.end().position, motion.end().velocity + 0.1, 0});
   CHECK_FALSE(jumps.keeps(either_way(1, 1, 1)));
   // The velocity turns within a stretch.
-  TimedMotion turns({0, 0, 1});
+  TransferMotion turns({0, 0, 1});
   turns.append(-1, 2);
   CHECK(turns.keeps(either_way(0.5, 1, 1)));
   CHECK_FALSE(turns.keeps({-1, 0.4, -1, 1, 2}));
@@ -485,7 +486,7 @@ TEST_CASE("planned anew on its way, a motion arrives when it would have") {
     const Case c = random_case(random, false);
     const StateToStateMotion first = motion_of(c);
     const double T = first.least_duration();
-    const TimedMotion way = first.motion(T);
+    const TransferMotion way = first.motion(T);
     for (int i = 1; i <= 20; ++i) {
       const double t = T * i / 20;
       const StateToStateMotion rest(way.sample(t), c.target, c.bounds);
@@ -513,7 +514,7 @@ TEST_CASE("a start outside the limits is led back inside, and no further out tha
     const StateToStateMotion motion = motion_of(c);
     const MotionBounds& b = c.bounds;
     REQUIRE(motion.exists());
-    const TimedMotion way = motion.motion(0);
+    const TransferMotion way = motion.motion(0);
     const double a = c.start.acceleration, v = c.start.velocity, r = faded(c.start, 1, b.jerk);
     // A strong acceleration fades to its limit first, and the velocity on from there.
     const double highest = std::max({b.highest_velocity, v, r}) * (1 + 1e-9) + 1e-9;
@@ -539,7 +540,7 @@ TEST_CASE("nothing to do takes no time, and a target that moves is passed") {
   CHECK(StateToStateMotion({0, 1, 0}, {1e-4, 1, 0}, bounds).least_duration() ==
         Approx(1e-4).epsilon(1e-9));
   const StateToStateMotion passing({0, 0, 0}, {1, 0.5, 0}, bounds);
-  const TimedMotion motion = passing.motion(0);
+  const TransferMotion motion = passing.motion(0);
   CHECK(motion.sample(motion.duration() + 2).position == 2);
   CHECK(motion.sample(motion.duration() + 2).velocity == 0.5);
   // arrived at 1 rad/s with an acceleration that must have come from above the limit
@@ -549,7 +550,7 @@ TEST_CASE("nothing to do takes no time, and a target that moves is passed") {
 }
 
 TEST_CASE("all joints arrive together, not before the duration that is asked for") {
-  const DirectedLimits<2> limits{{-1, -5}, {2, 10}, {-10, -20}, {20, 50}, {400, 1000}};
+  const Profile::Limits limits{{{{-1, 2, -10, 20, 400}, {-5, 10, -20, 50, 1000}}}};
   const JointReference<2> from{{0, 0}, {0.5, -1}, {1, 0}, {1, 2}};
   const JointReference<2> to{{-1, 0.2}, {0, 0.3}, {0, 0}, {3, 2}};
   for (const double minimum : {0.0, 1.5, 4.0}) {
@@ -568,7 +569,7 @@ TEST_CASE("all joints arrive together, not before the duration that is asked for
     for (int k = 0; k <= 1000; ++k) {
       const auto r = profile.sample(profile.duration() * k / 1000);
       for (int j = 0; j < 2; ++j) {
-        const MotionBounds b = limits.of(j);
+        const MotionBounds b = limits[j];
         REQUIRE(is_within(b.lowest_velocity - 1e-9, r.velocity[j], b.highest_velocity + 1e-9));
         REQUIRE(is_within(b.lowest_acceleration, r.acceleration[j], b.highest_acceleration));
       }
@@ -590,32 +591,32 @@ TEST_CASE("from rest to rest it is the jerk-limited profile") {
 }
 
 TEST_CASE("limits and states that make no profile are refused by name") {
-  const DirectedLimits<2> limits = both_ways(MotionLimits<2>{{2, 10}, {20, 50}, {400, 1000}});
+  const Profile::Limits limits = both_ways(MotionLimits<2>{{2, 10}, {20, 50}, {400, 1000}});
   const JointReference<2> rest{};
   auto bad = limits;
-  bad.lowest_velocity[1] = 1;
+  bad[1].lowest_velocity = 1;
   CHECK_THROWS_WITH(Profile(rest, rest, bad),
                     Contains("lowest velocity 1 of joint 'elbow_active_joint'"));
   bad = limits;
-  bad.lowest_velocity[0] = -0.01;
+  bad[0].lowest_velocity = -0.01;
   CHECK_THROWS_WITH(Profile(rest, rest, bad),
                     Contains("lowest velocity -0.01 and highest velocity 2 of joint "
                              "'shoulder_active_joint' differ more than 100 times in size"));
   bad = limits;
-  bad.highest_acceleration[1] = 0.1;
+  bad[1].highest_acceleration = 0.1;
   CHECK_THROWS_WITH(
       Profile(rest, rest, bad),
       Contains("lowest acceleration -50 and highest acceleration 0.1 of joint 'elbow"));
   for (const double jerk : {1e-5, 1e9}) {
     bad = limits;
-    bad.jerk[0] = jerk;
+    bad[0].jerk = jerk;
     CHECK_THROWS_WITH(Profile(rest, rest, bad),
                       Contains("of joint 'shoulder_active_joint' does not suit velocity 2 and "
                                "acceleration 20: velocity * jerk / acceleration^2 is ") &&
                           Contains("not between 1e-6 and 1e6"));
   }
   bad = limits;
-  bad.highest_velocity[0] = 3;
+  bad[0].highest_velocity = 3;
   CHECK_THROWS_WITH(Profile(rest, rest, bad), Contains("above the joint's limit 2.27"));
   CHECK_THROWS_WITH(Profile(rest, {.position = {0, 9}}, limits), Contains("position 9"));
   CHECK_THROWS_WITH(Profile(rest, {.velocity = {2.1, 0}}, limits),

@@ -12,7 +12,7 @@ using namespace articula;
 namespace {
 
 struct Case {
-  CommandMotion from;
+  JointMotion from;
   double deceleration, jerk, period;
 };
 
@@ -61,13 +61,13 @@ TEST_CASE(
     const Case c = random_case(random);
     StoppingMotion stop(c.from, c.deceleration, c.jerk, c.period);
     const ValueRange q = stop.positions(), v = stop.velocities();
-    CommandMotion last = c.from;
+    JointMotion last = c.from;
     ValueRange seen_q{last.position, last.position}, seen_v{last.velocity, last.velocity};
     int cycles = 0;
     bool kept = true;
     do {
       stop.advance();
-      const CommandMotion& m = stop.motion();
+      const JointMotion& m = stop.motion();
       seen_q = {std::min(seen_q.lowest, m.position), std::max(seen_q.highest, m.position)};
       seen_v = {std::min(seen_v.lowest, m.velocity), std::max(seen_v.highest, m.velocity)};
       // Up to rounding: of sums of thousands of cycles, and what is not worth a cycle (1e-9 of a
@@ -148,7 +148,7 @@ TEST_CASE("what is on any way to rest has a stop, whose highest velocity is no h
     CAPTURE(k, most, jerk);
     // Backwards from rest: the acceleration wanders, in steps that often are as large as they may
     // be.
-    CommandMotion m;
+    JointMotion m;
     double highest = 0;  // speed on the rest of the way
     for (int cycle = 0; cycle < 300; ++cycle) {
       const double change = random.one_in(2) ? step : step * random.number(-1, 1);

@@ -97,8 +97,9 @@ std::size_t heap_calls_of_simulation(const R& robot) {
   JointSensors<2> sensors(options);
   JointState<2> state;
   return heap_calls_in([&] {
-    look(dynamics.advance({q, v}, effort, 1e-3).position);
-    look(dynamics.advance({Vector(1.57, -1.57), 1000 * Vector(1, -1)}, effort, 1e-3).position);
+    const auto drives = [](const Vector&, const Vector&) noexcept { return effort; };
+    look(dynamics.advance({q, v}, drives, 1e-3).position);
+    look(dynamics.advance({Vector(1.57, -1.57), 1000 * Vector(1, -1)}, drives, 1e-3).position);
     look(sensors.measure({q, v, effort}).position);
     static_cast<void>(simulator.write({effort}));
     static_cast<void>(simulator.read(state));

@@ -15,7 +15,7 @@ JointReference<2> sample(const JerkLimitedProfile<Q2d>& profile, double time) no
 }
 
 JointReference<2> plan(const JointReference<2>& from, const JointReference<2>& to,
-                       const DirectedLimits<2>& limits, double time) noexcept {
+                       const JointArray<MotionBounds, 2>& limits, double time) noexcept {
   const auto profile = StateToStateProfile<Q2d>::plan(from, to, limits, 1.0);
   return profile ? profile->sample(time) : from;
 }

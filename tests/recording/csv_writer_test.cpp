@@ -188,7 +188,7 @@ TEST_CASE("mimic joints and named links have columns at the end") {
 
 TEST_CASE("a file that cannot be written is an error") {
   CHECK_THROWS_WITH((CsvWriter<Q2d, EffortCommand<2>>("/nowhere/records.csv")),
-                    "cannot write /nowhere/records.csv");
+                    "cannot write /nowhere/records.csv: No such file or directory");
   CsvWriter<Q2d, EffortCommand<2>> full("/dev/full");
   CHECK_THROWS_AS(
       [&] {

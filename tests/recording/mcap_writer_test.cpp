@@ -351,7 +351,7 @@ TEST_CASE("a writer that ends completes its file as close() does, which may be c
     writer.close();
     CHECK(content_of(closed.path()) == complete);
     CHECK_THROWS_WITH(writer.write(std::chrono::milliseconds(4), "{}"),
-                      "cannot write " + closed.path().string());
+                      "cannot write " + closed.path().string() + ": Bad file descriptor");
     CHECK_NOTHROW(writer.close());
   }
   {
@@ -384,7 +384,7 @@ TEST_CASE("what cannot be written is an error of close(), not of the destructor"
   if (!std::filesystem::exists("/dev/full")) return;
   CHECK_NOTHROW([] { McapWriter writer("/dev/full", "a", "A", "{}"); }());
   McapWriter writer("/dev/full", "a", "A", "{}");
-  CHECK_THROWS_WITH(writer.close(), "cannot write /dev/full");
+  CHECK_THROWS_WITH(writer.close(), "cannot write /dev/full: No space left on device");
   CHECK_NOTHROW(writer.close());
 }
 
@@ -403,5 +403,6 @@ TEST_CASE("an MCAP file without messages is one, too") {
 }
 
 TEST_CASE("an MCAP file that cannot be written is an error") {
-  CHECK_THROWS_WITH(McapWriter("/nowhere/a.mcap", "a", "A", "{}"), "cannot write /nowhere/a.mcap");
+  CHECK_THROWS_WITH(McapWriter("/nowhere/a.mcap", "a", "A", "{}"),
+                    "cannot write /nowhere/a.mcap: No such file or directory");
 }

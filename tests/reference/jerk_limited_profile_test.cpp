@@ -63,7 +63,7 @@ std::string fault_of(const Sample& sample, double T, double V, double A, double 
   }
   return last.velocity == 0 && last.acceleration == 0 ? "" : "does not rest";
 }
-std::string fault_of(const JerkMotion& motion, double V, double A, double J, int count) {
+std::string fault_of(const JerkMotion<7>& motion, double V, double A, double J, int count) {
   const auto sample = [&](double t) { return motion.sample(t); };
   return fault_of(sample, motion.duration(), V, A, J, count);
 }
@@ -205,7 +205,7 @@ TEST_CASE("all positions of a motion lie in the range that it says, and reach it
     const auto l = random_limits(random);
     const auto motion = fastest_stop(
         {random.number(-1, 1), random.number(-1, 1) * l.V, random.number(-2, 2) * l.A}, l.A, l.J);
-    const PositionRange range = motion.positions();
+    const ValueRange range = motion.positions();
     const double first = motion.sample(0).position, last = motion.end().position;
     turning += range.lowest < std::min(first, last) || range.highest > std::max(first, last);
     constexpr int count = 2000;
@@ -239,7 +239,7 @@ TEST_CASE("a stop that has to stay within a range does, and is no harder than it
     const double a = random.one_in(3) ? 0 : random.number(-2, 2) * l.A;
     const JointMotion start{0, random.number(-1, 1) * l.V, a};
     const auto motion = stop_within(start, l.V, l.A, l.J, lower, upper);
-    const PositionRange range = motion.positions();
+    const ValueRange range = motion.positions();
     CAPTURE(k, l.A, l.J, start.velocity, start.acceleration, lower, upper);
     REQUIRE(range.lowest >= lower);
     REQUIRE(range.highest <= upper);

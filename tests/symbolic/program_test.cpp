@@ -132,9 +132,9 @@ TEST_CASE("Operations are counted, and what nobody needs is not computed") {
 
 TEST_CASE("A program that finds no room says how much it takes") {
   constexpr ProgramSize size = program<Everything, 3>.size;
-  STATIC_REQUIRE(record<size, 3>(Everything{}).is_whole());
+  STATIC_REQUIRE(record<size, 3>(Everything{}).is_complete());
   constexpr auto partial = record<ProgramSize{10, 1, 5}, 3>(Everything{});
-  STATIC_REQUIRE_FALSE(partial.is_whole());
+  STATIC_REQUIRE_FALSE(partial.is_complete());
   STATIC_REQUIRE(partial.size.instructions == size.instructions);
   STATIC_REQUIRE(partial.size.constants == size.constants);
   STATIC_REQUIRE(partial.size.outputs == size.outputs);

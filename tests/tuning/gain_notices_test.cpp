@@ -224,8 +224,9 @@ TEST_CASE("a notice says what is wrong with a joint's gains, and what helps does
     return notices.front();
   };
   const std::string hard = notice({.proportional = 1000, .derivative = 10});
-  CHECK_THAT(hard, Contains("joint 'wrist_3_joint': the gains p 1000, d 10 make it shake. With an "
-                            "inertia of 0.000505849 kg m^2 and a period of 0.001 s, "));
+  CHECK_THAT(hard,
+             Contains("joint 'wrist_3_joint' is unstable with the gains p 1000, d 10. With an "
+                      "inertia of 0.000505849 kg m^2 and a period of 0.001 s, "));
   CHECK_THAT(hard, Contains("lower p and d, for example to 62.5 and 0.625, shorten the period, or "
                             "add the drive's reflected_inertia"));
   CHECK_FALSE(keeps_shaking({.proportional = 62.5, .derivative = 0.625}));
@@ -248,7 +249,7 @@ TEST_CASE(
   REQUIRE_FALSE(notices.empty());
   CAPTURE(notices);
   CHECK_THAT(notices.back(),
-             Contains("joint 'wrist_3_joint': the gains p 1000, d 10, i 0.01 make it shake"));
+             Contains("joint 'wrist_3_joint' is unstable with the gains p 1000, d 10, i 0.01."));
   loop.reference().position[5] += 1e-4;
   (void)swing(loop, 5, 1000);
   CHECK(swing(loop, 5, 1000) > 50);  // from limit to limit

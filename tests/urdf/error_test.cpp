@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <utility>
 
 using namespace articula;
@@ -68,7 +69,8 @@ TEST_CASE("Files that cannot be read") {
   CHECK(refusal("no/such.urdf") == "no/such.urdf: the file cannot be read");
   CHECK(refusal("/") == "/: the file cannot be read");
   CHECK(refusal("") == ": the file cannot be read");
-  CHECK(refusal(std::string("<robot>\0</robot>", 16)) == "URDF: it is no text: it holds NUL");
+  CHECK(refusal(std::string("<robot>\0</robot>", 16)) ==
+        "URDF:1:8: a NUL character, expected UTF-8 text (UTF-16 is not supported)");
 }
 
 TEST_CASE("The file is named") {
@@ -79,35 +81,35 @@ TEST_CASE("The file is named") {
 }
 
 TEST_CASE("Text that is not XML") {
-  CHECK(refusal("<") == "URDF: line 1: a tag has no name");
-  CHECK(refusal("<robot name=r>") == "URDF: line 1: an attribute's value is not between quotes");
-  CHECK(refusal("<robot\n name=\"r") == "URDF: line 2: an attribute's value is not between quotes");
-  CHECK(refusal("<robot a>") == "URDF: line 1: an attribute has no value");
+  CHECK(refusal("<") == "URDF:1: a tag has no name");
+  CHECK(refusal("<robot name=r>") == "URDF:1: an attribute's value is not between quotes");
+  CHECK(refusal("<robot\n name=\"r") == "URDF:2: an attribute's value is not between quotes");
+  CHECK(refusal("<robot a>") == "URDF:1: an attribute has no value");
   CHECK(refusal("<robot name='r'>\n\n<link name='a'/>") ==
-        "URDF: line 3: <robot> of line 1 is not closed");
-  CHECK(refusal("<robot name='r'></robot></link>") ==
-        "URDF: line 1: </link> closes what was not opened");
+        "URDF:3: <robot> of line 1 is not closed");
+  CHECK(refusal("<robot name='r'></robot></link>") == "URDF:1: </link> closes what was not opened");
   CHECK(refusal("<robot name='r'>\n<link name='a'>\n\n</robot>") ==
-        "URDF: line 4: </robot> stands where <link> of line 2 is to be closed");
-  CHECK(refusal("<!-- <robot>") == "URDF: line 1: a comment is not closed");
-  CHECK(refusal("<![CDATA[ <robot>") == "URDF: line 1: a CDATA part is not closed");
-  CHECK(refusal("<?xml version='1.0'>") == "URDF: line 1: a <? is not closed by ?>");
+        "URDF:4: </robot> stands where <link> of line 2 is to be closed");
+  CHECK(refusal("<!-- <robot>") == "URDF:1: a comment is not closed");
+  CHECK(refusal("<![CDATA[ <robot>") == "URDF:1: a CDATA part is not closed");
+  CHECK(refusal("<?xml version='1.0'>") == "URDF:1: a <? is not closed by ?>");
   CHECK(refusal("<!ELEMENT robot><robot/>") ==
-        "URDF: line 1: a <! that begins no comment, CDATA part or document type");
-  CHECK(refusal("<robot\n name='r' name='s'/>") ==
-        "URDF: line 2: the attribute 'name' is given twice");
+        "URDF:1: a <! that begins no comment, CDATA part or document type");
+  CHECK(refusal("<robot\n name='r' name='s'/>") == "URDF:2: the attribute 'name' is given twice");
   CHECK(refusal(pendulum() + "\n" + pendulum()) ==
-        "URDF: line 2: a second element at the top; XML has one");
-  CHECK(refusal(pendulum() + "\n\n>") == "URDF: line 3: there is text outside of the robot");
+        "URDF:2: a second element at the top; XML has one");
+  CHECK(refusal(pendulum() + "\n\n>") == "URDF:3: there is text outside of the robot");
   const auto file = std::filesystem::temp_directory_path() / "articula_no_xml_test.urdf";
+  const std::string nul = ":1:";
+  const std::string utf8 = ": a NUL character, expected UTF-8 text (UTF-16 is not supported)";
   for (const auto& [text, fault] :
-       {std::pair<std::string, std::string>{" \n", "it is no XML: it has no tag"},
-        {"version 1", "it is no XML: it has no tag"},
-        {std::string("\xFF\xFE<\0r\0", 6), "it is UTF-16: save it as UTF-8"},
-        {std::string("<\0r\0", 4), "it is UTF-16: save it as UTF-8"},
-        {std::string("\0<\0r", 4), "it is UTF-16: save it as UTF-8"}}) {
+       {std::pair<std::string, std::string>{" \n", ": it is no XML: it has no tag"},
+        {"version 1", ": it is no XML: it has no tag"},
+        {std::string("\xFF\xFE<\0r\0", 6), nul + "4" + utf8},
+        {std::string("<\0r\0", 4), nul + "2" + utf8},
+        {std::string("\0<\0r", 4), nul + "1" + utf8}}) {
     std::ofstream(file, std::ios::binary) << text;
-    CHECK(refusal(file.string()) == file.string() + ": " + fault);
+    CHECK(refusal(file.string()) == file.string() + fault);
   }
   std::filesystem::remove(file);
 }
@@ -120,24 +122,24 @@ TEST_CASE("What a document type declares cannot be honoured, and is refused wher
   CHECK(with(entity).empty());
   std::string used = pendulum();
   used.replace(used.find("\"2\""), 3, "\"&m;\"");
-  CHECK(with(entity, used) == "URDF: line 2: the entity &m; is used, but only XML's own are read");
+  CHECK(with(entity, used) == "URDF:2: the entity &m; is used, but only XML's own are read");
   CHECK(refusal("<robot name='r'>\n&m;</robot>") ==
-        "URDF: line 2: the entity &m; is used, but only XML's own are read");
+        "URDF:2: the entity &m; is used, but only XML's own are read");
   CHECK(with("<!ATTLIST joint type CDATA 'fixed'>") ==
-        "URDF: line 1: a document type has values of attributes, which are not read");
+        "URDF:1: a document type has values of attributes, which are not read");
   CHECK(with("<!ATTLIST joint type CDATA #IMPLIED> <!ENTITY m '2'>").empty());
   CHECK(with("<!ENTITY % x '<!ENTITY m 2>'>").empty());
   CHECK(with("<!ENTITY % x ''> %x;") ==
-        "URDF: line 1: an entity of the document type is used, which is not read");
-  CHECK(with("<!ENTITY m ']>\n") == "URDF: line 1: a document type is not closed");
-  CHECK(refusal("<!DOCTYPE robot [\n") == "URDF: line 2: a document type is not closed");
-  CHECK(refusal("<!DOCTYPE robot [<!--\n]>") == "URDF: line 1: a comment is not closed");
+        "URDF:1: an entity of the document type is used, which is not read");
+  CHECK(with("<!ENTITY m ']>\n") == "URDF:1: a document type is not closed");
+  CHECK(refusal("<!DOCTYPE robot [\n") == "URDF:2: a document type is not closed");
+  CHECK(refusal("<!DOCTYPE robot [<!--\n]>") == "URDF:1: a comment is not closed");
   CHECK(refusal("<robot name='r'><!DOCTYPE robot></robot>") ==
-        "URDF: line 1: a document type stands behind the beginning of the robot");
+        "URDF:1: a document type stands behind the beginning of the robot");
   CHECK(refusal("<!DOCTYPE robot>\n<!DOCTYPE robot>\n" + pendulum()) ==
-        "URDF: line 2: a second document type; XML has one");
+        "URDF:2: a second document type; XML has one");
   CHECK(refusal("<?x a=\"?>\"?>\n" + pendulum()) ==  // ends at the first ?>
-        "URDF: line 1: there is text outside of the robot");
+        "URDF:1: there is text outside of the robot");
 }
 
 TEST_CASE("What is left of xacro is named") {
@@ -162,7 +164,7 @@ TEST_CASE("Elements with capitals are not left out in silence") {
 TEST_CASE("Elements nested without end") {
   std::string deep;
   for (int i = 0; i < 1000000; ++i) deep += "<a>";
-  CHECK(refusal(deep) == "URDF: line 1: elements are nested more than 100 deep");
+  CHECK(refusal(deep) == "URDF:1: elements are nested more than 100 deep");
 }
 
 TEST_CASE("XML that is no robot") {
@@ -230,28 +232,38 @@ TEST_CASE("Numbers that are none") {
 
 TEST_CASE("What is no number is named with its element, and never taken for a format of printf") {
   const std::string none = "' is not a finite number";
-  for (const std::string text :
-       {"%s%s%s%s%s%s%s%s%n%n", "A%dB", "%kp%", "@kp@", "1_000", "pi/2", "inf", "1\xC2\xA0",
-        "\xE2\x88\x92"
-        "1"}) {
+  std::map<std::string, std::string> messages = {
+      {"pi/2", "'pi/2" + none + "; expressions are not computed"},
+      {"1\xC2\xA0", "'1<U+00A0>' with a no-break space (U+00A0) is not a finite number"},
+      {"\xE2\x88\x92"
+       "1",
+       "'\xE2\x88\x92"
+       "1" +
+           none + "; write an ordinary minus sign, -"}};
+  for (const std::string text : {"%s%s%s%s%s%s%s%s%n%n", "A%dB", "%kp%", "@kp@", "1_000", "inf"}) {
+    messages[text] = "'" + text + none;
+  }
+  for (const auto& [text, message] : messages) {
     CAPTURE(text);
-    CHECK(refusal(inertial(text)) == "URDF: link 'rod': <mass>: value: '" + text + none);
-    CHECK(refusal(inertial("1", text)) == "URDF: link 'rod': <inertia>: ixx: '" + text + none);
+    CHECK(refusal(inertial(text)) == "URDF: link 'rod': <mass>: value: " + message);
+    CHECK(refusal(inertial("1", text)) == "URDF: link 'rod': <inertia>: ixx: " + message);
     CHECK(refusal(with_inertial("<origin rpy=\"0 " + text + " 0\"/><mass value=\"1\"/>")) ==
-          "URDF: link 'rod': <origin>: rpy: '" + text + none);
+          "URDF: link 'rod': <origin>: rpy: " + message);
     for (const auto& [name, attribute] : {std::pair<std::string, std::string>{"origin", "xyz"},
                                           {"axis", "xyz"},
                                           {"limit", "lower"},
                                           {"dynamics", "friction"},
                                           {"mimic", "multiplier"}}) {
       CHECK(refusal(with_joint("<" + name + " " + attribute + "=\"" + text + "\"/>")) ==
-            "URDF: joint 'pivot': <" + name + ">: " + attribute + ": '" + text + none);
+            "URDF: joint 'pivot': <" + name + ">: " + attribute + ": " + message);
     }
   }
   const std::string axis = "URDF: joint 'pivot': <axis>: xyz: '";
   CHECK(refusal(with_joint("<axis xyz=\"0 0 1,5\"/>")) ==
-        axis + "1,5" + none + "; if the comma is a decimal one, write 1.5");
-  for (const std::string text : {"0,", "0,0,1"}) {
+        axis + "1,5" + none + "; write 1.5 if the comma is a decimal one");
+  CHECK(refusal(with_joint("<axis xyz=\"0, 0 1\"/>")) ==
+        axis + "0," + none + "; write the number alone, 0");
+  for (const std::string text : {"0,0,", "0,0,1"}) {
     CHECK(refusal(with_joint("<axis xyz=\"" + text + " 0 1\"/>")) ==
           axis + text + none + "; numbers have blanks between them, and no commas");
   }

@@ -461,7 +461,7 @@ TEST_CASE("document types and processing instructions are passed over") {
   CHECK_NOTHROW(load_urdf<1>(UrdfSource(inside + "<?end > ?>")));
   // Lines after it keep their numbers.
   CHECK_THROWS_WITH(load_urdf<1>(UrdfSource("<!DOCTYPE robot [\n<!ENTITY m '2'>\n]>\n<robot a>")),
-                    Contains("line 4: an attribute has no value"));
+                    Contains("URDF:4: an attribute has no value"));
   // An ampersand alone is no XML, but people write it; entities of XML's own are read.
   const auto named = load_urdf<1>(UrdfSource(
       support::pendulum(solid("a & b"), joint("&lt;&#65;&amp;m;", "continuous", "base", "a & b"))));

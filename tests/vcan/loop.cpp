@@ -278,7 +278,7 @@ TEST_CASE("faults that the drives play") {
   const Interface interface;
   const auto [fault, cause, joint] = GENERATE(table<std::string, CanCause, int>({
       {"fault:2@0.5", CanCause::drive_fault, 1},
-      {"restart:1@0.5", CanCause::drive_let_go, 0},
+      {"restart:1@0.5", CanCause::drive_disabled, 0},
       {"silence:2@0.5+0.2", CanCause::drive_silent, 1},
       {"garbage:1@0.5+0.2", CanCause::drive_silent, 0},
       {"bus-off@0.5", CanCause::bus_off, -1},
@@ -314,7 +314,7 @@ TEST_CASE("the loop is paced by the drives' SYNC, which stops for a moment, then
   HardwareClock clock(loop.hardware(), monotonic, loop.period());
 
   // In pace: as many cycles of the loop as SYNC, but for those that a busy machine has let slip.
-  const auto heard_before = loop.hardware().codec().heard_cycles();
+  const auto heard_before = loop.hardware().codec().begun_cycles();
   std::uint64_t ok = 0;
   constexpr std::uint64_t paced_cycles = 100;
   std::uint64_t heard = 0;
@@ -323,7 +323,7 @@ TEST_CASE("the loop is paced by the drives' SYNC, which stops for a moment, then
   const RunReport report = run(loop, clock, {.cycles = 2000}, [&](auto&, const RunReport& now) {
     if (now.cycles <= paced_cycles && now.status == Status::ok) ++ok;
     if (now.cycles == paced_cycles) {
-      heard = loop.hardware().codec().heard_cycles() - heard_before;
+      heard = loop.hardware().codec().begun_cycles() - heard_before;
     }
     const auto unpaced = loop.hardware().statistics().unpaced;
     recovered = recovered || (unpaced >= 3 && now.status == Status::ok);

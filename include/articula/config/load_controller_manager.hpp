@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Reads the controller manager's parameters from a file. Needs the CMake target
+/// @file Loads the controller manager's parameters from a file. Needs the CMake target
 /// articula::config (yaml-cpp).
 #pragma once
 
 #include "articula/config/read/find_sections.hpp"
 #include "articula/config/read/section.hpp"
 #include "articula/config/read/unused_parameters.hpp"
-#include "articula/config/yaml/reader.hpp"
+#include "articula/config/yaml/config_map.hpp"
 #include "articula/config/yaml/source.hpp"
 
 #include <algorithm>
@@ -23,14 +23,14 @@ struct ListedController {
   std::string type{};  ///< the plugin's name, such as joint_trajectory_controller/...
 };
 
-/// The controller manager's parameters that matter to a loop and its thread.
+/// The controller manager's parameters for a loop and its thread.
 struct ControllerManagerConfig {
   double update_rate = 100;                     ///< [Hz]
   std::vector<ListedController> controllers{};  ///< in the order of the file
   std::optional<int> thread_priority{};         ///< for ThreadOptions
   std::vector<int> processors{};                ///< cpu_affinity, for ThreadOptions; empty: all
   std::optional<bool> lock_memory{};            ///< for ThreadOptions
-  /// What the file says and nothing here does, one line each with file, line and key.
+  /// Parameters without effect in this library, one line each with file, line and key.
   std::vector<std::string> notes{};
 
   /// Time between two updates [s].
@@ -39,73 +39,74 @@ struct ControllerManagerConfig {
 
 namespace detail {
 
-/// Whether parameters without a name can be those of the controller manager.
+/// True if parameters without a name may be those of the controller manager.
 [[nodiscard]] inline bool is_manager(const ConfigNode& parameters) {
-  for (const char* key : {"update_rate", "thread_priority", "cpu_affinity", "lock_memory"}) {
-    if (parameters.find(key) != nullptr) return true;
+  if (parameters.has_any({"update_rate", "thread_priority", "cpu_affinity", "lock_memory"})) {
+    return true;
   }
   return std::any_of(parameters.items.begin(), parameters.items.end(),
                      [](const ConfigNode& item) { return item.find("type") != nullptr; });
 }
 
 inline void take_unused_manager_parameters(ConfigMap& map) {
-  using enum UnusedParameter::Kind;
-  constexpr std::string_view always = "limits are always kept, faults always handled";
-  constexpr std::string_view compiled = "the types in the program decide what there is";
-  constexpr std::string_view runner = "see RunOptions";
-  take_unused(map, {{"use_sim_time", truth, "the loop's clock is a type in the program"},
-                    {"robot_description", word, "nothing is published or received here"},
-                    {"qos_overrides", any_map, "nothing is published or received here"},
-                    {"start_type_description_service", truth, "there are no services"},
-                    {"enforce_command_limits", truth, always},
-                    {"handle_exceptions", truth, always},
-                    {"shutdown_on_initial_state_failure", truth, always},
-                    {"hardware_components_initial_state", any_map, compiled},
-                    {"defaults", any_map, compiled},
-                    {"diagnostics", any_map, "see RunReport"},
-                    {"overruns", any_map, runner},
-                    {"hardware_synchronization", any_map, runner}});
+  using enum UnusedParameters::Kind;
+  constexpr std::string_view topics = "nothing is published or received here";
+  constexpr std::string_view always = "the loop always keeps limits and handles faults";
+  constexpr std::string_view types = "the types in the program decide what there is";
+  take_unused(
+      map, {{truth, "the loop's clock is a type in the program", {"use_sim_time"}},
+            {word, topics, {"robot_description"}},
+            {any_map, topics, {"qos_overrides"}},
+            {truth, "there are no services", {"start_type_description_service"}},
+            {truth,
+             always,
+             {"enforce_command_limits", "handle_exceptions", "shutdown_on_initial_state_failure"}},
+            {any_map, types, {"hardware_components_initial_state", "defaults"}},
+            {any_map, "see RunReport", {"diagnostics"}},
+            {any_map, "see RunOptions", {"overruns", "hardware_synchronization"}}});
+}
+
+/// The section of the controller manager.
+/// @throws FileError if there is none, or several
+[[nodiscard]] inline const ConfigSection* manager_section(const ConfigSections& all) {
+  const ConfigSection* manager = nullptr;
+  std::vector<std::string_view> names;
+  for (const ConfigSection& each : all.sections) {
+    names.push_back(each.name);
+    const bool is_whole_file = each.name.empty() && all.sections.size() == 1;
+    if (each.name != "controller_manager" && !(is_whole_file && is_manager(each.parameters))) {
+      continue;
+    }
+    if (manager != nullptr) {
+      throw FileError(each.place(all.file),
+                      "there are several controller managers, another one in line " +
+                          std::to_string(manager->line()),
+                      "one");
+    }
+    manager = &each;
+  }
+  if (manager != nullptr) return manager;
+  const std::string_view misspelt = meant_word("controller_manager", names);
+  throw FileError({.file = all.file}, "there is no controller_manager in it",
+                  misspelt.empty() ? "one" : "one, in place of '" + shown(misspelt) + "'");
 }
 
 }  // namespace detail
 
-/// Reads update rate, types and thread from the section controller_manager:
+/// Loads update rate, types and thread parameters from the section controller_manager:
 ///
 ///     const ControllerManagerConfig manager = load_controller_manager("controllers.yaml");
 ///     Loop<Q2dSim, PidPlusGravity> loop(Q2dSim({.period = manager.period()}));
 ///
 /// @param source  a file, or a ConfigSource::text
-/// @throws ConfigError with file, line, key and what was expected
+/// @throws FileError with file, line, key and what was expected
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ControllerManagerConfig load_controller_manager(const ConfigSource& source) {
   using detail::ConfigMap;
   using detail::ConfigSection;
   using detail::Inherited;
   const detail::ConfigSections all = detail::find_sections(source);
-  const ConfigSection* section = nullptr;
-  for (const ConfigSection& each : all.sections) {
-    const bool alone = each.name.empty() && all.sections.size() == 1;
-    if (each.name != "controller_manager" && !(alone && detail::is_manager(each.parameters))) {
-      continue;
-    }
-    if (section != nullptr) {
-      throw ConfigError({all.file, each.line(), each.parameters.key_mark.column, each.path},
-                        "there are several controller managers, another one in line " +
-                            std::to_string(section->line()),
-                        "one");
-    }
-    section = &each;
-  }
-  if (section == nullptr) {
-    const auto slip = std::find_if(all.sections.begin(), all.sections.end(), [](const auto& each) {
-      return detail::distance_of("controller_manager", each.name).value_or(3) <= 2;
-    });
-    throw ConfigError({.file = all.file}, "there is no controller_manager in it",
-                      slip == all.sections.end()
-                          ? "one"
-                          : "one, in place of '" + detail::shown(slip->name) + "'");
-  }
-
+  const ConfigSection* section = detail::manager_section(all);
   section->check();
   ControllerManagerConfig config{.notes = section->notes};
   ConfigMap map(detail::ConfigValue(all.file, section->parameters, section->path), config.notes,
@@ -129,16 +130,17 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
   if (const auto value = map.find("lock_memory")) config.lock_memory = value->truth();
   detail::take_unused_manager_parameters(map);
   for (const detail::ConfigNode& item : section->parameters.items) {
-    // What is neither a parameter nor almost one is a controller, which has a type.
-    const bool other = map.knows(item.key) || map.nearly_knows(item.key) || item.inherited;
-    const bool value = !item.is_map() && item.kind != detail::ConfigNode::Kind::nothing;
-    if (!other && value && item.text.find('/') != std::string::npos) {
-      map.value().at(item).refuse("a map with the type in it, {type: " + detail::shown(item.text) +
-                                  "}");
+    // Other entries than parameters, misspelt ones included, are controllers, which have a type.
+    const bool is_parameter =
+        map.knows(item.key) || map.nearly_knows(item.key) || item.is_inherited();
+    const bool is_value = !item.is_map() && item.kind != detail::ConfigNode::Kind::nothing;
+    if (!is_parameter && is_value && item.text.find('/') != std::string::npos) {
+      map.value().child(item).refuse(
+          "a map with the type in it, {type: " + detail::shown(item.text) + "}");
     }
-    if (item.find("type") == nullptr && (other || value)) continue;
+    if (item.find("type") == nullptr && (is_parameter || is_value)) continue;
     ConfigMap controller = *map.find_map(item.key);
-    const auto type = controller.expect("type");
+    const auto type = controller.require("type");
     detail::take_unused_controller_parameters(controller);
     controller.finish();
     config.controllers.push_back({item.key, type->word()});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Reads a robot's PID gains from a file. Needs the CMake target articula::config (yaml-cpp).
+/// @file Loads a robot's PID gains from a file. Needs the CMake target articula::config (yaml-cpp).
 #pragma once
 
-#include "articula/config/arrange_joints.hpp"
+#include "articula/config/check_robot.hpp"
 #include "articula/config/load_controller.hpp"
 #include "articula/core/name.hpp"
 
@@ -15,26 +15,25 @@
 
 namespace articula {
 
-/// Whose gains a file must have.
+/// The joints whose gains a file must have.
 enum class GainsOf : unsigned char {
-  all_joints,   ///< those of every joint of the robot
-  some_joints,  ///< those of the joints that the controller lists: a group with its own controller
+  all_joints,   ///< all joints of the robot
+  some_joints,  ///< the joints that the controller lists, such as an arm without its gripper
 };
 
-/// A controller's parameters, with the gains of a robot of N joints.
+/// A controller's parameters, and the gains of a robot with N joints.
 template <int N>
 struct PidConfig : ControllerConfig {
-  JointPidGains<N> gains{};   ///< in the order of the robot's joints; 0 where the file has none
+  JointPidGains<N> gains{};   ///< in the order of the robot's joints; 0 if the file has none
   std::vector<Name> group{};  ///< joints that have gains in the file, for Groups and OnJoints
   /// save_i_term, for ControlToolboxPidLaw, in the order of the robot's joints
   std::array<bool, static_cast<std::size_t>(N)> keeps_integral{};
 };
 
-/// Puts gains in the order of a robot's joints, and makes sure that the file means this robot.
-/// @param robot   whose joints they are
+/// Arranges gains in the order of a robot's joints, and checks that the file fits the robot.
 /// @param config  from load_controller
-/// @param whose   gains there must be
-/// @throws ConfigError if the robot lacks a joint of the file, a joint of it has no gains, the
+/// @param whose   joints whose gains must be there
+/// @throws FileError if the robot lacks a joint of the file, a joint of it has no gains, the
 ///         chain leaves a joint out, or the file's gravity is not the robot's
 /// Real-time: no (allocates, throws).
 template <Robot R>
@@ -49,18 +48,16 @@ template <Robot R>
       detail::refuse_missing(config, robot, j, "gains");
     }
     if (!joint->gains) {
-      throw ConfigError(joint->place, "joint '" + detail::shown(joint->name) + "' has no gains",
-                        "them, such as " + detail::shown(joint->name) + ": {p: ...}");
+      throw FileError(joint->place, "joint '" + detail::shown(joint->name) + "' has no gains",
+                      "gains, such as " + detail::shown(joint->name) + ": {p: ...}");
     }
     result.gains[j] = *joint->gains;
     result.keeps_integral[j] = joint->keeps_integral;
     result.group.emplace_back(joint->name);
-    const bool turns = model_of(robot).joints[j].type == JointType::continuous;
-    if (joint->short_way && *joint->short_way != turns) {
-      config.notes.push_back(joint->short_way_place.file + ":" +
-                             std::to_string(joint->short_way_place.line) + ": " +
-                             joint->short_way_place.key + ": not used: continuous joints " +
-                             "take the short way round, others do not");
+    const bool is_continuous = model_of(robot).joints[j].type == JointType::continuous;
+    if (joint->angle_wraparound && *joint->angle_wraparound != is_continuous) {
+      config.notes.push_back(joint->angle_wraparound_place.text() +
+                             "not used: continuous joints take the short way round, others do not");
     }
   }
   detail::check_chain(config, robot);
@@ -69,7 +66,7 @@ template <Robot R>
   return result;
 }
 
-/// Reads a robot's PID gains from a file, as pid_plus_gravity.yaml of the Q2D's course has them:
+/// Loads a robot's PID gains from a file of ROS, for example from the Q2D's course:
 ///
 ///     const PidConfig<2> config = load_pid_gains(Q2d(), "pid_plus_gravity.yaml");
 ///     Loop<Q2dSim, PidPlusGravity> loop(PidPlusGravity<Q2d>(config.gains));
@@ -83,14 +80,13 @@ template <Robot R>
 ///                                        ...);
 ///
 /// Layouts, keys and their meaning: docs/configuration.md.
-/// @param robot   whose joints they are
 /// @param source  a file, or a ConfigSource::text
-/// @param name    of the controller, of a namespace, or the type of the controllers that are meant;
-///                need not be given where there is but one with gains
-/// @param whose   gains there must be
-/// @param signs   which p, i and d may have; with `any` output clamps need not contain 0: for
+/// @param name    of the controller, of a namespace, or the type of the controllers; may be empty
+///                if the file has one controller with gains
+/// @param whose   joints whose gains must be there
+/// @param signs   allowed signs of p, i and d. `any` allows output clamps without 0, too, for
 ///                ControlToolboxPidLaw
-/// @throws ConfigError with file, line, key and what was expected, see load_controller and
+/// @throws FileError with file, line, key and what was expected, see load_controller and
 /// pid_gains
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
@@ -104,7 +100,7 @@ template <Robot R>
   };
   return pid_gains(
       robot,
-      detail::load_controller(source, name, relevant, "controller with gains", &joints, signs),
+      detail::load_controller(source, {name, "controller with gains", relevant}, &joints, signs),
       whose);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Reads waveforms for joints from a file. Needs the CMake target articula::config
+/// @file Loads waveforms for joints from a file. Needs the CMake target articula::config
 /// (yaml-cpp).
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace articula {
 
-/// Reads waveforms for a robot's joints, as the PR2's controller tutorial has them:
+/// Loads waveforms for a robot's joints, for example from the PR2's controller tutorial:
 ///
 ///     waveforms:
 ///       r_shoulder_pan_joint: {type: sine, amplitude: 2.0, frequency: 0.5}   # N m, Hz
@@ -22,12 +22,11 @@ namespace articula {
 ///     const SignalConfig config = load_signals(Pr2(), "pr2_waveforms.yaml");
 ///     const JointSignals<Pr2> waves(config.signals);
 ///
-/// Waveforms are efforts unless `target: position` says otherwise. Layouts and keys:
+/// Waveforms are efforts, or positions with `target: position`. Layouts and keys:
 /// docs/configuration.md.
-/// @param robot   whose joints they are for
 /// @param source  a file, or a ConfigSource::text
-/// @param name    of the section; need not be given where all waveforms of the file are meant
-/// @throws ConfigError with file, line, key and what was expected: an unknown joint or key, a
+/// @param name    of the section; empty: all waveforms of the file
+/// @throws FileError with file, line, key and what was expected: an unknown joint or key, a
 ///         signal that cannot be evaluated, an effort beyond the drive's limit, alone or summed up,
 ///         or no waveform at all
 /// Real-time: no (reads a file, allocates, throws).
@@ -37,8 +36,7 @@ template <Robot R>
   detail::ConfigSections all = detail::find_sections(source, name);
   const detail::RobotJoints joints = detail::joints_of(robot);
   const auto relevant = [&](const detail::ConfigSection& section) {
-    const auto has = [&](const char* key) { return section.parameters.find(key) != nullptr; };
-    return has("waveforms") || has("amplitude") || has("height") ||
+    return section.parameters.has_any({"waveforms", "amplitude", "height"}) ||
            detail::is_joint(section, joints) ||
            detail::misplaced_waveforms(section.parameters, joints) != nullptr ||
            detail::misspelt_waveforms(section.parameters) != nullptr;
@@ -46,7 +44,7 @@ template <Robot R>
   const auto limits = effort_limits(robot);
   detail::SignalReader reader(joints, {limits.data(), limits.data() + limits.size()}, all.file);
   for (const auto& section :
-       detail::chosen_sections(all, name, relevant, "section of waveforms", all.notes)) {
+       detail::chosen_sections(all, {name, "section of waveforms", relevant}, all.notes)) {
     reader.read(section);
   }
   reader.finish();

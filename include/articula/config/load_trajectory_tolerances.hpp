@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Reads the tolerances of trajectories from a file. Needs the CMake target articula::config
+/// @file Loads the tolerances of trajectories from a file. Needs the CMake target articula::config
 /// (yaml-cpp).
 #pragma once
 
-#include "articula/config/arrange_joints.hpp"
+#include "articula/config/check_robot.hpp"
 #include "articula/config/load_controller.hpp"
 #include "articula/reference/trajectory/trajectory_tolerances.hpp"
 
@@ -14,30 +14,28 @@
 
 namespace articula {
 
-/// A joint trajectory controller's parameters, with the tolerances of a robot of N joints.
+/// A joint trajectory controller's parameters, and the tolerances of a robot with N joints.
 template <int N>
 struct TrajectoryConfig : ControllerConfig {
   TrajectoryTolerances<N> tolerances{};  ///< in the order of the robot's joints
 };
 
-/// Reads the constraints of ROS's joint trajectory controller:
+/// Loads the constraints of ROS's joint trajectory controller:
 ///
 ///     const TrajectoryConfig<2> config = load_trajectory_tolerances(Q2d(), "controllers.yaml");
 ///     TrajectoryFollower<Q2d> follower(position, limits, {.tolerances = config.tolerances});
 ///
-/// Joints that the file does not list, such as those of a gripper with a controller of its own, are
-/// not checked, which is noted.
-/// @param robot   whose joints they are
+/// A joint that the file does not list, such as a gripper's, has no tolerances; `notes` names it.
 /// @param source  a file, or a ConfigSource::text
-/// @param name    of the controller; need not be given where there is but one with constraints
-/// @throws ConfigError with file, line, key and what was expected
+/// @param name    of the controller; may be empty if one has constraints
+/// @throws FileError with file, line, key and what was expected
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] TrajectoryConfig<joint_count<R>> load_trajectory_tolerances(
     const R& robot, const ConfigSource& source, std::string_view name = {}) {
   const detail::RobotJoints known = detail::joints_of(robot);
-  ControllerConfig config = detail::load_controller(source, name, detail::has_constraints,
-                                                    "controller with constraints", &known);
+  ControllerConfig config = detail::load_controller(
+      source, {name, "controller with constraints", detail::has_constraints}, &known);
   TrajectoryConfig<joint_count<R>> result;
   if (config.joints.empty()) detail::refuse_missing(config, robot, 0, "an entry in 'joints'");
   const auto joints = detail::arranged_joints(config, robot);
@@ -45,8 +43,7 @@ template <Robot R>
     const auto k = static_cast<Eigen::Index>(j);
     if (joints[j] == nullptr) {
       result.tolerances.stopped_velocity[k] = 0;
-      config.notes.push_back(config.place.file + ":" + std::to_string(config.place.line) +
-                             ": no tolerances for joint '" + known.names[j] +
+      config.notes.push_back(config.place.text() + "no tolerances for joint '" + known.names[j] +
                              "', which is not in 'joints': it is not checked");
       continue;
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Square root, sine and cosine of constants, computed by the compiler.
+/// @file Square root, sine and cosine of constants, at compile time.
 ///
-/// The functions of <cmath> are not constexpr in C++20, and a robot's description, whose frames are
-/// written with angles, must be known to the compiler. These are for constants only: at run time
-/// use <cmath>, which is faster.
+/// The functions of <cmath> are not constexpr in C++20, but a robot's description contains angles
+/// of frames. Use these functions for constants only: at run time <cmath> is faster.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -12,8 +11,8 @@
 
 namespace articula::constant_math {
 
-/// The square root of x >= 0, within one unit in the last place. NaN for x < 0.
-/// Newton's iteration x <- (x + a/x)/2 in extended precision, from above, until it no longer falls.
+/// The square root of a >= 0, within one unit in the last place. NaN for a < 0.
+/// Newton's iteration x <- (x + a/x)/2 in extended precision, from above, until x no longer falls.
 /// Real-time: yes, though meant for compile time.
 [[nodiscard]] constexpr double square_root(double a) noexcept {
   if (!is_finite(a) || a < 0) return a > 0 ? a : std::numeric_limits<double>::quiet_NaN();
@@ -33,14 +32,13 @@ struct SineCosine {
   double cosine;  ///< dimensionless
 };
 
-/// The largest angle whose sine and cosine can be had [rad].
+/// The largest angle of sine_cosine [rad].
 inline constexpr double largest_angle = 1e9;
 
 /// Sine and cosine of an angle [rad], within one unit in the last place for |angle| <= 1e4, NaN for
-/// |angle| > largest_angle. The angle is reduced to [-pi/4, pi/4] with pi/2 in three parts, of
-/// which the first two have so few bits that their products with the number of right angles are
-/// exact [Cody, Waite 1980, chapter 8]; then the Taylor series is summed in extended precision (21
-/// terms reach below its last place).
+/// |angle| > largest_angle. The angle is reduced to [-pi/4, pi/4] with pi/2 in three parts. The
+/// first two have so few bits that their products with the number of right angles are exact [Cody,
+/// Waite 1980, chapter 8]. Then 21 terms of the Taylor series are summed in extended precision.
 /// Real-time: yes, though meant for compile time.
 [[nodiscard]] constexpr SineCosine sine_cosine(double angle) noexcept {
   constexpr long double head = 0x1.921fb544p0L, middle = 0x1.0b4611a6p-34L,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a robot's hardware is, real or simulated.
+/// @file The interface of a robot's hardware, real or simulated.
 #pragma once
 
 #include "articula/core/joint_command.hpp"
@@ -11,26 +11,27 @@
 
 namespace articula {
 
-/// The joints of a robot, real or simulated, as a control loop sees them.
+/// The sensors and drives of a robot, real or simulated. Implement it to connect drives that the
+/// library does not know to a Loop. To test a program without drives, use MockHardware or
+/// Simulator.
 ///
-/// - `RobotType` is the robot whose joints these are; `robot()` returns it.
+/// - `RobotType` is the type of the robot; `robot()` returns it.
 /// - `activate()` makes the drives ready to follow commands, `deactivate()` ends that. Both belong
-///   to set-up and may take their time.
-/// - `read(state)` fills in the measurements. It answers Status::stale_state if those of any joint
-///   are older than the hardware allows, Status::hardware_fault if there are none to rely on. On
-///   anything but Status::ok no controller sees the state.
-/// - `write(command)` hands over the command for the coming period; it is held until the next one.
-/// - Before `activate()` has succeeded, and after `deactivate()`, both answer Status::inactive, or
-///   Status::hardware_fault. `read` may fill in measurements even then; no drive follows a command.
-///   Hardware that needs no activation, as a simulator, is active until `deactivate()`.
+///   to set-up and may block.
+/// - `read(state)` fills in the measurements. It returns Status::stale_state if those of any joint
+///   are older than the hardware allows, Status::hardware_fault if there are no valid ones.
+///   Controllers get the state only after Status::ok.
+/// - `write(command)` sends the command for the coming period. Drives hold it until the next one.
+/// - Before `activate()` has succeeded, and after `deactivate()`, both return Status::inactive or
+///   Status::hardware_fault. `read` may still fill in measurements; no drive follows a command.
+///   Hardware that needs no activation, such as a simulator, is active until `deactivate()`.
 ///
-/// `read` and `write` are noexcept and do nothing that could delay the loop but their own input and
-/// output.
+/// `read` and `write` are noexcept. Only their own input and output may delay the loop.
 ///
-/// Hardware that dictates the period, as a simulator does, also has `period()` [s]; hardware whose
-/// own cycle can pace the loop has `wait_for_cycle(timeout)`, see PacingHardware.
+/// Hardware with a period of its own, such as a simulator, also has `period()` [s]. Hardware with a
+/// cycle that can pace the loop has `wait_for_cycle(timeout)`, see PacingHardware.
 /// @tparam H        the hardware
-/// @tparam Command  what it accepts
+/// @tparam Command  the commands that it accepts
 template <class H, class Command = EffortCommand<H::joint_count>>
 concept Hardware = requires(H hardware, const H& constant, JointState<H::joint_count>& state,
                             const Command& command) {
@@ -43,7 +44,7 @@ concept Hardware = requires(H hardware, const H& constant, JointState<H::joint_c
 } && JointCommand<Command, H::joint_count>;
 
 /// Hardware whose own cycle can pace the loop: `wait_for_cycle(timeout)` blocks until that cycle
-/// begins, and answers with another status than Status::ok if it does not begin in time.
+/// begins, and returns another status than Status::ok if it does not begin in time.
 template <class H>
 concept PacingHardware = requires(H hardware, std::chrono::nanoseconds timeout) {
   { hardware.wait_for_cycle(timeout) } noexcept -> std::same_as<Status>;

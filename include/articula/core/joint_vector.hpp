@@ -20,8 +20,8 @@ using JointVector = Eigen::Matrix<Scalar, N, 1>;
 template <int N, class Scalar = double>
 using JointMatrix = Eigen::Matrix<Scalar, N, N>;
 
-/// Joint vectors of K robots of one kind, a column each. A joint's numbers lie side by side in
-/// memory, so that processors take several robots at once.
+/// Joint vectors of K robots of one kind, one in each column. The numbers of one joint are adjacent
+/// in memory, so that processors compute several robots at once.
 /// @tparam N  number of joints (>= 1)
 /// @tparam K  number of robots (>= 2)
 template <int N, int K>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Names of links and joints, held in place.
+/// @file Names of links and joints, stored without heap memory.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,9 @@
 
 namespace articula {
 
-/// The name of a link or joint. It owns its text without heap memory, so that a robot known at
-/// compile time and one loaded at run time hold names in the same way, and it can be a template
-/// argument, so that compilers print it in their messages. The members are public for that reason
-/// alone.
+/// The name of a link or joint. It owns its text without heap memory, so that robots known at
+/// compile time and robots loaded at run time store names in the same way. It can be a template
+/// argument, so that compilers print it in their messages; only for this its members are public.
 class Name {
  public:
   static constexpr std::size_t capacity = 63;  ///< characters at most
@@ -43,8 +42,8 @@ class Name {
 
   [[nodiscard]] constexpr bool empty() const noexcept { return size == 0; }
 
-  // Loops of their own, because compilers take their time for each function that std::string_view
-  // calls for each character; the last one first, because names of one robot differ there.
+  // These loops are faster at compile time than std::string_view, which calls functions for each
+  // character. Comparison starts at the end, because names of one robot differ there.
   friend constexpr bool operator==(const Name& a, const Name& b) noexcept {
     if (a.size != b.size) return false;
     for (std::size_t i = a.size; i-- > 0;) {
@@ -53,7 +52,7 @@ class Name {
     return true;
   }
   friend constexpr bool operator<(const Name& a, const Name& b) noexcept {
-    std::size_t i = 0;  // the NUL behind the shorter one is less than what the longer one has there
+    std::size_t i = 0;  // the NUL at the end of the shorter one is less than any other character
     while (i < a.size && a.characters[i] == b.characters[i]) ++i;
     return static_cast<unsigned char>(a.characters[i]) <
            static_cast<unsigned char>(b.characters[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How what makes no sense is refused: with a message put together from texts and numbers.
+/// @file Error messages composed of texts and numbers.
 #pragma once
 
 #include <array>
@@ -14,10 +14,9 @@
 
 namespace articula::detail {
 
-/// A part of a message: a text, or a number as streams write it unless told otherwise (six digits,
-/// whatever the locale). A text is referred to, so a part lasts for the length of a call.
-/// Where messages are made there is then a list of one type, and no template for each combination
-/// of parts.
+/// A part of a message: a text, or a number with six digits, independent of the locale. It refers
+/// to the text, so it is valid for the duration of a call. Lists of this one type avoid a template
+/// for each combination of parts.
 class MessagePart {
  public:
   MessagePart(std::string_view text) noexcept : text_(text) {}    // NOLINT: a text is a part
@@ -25,19 +24,21 @@ class MessagePart {
   MessagePart(const std::string& text) noexcept : text_(text) {}  // NOLINT: likewise
 
   [[gnu::cold]] MessagePart(double number) noexcept {  // NOLINT: a number is a part
-    keep(std::to_chars(digits_.begin(), digits_.end(), number, std::chars_format::general, 6));
+    keep(std::to_chars(digits_.data(), digits_.data() + digits_.size(), number,
+                       std::chars_format::general, 6));
   }
   template <std::integral Number>
   [[gnu::cold]] MessagePart(Number number) noexcept {  // NOLINT: likewise
     using Widest = std::conditional_t<std::signed_integral<Number>, long long, unsigned long long>;
-    keep(std::to_chars(digits_.begin(), digits_.end(), static_cast<Widest>(number)));
+    keep(std::to_chars(digits_.data(), digits_.data() + digits_.size(),
+                       static_cast<Widest>(number)));
   }
-  MessagePart(bool) = delete;  ///< a number or a word?
+  MessagePart(bool) = delete;  ///< ambiguous: a number or a word
   MessagePart(char) = delete;  ///< likewise
   MessagePart(signed char) = delete;
   MessagePart(unsigned char) = delete;
 
-  /// What it says.
+  /// The text of the part.
   [[nodiscard]] std::string_view view() const noexcept {
     return size_ > 0 ? std::string_view(digits_.data(), size_) : text_;
   }
@@ -49,19 +50,19 @@ class MessagePart {
 
   std::string_view text_{};
   std::array<char, 24> digits_;  ///< of a number, at most 20 of them
-  std::size_t size_ = 0;         ///< of the number; 0: it is a text
+  std::size_t size_ = 0;         ///< of the number; 0 for a text
 };
 
 using MessageParts = std::initializer_list<MessagePart>;
 
-/// The parts, one after another. Real-time: no (allocates).
+/// The concatenation of the parts. Real-time: no (allocates).
 [[nodiscard, gnu::cold]] inline std::string message_of(MessageParts parts) {
   std::string message;
   for (const MessagePart& part : parts) message += part.view();
   return message;
 }
 
-/// Refuses what makes no sense:
+/// Throws an error about an invalid value:
 ///
 ///     refuse({"period ", period, " s is not a positive number"});
 ///

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How a cycle ended.
+/// @file The result of a cycle of the loop.
 #pragma once
 
 #include <string_view>
 
 namespace articula {
 
-/// How one cycle of the loop, or one access to the hardware, ended. Whatever it says, the hardware
-/// was left with a safe command.
+/// The result of one cycle of the loop, or of one access to the hardware. The hardware has a safe
+/// command in every case.
 enum class [[nodiscard]] Status : unsigned char {
-  ok,                    ///< All went as asked; an effort held at its limit is still ok.
+  ok,                    ///< Success, also with commands at their limits.
   non_finite_state,      ///< A measured position, velocity or effort is NaN or infinite.
   non_finite_reference,  ///< A member of the reference is NaN or infinite.
-  non_finite_command,    ///< The controller computed a NaN or infinity, or says that it failed.
+  non_finite_command,    ///< The controller computed a NaN or infinity, or reports failure.
   hardware_fault,        ///< The hardware could not be read, written, activated or deactivated.
   stale_state,           ///< A joint's measurement is older than it may be.
   stale_reference,       ///< No new reference came within the lifetime of the last one.
   limit_exceeded,        ///< A joint is measured beyond its position or velocity limit.
   overrun,               ///< Too many cycles ended after the next one was due.
-  inactive,  ///< The loop or its hardware is not active: it watches, and does not control.
+  inactive,  ///< The loop or its hardware is not active: it measures, and does not control.
 };
 
 /// The status in words, for messages and logs.

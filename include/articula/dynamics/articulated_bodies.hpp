@@ -11,8 +11,8 @@ namespace articula {
 
 namespace detail {
 
-/// What a body with all that it carries opposes to an acceleration when the joints beyond it are
-/// free to give way, about the origin of its frame: n = I alpha + H a, f = H^T alpha + M a.
+/// The inertia of a body and of all that it carries on free joints, about the origin of its frame:
+/// n = I alpha + H a, f = H^T alpha + M a.
 template <class S>
 struct ArticulatedInertia {
   Symmetric3<S> moment;  ///< I [kg m^2], 3 x 3
@@ -81,17 +81,17 @@ template <class S>
 
 }  // namespace detail
 
-/// Forward dynamics once more, without a mass matrix: each body with those that it carries is
-/// replaced by what it opposes to an acceleration, from the leaves to the base; from the base to
-/// the leaves the accelerations follow. Velocities and gravity come in by the bias efforts. For
-/// long chains that takes fewer operations than factors of the mass matrix.
-/// Source: [Featherstone 2008, chapter 7].
+/// Forward dynamics by articulated bodies, without a mass matrix. From the leaves to the base, each
+/// body and those that it carries are replaced by their articulated inertia. From the base to the
+/// leaves, the accelerations follow. The bias efforts contain velocities and gravity. For long
+/// chains this takes fewer operations than factors of the mass matrix. Source: [Featherstone 2008,
+/// chapter 7].
 struct ArticulatedBodies {
-  /// Up to this length of a chain factors of the mass matrix have been seen to take fewer
-  /// operations, on trees even beyond it.
+  /// Up to this length of a chain, factors of the mass matrix took fewer operations in
+  /// measurements; for trees even beyond it.
   static constexpr int short_chain = 10;
 
-  /// True for long chains, unless joints are tied otherwise than by the tree, which is beyond it.
+  /// True for long chains. False if mimic joints or shared rotors couple joints.
   template <int N, int B>
   [[nodiscard]] static constexpr bool may_pay(const Mechanism<N, B>& mechanism) noexcept {
     int longest = 0;
@@ -106,13 +106,13 @@ struct ArticulatedBodies {
     return N == B && longest > short_chain;
   }
 
-  /// Whether it takes less time than the factors for a model, whose zeros nobody knows. Those take
-  /// about as long as the squares of all bodies' depths say, and as N^2 for the matrix itself; this
-  /// algorithm takes N times the same. Chains of twelve joints cost about the same either way, and
-  /// so do trees of some twenty to thirty: the numbers are fitted to times measured there.
+  /// Whether it is faster than the factors for a model loaded at run time, without known zeros. The
+  /// time of the factors is proportional to the sum of the squared depths of the bodies, plus N^2
+  /// for the matrix; the time of this algorithm to N. Both take about the same time for chains of
+  /// twelve joints and for trees of twenty to thirty; the constants are fitted to times there.
   template <int N, int B>
   [[nodiscard]] static constexpr bool pays_for_numbers(const Mechanism<N, B>& mechanism) noexcept {
-    constexpr double per_body = 73, per_element = 1.6;  // in units of what a depth's square costs
+    constexpr double per_body = 73, per_element = 1.6;  // relative to the time of a squared depth
     JointArray<int, B> depth;
     int squares = 0;
     for (int i = 0; i < B; ++i) {
@@ -123,7 +123,7 @@ struct ArticulatedBodies {
     }
     return N == B && squares + per_element * N * N > per_body * N;
   }
-  /// The smallest model for which it ever does.
+  /// The smallest model for which pays_for_numbers may be true.
   static constexpr int smallest_model = 12;
 
   /// @pre no mimic joints, no shared rotors
@@ -133,9 +133,9 @@ struct ArticulatedBodies {
       const JointArray<S, N>& v, const JointArray<S, N>& effort) noexcept {
     const JointArray<S, N> bias = NonlinearEffects::evaluate<S, N, B>(mechanism, configuration, v);
     detail::UnsetArray<detail::ArticulatedInertia<S>, B> inertia;
-    detail::UnsetArray<Wrench<S>, B> wrench;  // that the efforts beyond a body exert on it
-    detail::UnsetArray<Wrench<S>, B> along;   // for a unit acceleration of the joint alone
-    JointArray<S, B> inverse, remaining;      // 1/D, and the effort that is left to accelerate
+    detail::UnsetArray<Wrench<S>, B> wrench;  // on a body, by the efforts of the joints beyond it
+    detail::UnsetArray<Wrench<S>, B> unit;    // for a unit acceleration of the joint alone
+    JointArray<S, B> inverse, remaining;      // 1/D, and the effort that accelerates the joint
     for (int i = 0; i < B; ++i) {
       inertia.set(i, detail::articulated(configuration[i].moments));
       wrench.set(i, {});
@@ -144,21 +144,21 @@ struct ArticulatedBodies {
       const Body& body = mechanism.bodies[i];
       const detail::ArticulatedInertia<S>& own = inertia[i];
       const Matrix3<S> h = own.coupling, m = detail::full(own.mass), j = detail::full(own.moment);
-      along.set(
+      unit.set(
           i, body.prismatic ? Wrench<S>{m.rows[2], h.column(2)} : Wrench<S>{h.rows[2], j.rows[2]});
-      const S felt = body.prismatic ? along[i].force.z : along[i].moment.z;
-      inverse[i] = S(1.0) / (felt + S(body.reflected_inertia));
+      const S pivot = body.prismatic ? unit[i].force.z : unit[i].moment.z;
+      inverse[i] = S(1.0) / (pivot + S(body.reflected_inertia));
       remaining[i] =
           effort[i] - bias[i] - (body.prismatic ? wrench[i].force.z : wrench[i].moment.z);
       if (body.parent < 0) continue;
       const int p = detail::parent_of(body, i);
-      const Vector3<S> force = inverse[i] * along[i].force, moment = inverse[i] * along[i].moment;
-      detail::ArticulatedInertia<S> rest{detail::minus_product(own.moment, moment, along[i].moment),
+      const Vector3<S> force = inverse[i] * unit[i].force, moment = inverse[i] * unit[i].moment;
+      detail::ArticulatedInertia<S> rest{detail::minus_product(own.moment, moment, unit[i].moment),
                                          own.coupling,
-                                         detail::minus_product(own.mass, force, along[i].force)};
+                                         detail::minus_product(own.mass, force, unit[i].force)};
       const S by_row[] = {moment.x, moment.y, moment.z};
       for (std::size_t k = 0; k < 3; ++k) {
-        rest.coupling.rows[k] = rest.coupling.rows[k] - by_row[k] * along[i].force;
+        rest.coupling.rows[k] = rest.coupling.rows[k] - by_row[k] * unit[i].force;
       }
       const detail::ArticulatedInertia<S> moved = detail::in_parent(configuration[i], rest);
       detail::ArticulatedInertia<S>& parent = inertia[p];
@@ -184,7 +184,7 @@ struct ArticulatedBodies {
         turning = configuration[i].from_parent(angular[p]);
         moving = configuration[i].from_parent(linear[p] +
                                               cross(angular[p], configuration[i].translation));
-        carried = dot(along[i].moment, turning) + dot(along[i].force, moving);
+        carried = dot(unit[i].moment, turning) + dot(unit[i].force, moving);
       }
       a[i] = inverse[i] * (remaining[i] - carried);
       S& own = body.prismatic ? moving.z : turning.z;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The equations of motion, all of them.
+/// @file All functions of kinematics and dynamics.
 #pragma once
 
 #include "articula/dynamics/forward_dynamics.hpp"

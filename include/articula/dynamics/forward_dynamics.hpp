@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Forward dynamics: from effort to motion.
+/// @file Forward dynamics: accelerations from efforts.
 #pragma once
 
 #include "articula/dynamics/articulated_bodies.hpp"
@@ -9,7 +9,7 @@
 
 namespace articula {
 
-/// The algorithm behind forward_dynamics: the mass matrix, factorised along the tree, and the bias
+/// The algorithm of forward_dynamics: the mass matrix, factorised along the tree, and the bias
 /// efforts. Source: [Featherstone 2008, section 6.1].
 struct ForwardDynamics {
   using Alternative = ArticulatedBodies;
@@ -18,7 +18,7 @@ struct ForwardDynamics {
   [[nodiscard]] static constexpr JointArray<S, N> evaluate(
       const Mechanism<N, B>& mechanism, const Configuration<S, B>& configuration,
       const JointArray<S, N>& v, const JointArray<S, N>& effort) noexcept {
-    // The bias first: it leaves fewer numbers behind than the matrix for a processor to remember.
+    // The bias first: it leaves fewer numbers than the matrix to keep in registers.
     JointArray<S, N> b = NonlinearEffects::evaluate<S, N, B>(mechanism, configuration, v);
     for (int i = 0; i < N; ++i) b[i] = effort[i] - b[i];
     const auto matrix = MassMatrix::evaluate<S, N, B>(mechanism, configuration);
@@ -27,15 +27,15 @@ struct ForwardDynamics {
   }
 };
 
-/// The joint accelerations that efforts cause: a = M(q)^-1 (effort - h(q, v)). The inverse of
-/// inverse_dynamics in its last argument. Joint damping and friction are not in it.
+/// The joint accelerations for joint efforts: a = M(q)^-1 (effort - h(q, v)). It inverts
+/// inverse_dynamics in the last argument. Joint damping and friction are not included.
 /// @param robot   a described robot or a model
 /// @param q       joint positions [rad or m], N x 1
 /// @param v       joint velocities [rad/s or m/s], N x 1
 /// @param effort  joint efforts [N m or N], N x 1
-/// @return        joint accelerations [rad/s^2 or m/s^2], N x 1. If M(q) is singular, they mean
-///                nothing and may not be finite; where it always is, because a joint feels no
-///                inertia (as that of an unphysical robot may), a described robot does not compile
+/// @return        joint accelerations [rad/s^2 or m/s^2], N x 1. They are meaningless, and may not
+///                be finite, if M(q) is singular. A described robot whose M(q) is always singular,
+///                because a joint has no inertia, does not compile
 /// Real-time: yes. O(N d^2) with d the depth of the tree, O(N) where that takes less time.
 template <Robot R>
 [[nodiscard]] inline JointVector<joint_count<R>> forward_dynamics(
@@ -44,15 +44,12 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<ForwardDynamics>(robot, q, v, effort));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
-/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
-/// Real-time: yes.
-template <Robot R, int K>
-[[nodiscard]] JointVectors<joint_count<R>, K> forward_dynamics(
-    const R& robot, const JointVectors<joint_count<R>, K>& q,
-    const JointVectors<joint_count<R>, K>& v,
-    const JointVectors<joint_count<R>, K>& effort) noexcept {
-  return detail::evaluate_columns<ForwardDynamics, R, K>(robot, q, v, effort);
+/// The same for several robots of one kind at once, which is faster than one by one: the registers
+/// of the target processor hold several numbers (-march=native). Real-time: yes.
+template <Robot R, JointVectorPack<R> Q>
+[[nodiscard]] Q forward_dynamics(const R& robot, const Q& q, const std::type_identity_t<Q>& v,
+                                 const std::type_identity_t<Q>& effort) noexcept {
+  return detail::evaluate_pack<ForwardDynamics>(robot, q, v, effort);
 }
 
 }  // namespace articula

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Forward kinematics: where the links stand.
+/// @file Forward kinematics: the placements of links.
 #pragma once
 
 #include "articula/dynamics/engine/body_placements.hpp"
@@ -13,7 +13,7 @@
 
 namespace articula {
 
-/// A link of a robot, found by name once and used in the loop.
+/// The index of a robot's link: found by name once, used in the loop.
 struct LinkIndex {
   std::size_t value = 0;
 };
@@ -41,12 +41,11 @@ template <Robot R>
 
 namespace detail {
 
-/// A link's frame in the base frame: the steps on its way, and its rotation.
+/// A link's frame in the base frame: the sum of the steps of its chain, and its rotation.
 template <class S, int B>
-[[nodiscard]] constexpr Placement<S> placement_at_end(const LinkPath<B>& path,
-                                                      LinkChain<S, B>& chain) noexcept {
+[[nodiscard]] constexpr Placement<S> placement_at_end(LinkChain<S, B>& chain) noexcept {
   Vector3<S> translation = chain.last_step;
-  for (int k = path.count; k-- > 0;) translation = chain.steps[k] + translation;
+  for (int k = chain.path.count; k-- > 0;) translation = chain.steps[k] + translation;
   return {chain.rotation, translation};
 }
 
@@ -60,8 +59,8 @@ template <class S, int B>
 
 }  // namespace detail
 
-/// The algorithm behind forward kinematics of a link named at compile time: where its frame stands
-/// in the base frame, along the joints that move it.
+/// The algorithm of forward kinematics for a link named at compile time, along the joints that move
+/// it.
 /// @tparam Link  the name, as in `PlacementOf<"tool0">`
 template <Name Link>
 struct PlacementOf {
@@ -73,13 +72,12 @@ struct PlacementOf {
       const AnyModel& model, const JointArray<S, AnyModel::joint_count>& q) {
     constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
     const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
-    const detail::LinkPath<b> path(model.mechanism, frame);
-    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, path, frame, q);
-    return detail::placement_at_end(path, chain);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, frame, q);
+    return detail::placement_at_end(chain);
   }
 };
 
-/// Where a link's frame stands in the frame of the robot's root link: X_0L(q).
+/// The placement of a link's frame in the frame of the robot's root link: X_0L(q).
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @param link   the link, from link_index of the same robot
@@ -91,20 +89,18 @@ template <Robot R>
                                                    LinkIndex link) noexcept {
   const auto& model = model_of(robot);
   const LinkFrame& frame = model.links[link.value];
-  if (detail::takes_all_bodies<R>(frame)) {
+  if (detail::all_bodies_are_faster<R>(frame)) {
     const auto bodies = detail::evaluate<BodyPlacements>(robot, q);
     return detail::to_isometry(bodies[frame.body] * frame.placement);
   }
-  const detail::LinkPath path(model.mechanism, frame);
-  auto chain =
-      detail::link_chain<Frames::moving>(model.mechanism, path, frame, detail::to_array(q));
-  return detail::to_isometry(detail::placement_at_end(path, chain));
+  auto chain = detail::link_chain<Frames::moving>(model.mechanism, frame, detail::to_array(q));
+  return detail::to_isometry(detail::placement_at_end(chain));
 }
 
-/// The same for a link named at compile time, `forward_kinematics<"tool0">(Ur10(), q)`: as fast as
-/// it can be, since the joints that move the link are known. A name that the robot does not have
-/// does not compile.
-/// Real-time: yes. operations<PlacementOf<"tool0">, Ur10>() says how much it takes.
+/// The same for a link named at compile time, `forward_kinematics<"tool0">(Ur10(), q)`. This is the
+/// fastest way, because the compiler knows the joints that move the link. A name that the robot
+/// does not have does not compile. Real-time: yes. The number of operations is
+/// operations<PlacementOf<"tool0">, Ur10>().
 template <Name Link, DescribedRobot R>
 [[nodiscard]] Eigen::Isometry3d forward_kinematics(const R&,
                                                    const JointVector<joint_count<R>>& q) noexcept {
@@ -116,7 +112,7 @@ template <Name Link, DescribedRobot R>
   }
 }
 
-/// The same for a link given by name.
+/// The same for a link by its name.
 /// @throws std::invalid_argument if the robot has no such link
 /// Real-time: no (throws, searches by name).
 template <Robot R>

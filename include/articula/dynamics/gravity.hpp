@@ -19,13 +19,11 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<Gravity>(robot, q));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
-/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
-/// Real-time: yes.
-template <Robot R, int K>
-[[nodiscard]] JointVectors<joint_count<R>, K> gravity(
-    const R& robot, const JointVectors<joint_count<R>, K>& q) noexcept {
-  return detail::evaluate_columns<Gravity, R, K>(robot, q);
+/// The same for several robots of one kind at once, which is faster than one by one: the registers
+/// of the target processor hold several numbers (-march=native). Real-time: yes.
+template <Robot R, JointVectorPack<R> Q>
+[[nodiscard]] Q gravity(const R& robot, const Q& q) noexcept {
+  return detail::evaluate_pack<Gravity>(robot, q);
 }
 
 }  // namespace articula

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Inverse dynamics: from motion to effort.
+/// @file Inverse dynamics: efforts from accelerations.
 #pragma once
 
 #include "articula/dynamics/engine/evaluate.hpp"
@@ -7,7 +7,7 @@
 
 namespace articula {
 
-/// The algorithm behind inverse_dynamics.
+/// The algorithm of inverse_dynamics.
 struct InverseDynamics {
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointArray<S, N> evaluate(const Mechanism<N, B>& mechanism,
@@ -18,14 +18,15 @@ struct InverseDynamics {
   }
 };
 
-/// The joint efforts that make the rigid bodies move as given.
-/// effort = M(q) a + h(q, v), where h holds Coriolis, centrifugal and gravity efforts. Joint
-/// damping and friction are not in it (see friction_effort).   Source: see newton_euler.
+/// The joint efforts for joint accelerations: effort = M(q) a + h(q, v), with Coriolis, centrifugal
+/// and gravity efforts in h. Joint damping and friction are not included, see friction_effort.
+/// Source: see newton_euler.
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @param v      joint velocities [rad/s or m/s], N x 1
 /// @param a      joint accelerations [rad/s^2 or m/s^2], N x 1
-/// @return       joint efforts [N m or N], N x 1; not finite only if an input is not, or overflows
+/// @return       joint efforts [N m or N], N x 1; not finite only if an input is not finite, or at
+///               overflow
 /// Real-time: yes. O(N).
 template <Robot R>
 [[nodiscard]] JointVector<joint_count<R>> inverse_dynamics(
@@ -34,14 +35,12 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<InverseDynamics>(robot, q, v, a));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
-/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
-/// Real-time: yes.
-template <Robot R, int K>
-[[nodiscard]] JointVectors<joint_count<R>, K> inverse_dynamics(
-    const R& robot, const JointVectors<joint_count<R>, K>& q,
-    const JointVectors<joint_count<R>, K>& v, const JointVectors<joint_count<R>, K>& a) noexcept {
-  return detail::evaluate_columns<InverseDynamics, R, K>(robot, q, v, a);
+/// The same for several robots of one kind at once, which is faster than one by one: the registers
+/// of the target processor hold several numbers (-march=native). Real-time: yes.
+template <Robot R, JointVectorPack<R> Q>
+[[nodiscard]] Q inverse_dynamics(const R& robot, const Q& q, const std::type_identity_t<Q>& v,
+                                 const std::type_identity_t<Q>& a) noexcept {
+  return detail::evaluate_pack<InverseDynamics>(robot, q, v, a);
 }
 
 }  // namespace articula

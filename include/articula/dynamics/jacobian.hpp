@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Jacobians: how the links move with the joints.
+/// @file Jacobians: velocities of links from velocities of joints.
 #pragma once
 
 #include "articula/dynamics/forward_kinematics.hpp"
@@ -9,16 +9,16 @@
 
 namespace articula {
 
-/// How a link's frame moves for each joint's velocity, 6 x N.
+/// The derivatives of a link frame's motion with respect to joint velocities, 6 x N.
 /// @tparam N  number of joints
 template <int N>
 using LinkJacobian = Eigen::Matrix<double, 6, N>;
 
 namespace detail {
 
-/// Adds what a body's motion does to a point of a link: the body's part in the column of its joint.
-/// A body that turns about the axis z moves a point at r from a point of the axis by z x r and
-/// turns it by z; one that slides moves it by z. Source: [Siciliano et al. 2009, section 3.1.3].
+/// Adds a body's contribution to the column of its joint. A body that turns about the axis z moves
+/// a point at r from a point of the axis by z x r and turns it by z. A body that slides along z
+/// moves it by z. Source: [Siciliano et al. 2009, section 3.1.3].
 /// @param jacobian  6 x N, column by column
 template <class S, int N, int B>
 [[gnu::always_inline]] constexpr void add_column(const Mechanism<N, B>& mechanism, int body,
@@ -39,19 +39,19 @@ template <class S, int N, int B>
   }
 }
 
-/// A link's Jacobian by the steps on its way.
+/// A link's Jacobian from its chain.
 /// @param[in,out] jacobian  6 x N, column by column, filled with zeros
 template <class S, int N, int B>
-constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkPath<B>& path,
-                             LinkChain<S, B>& chain, S* jacobian) noexcept {
+constexpr void fill_jacobian(const Mechanism<N, B>& mechanism, LinkChain<S, B>& chain,
+                             S* jacobian) noexcept {
   Vector3<S> lever = chain.last_step;
-  for (int k = path.count; k-- > 0;) {
-    add_column<S, N, B>(mechanism, path.bodies[k], chain.axes[k], lever, jacobian);
+  for (int k = chain.path.count; k-- > 0;) {
+    add_column<S, N, B>(mechanism, chain.path.bodies[k], chain.axes[k], lever, jacobian);
     lever = chain.steps[k] + lever;
   }
 }
 
-/// The same by where the bodies stand.
+/// The same from the placements of all bodies.
 template <int N, int B>
 void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkFrame& link,
                    const JointArray<Placement<double>, B>& bodies, double* jacobian) noexcept {
@@ -65,8 +65,7 @@ void fill_jacobian(const Mechanism<N, B>& mechanism, const LinkFrame& link,
 
 }  // namespace detail
 
-/// The algorithm behind the Jacobian of a link named at compile time, along the joints that move
-/// it.
+/// The algorithm of the Jacobian of a link named at compile time, along the joints that move it.
 /// @tparam Link  the name, as in `JacobianOf<"tool0">`
 template <Name Link>
 struct JacobianOf {
@@ -79,11 +78,10 @@ struct JacobianOf {
                                                const JointArray<S, AnyModel::joint_count>& q) {
     constexpr int n = AnyModel::joint_count, b = AnyModel::body_count;
     const LinkFrame& frame = model.links[detail::index_of_link(model, Link)];
-    const detail::LinkPath<b> path(model.mechanism, frame);
-    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, path, frame, q);
+    auto chain = detail::link_chain<frames, S, n, b>(model.mechanism, frame, q);
     JointArray<S, 6 * n> jacobian;
     jacobian.fill(S(0.0));
-    detail::fill_jacobian<S, n, b>(model.mechanism, path, chain, jacobian.data());
+    detail::fill_jacobian<S, n, b>(model.mechanism, chain, jacobian.data());
     return jacobian;
   }
 };
@@ -106,22 +104,20 @@ template <Robot R>
   const auto& model = model_of(robot);
   const LinkFrame& frame = model.links[link.value];
   LinkJacobian<joint_count<R>> jacobian = LinkJacobian<joint_count<R>>::Zero();
-  if (detail::takes_all_bodies<R>(frame)) {
+  if (detail::all_bodies_are_faster<R>(frame)) {
     detail::fill_jacobian(model.mechanism, frame, detail::evaluate<BodyPlacements>(robot, q),
                           jacobian.data());
     return jacobian;
   }
-  const detail::LinkPath path(model.mechanism, frame);
-  auto chain =
-      detail::link_chain<Frames::moving>(model.mechanism, path, frame, detail::to_array(q));
-  detail::fill_jacobian(model.mechanism, path, chain, jacobian.data());
+  auto chain = detail::link_chain<Frames::moving>(model.mechanism, frame, detail::to_array(q));
+  detail::fill_jacobian(model.mechanism, chain, jacobian.data());
   return jacobian;
 }
 
-/// The same for a link named at compile time, `jacobian<"tool0">(Ur10(), q)`: as fast as it can be,
-/// since the joints that move the link are known. A name that the robot does not have does not
-/// compile.
-/// Real-time: yes. operations<JacobianOf<"tool0">, Ur10>() says how much it takes.
+/// The same for a link named at compile time, `jacobian<"tool0">(Ur10(), q)`. This is the fastest
+/// way, because the compiler knows the joints that move the link. A name that the robot does not
+/// have does not compile. Real-time: yes. The number of operations is
+/// operations<JacobianOf<"tool0">, Ur10>().
 template <Name Link, DescribedRobot R>
 [[nodiscard]] LinkJacobian<joint_count<R>> jacobian(const R&,
                                                     const JointVector<joint_count<R>>& q) noexcept {
@@ -136,7 +132,7 @@ template <Name Link, DescribedRobot R>
   return jacobian;
 }
 
-/// The same for a link given by name.
+/// The same for a link by its name.
 /// @throws std::invalid_argument if the robot has no such link
 /// Real-time: no (throws, searches by name).
 template <Robot R>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The energy of motion.
+/// @file The kinetic energy of a robot.
 #pragma once
 
 #include "articula/dynamics/engine/evaluate.hpp"
 
 namespace articula {
 
-/// The algorithm behind kinetic_energy: velocities from the base outwards, then the sum over the
+/// The algorithm of kinetic_energy: velocities from the base outwards, then the sum over the
 /// bodies of m u.u/2 + u.(w x h) + w.I w/2, with u the velocity of the frame's origin.
 struct KineticEnergy {
   template <class S, int N, int B>

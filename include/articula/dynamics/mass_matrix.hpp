@@ -8,10 +8,10 @@
 
 namespace articula {
 
-/// The algorithm behind mass_matrix: composite rigid bodies. Seen from a joint, everything it
-/// carries is one rigid body; its inertia gives the wrench for a unit acceleration of that joint,
-/// which is followed down to the base and felt by every joint on the way.
-/// Source: [Walker, Orin 1982, method 3]; [Featherstone 2008, section 6.2].
+/// The algorithm of mass_matrix: composite rigid bodies. All that a joint carries is one rigid body
+/// for this joint. Its inertia gives the wrench for a unit acceleration of the joint. The
+/// components of this wrench along the axes of the joints towards the base are elements of the
+/// matrix. Source: [Walker, Orin 1982, method 3]; [Featherstone 2008, section 6.2].
 struct MassMatrix {
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointRows<S, N> evaluate(
@@ -24,7 +24,7 @@ struct MassMatrix {
     for (auto& row : matrix) row.fill(S(0.0));
     for (int i = B; i-- > 0;) {
       Wrench<S> wrench = unit_acceleration_wrench(composite[i], mechanism.bodies[i].prismatic);
-      matrix[i][i] = felt_by(mechanism.bodies[i], wrench);
+      matrix[i][i] = along_axis(mechanism.bodies[i], wrench);
       const double reflected = mechanism.bodies[i].reflected_inertia;
       if (reflected != 0) matrix[i][i] = matrix[i][i] + S(reflected);
       int j = i;
@@ -33,7 +33,7 @@ struct MassMatrix {
         wrench = {force, configuration[j].to_parent(wrench.moment) +
                              cross(configuration[j].translation, force)};
         j = detail::parent_of(mechanism.bodies[j], j);
-        matrix[i][j] = matrix[j][i] = felt_by(mechanism.bodies[j], wrench);
+        matrix[i][j] = matrix[j][i] = along_axis(mechanism.bodies[j], wrench);
       }
       if (mechanism.bodies[i].parent >= 0) {
         configuration[i].add_to_parent(composite[i],
@@ -60,13 +60,14 @@ struct MassMatrix {
     return {{-h.y, h.x, S(0.0)}, {-j.xz, -j.yz, j.xx + j.yy}};
   }
   template <class S>
-  static constexpr S felt_by(const Body& body, const Wrench<S>& wrench) noexcept {
+  static constexpr S along_axis(const Body& body, const Wrench<S>& wrench) noexcept {
     return body.prismatic ? wrench.force.z : wrench.moment.z;
   }
 };
 
-/// The matrix M(q) of the equations of motion M(q) a + h(q, v) = effort: symmetric, positive
-/// definite, and kinetic energy is v^T M v / 2. The reflected inertia of the drives is in it.
+/// The matrix M(q) of the equations of motion M(q) a + h(q, v) = effort. It is symmetric and
+/// positive definite, and the kinetic energy is v^T M v / 2. It includes the reflected inertia of
+/// the drives.
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @return       M [kg m^2, kg m or kg], N x N, both triangles filled

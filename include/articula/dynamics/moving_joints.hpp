@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file All joints that move: those that can be commanded and those that mimic them.
+/// @file All moving joints: those that can be commanded, and mimic joints.
 #pragma once
 
 #include "articula/dynamics/engine/coupling.hpp"
@@ -9,12 +9,12 @@
 
 namespace articula {
 
-/// The number of joints that move, those that mimic others included.
+/// The number of moving joints, including mimic joints.
 template <Robot R>
 inline constexpr int moving_joint_count =
     std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::body_count;
 
-/// The names of all joints that move, depth first, siblings by joint name.
+/// The names of all moving joints, depth first, siblings by joint name.
 /// Real-time: yes.
 template <Robot R>
 [[nodiscard]] constexpr auto moving_joint_names(const R& robot) noexcept {
@@ -24,13 +24,12 @@ template <Robot R>
   return names;
 }
 
-/// Names live in their model: one that is about to vanish has none to give.
+/// The names refer to the model, so a temporary model is refused.
 template <Robot R>
   requires(!DescribedRobot<R>)
 auto moving_joint_names(const R&& robot) = delete;
 
-/// Where all joints that move are: a joint that mimics another one is at
-/// q = multiplier q_of_the_other + offset.
+/// The positions of all moving joints. A mimic joint is at q = multiplier q_of_the_other + offset.
 /// @param robot  a described robot or a model
 /// @param q      positions of the joints that can be commanded [rad or m], N x 1
 /// @return       in the order of moving_joint_names [rad or m], moving_joint_count x 1
@@ -42,8 +41,8 @@ template <Robot R>
       model_of(robot).mechanism, detail::to_array(q)));
 }
 
-/// How fast all joints that move are, or their accelerations likewise: a joint that mimics another
-/// one has v = multiplier v_of_the_other.
+/// The velocities of all moving joints. A mimic joint has v = multiplier v_of_the_other. The same
+/// holds for accelerations.
 /// @param robot  a described robot or a model
 /// @param v      velocities of the joints that can be commanded [rad/s or m/s], N x 1
 /// @return       in the order of moving_joint_names [rad/s or m/s], moving_joint_count x 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The efforts that velocity and gravity alone ask for.
+/// @file The efforts due to velocity and gravity.
 #pragma once
 
 #include "articula/dynamics/engine/evaluate.hpp"
@@ -7,7 +7,7 @@
 
 namespace articula {
 
-/// The algorithm behind nonlinear_effects.
+/// The algorithm of nonlinear_effects.
 struct NonlinearEffects {
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointArray<S, N> evaluate(const Mechanism<N, B>& mechanism,
@@ -32,14 +32,12 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<NonlinearEffects>(robot, q, v));
 }
 
-/// The same for K robots of one kind at once, one in each column: a multiple faster than one by
-/// one, as many at a time as the processor that is compiled for has lanes (-march=native).
-/// Real-time: yes.
-template <Robot R, int K>
-[[nodiscard]] JointVectors<joint_count<R>, K> nonlinear_effects(
-    const R& robot, const JointVectors<joint_count<R>, K>& q,
-    const JointVectors<joint_count<R>, K>& v) noexcept {
-  return detail::evaluate_columns<NonlinearEffects, R, K>(robot, q, v);
+/// The same for several robots of one kind at once, which is faster than one by one: the registers
+/// of the target processor hold several numbers (-march=native). Real-time: yes.
+template <Robot R, JointVectorPack<R> Q>
+[[nodiscard]] Q nonlinear_effects(const R& robot, const Q& q,
+                                  const std::type_identity_t<Q>& v) noexcept {
+  return detail::evaluate_pack<NonlinearEffects>(robot, q, v);
 }
 
 }  // namespace articula

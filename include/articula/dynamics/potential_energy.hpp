@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The energy of height.
+/// @file The potential energy of a robot in gravity.
 #pragma once
 
 #include "articula/dynamics/engine/body_placements.hpp"
@@ -7,7 +7,7 @@
 
 namespace articula {
 
-/// The algorithm behind potential_energy.
+/// The algorithm of potential_energy.
 struct PotentialEnergy {
   static constexpr bool needs_own_frames = true;
 

@@ -1,31 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The motions that lead as far as possible in a given time.
+/// @file The motions of one joint that cover the largest distance in a given time.
 #pragma once
 
-#include "articula/motion/polynomial_roots.hpp"
+#include "articula/motion/polynomial.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace articula::detail {
 
 /// The jerks of the stretches of a FurthestMotion.
 inline constexpr std::array<double, 7> furthest_jerks{1, 0, -1, 0, -1, 0, 1};
 
-/// A way from one velocity and acceleration to others that leads as far as it can in its time. The
-/// jerk is 1: a rises from a_0 to A, stays there, falls to B, stays there, and rises to a_1; where
-/// the acceleration passes zero on its fall, the joint cruises. Not all of that need take time. What
-/// is known exactly of a moment does not come from adding up, so that a long motion is exact.
+/// A motion from one velocity and acceleration to others that covers the largest distance in its
+/// time. The jerk is 1. The acceleration rises from a_0 to A, stays there, falls to B, stays there,
+/// and rises to a_1. Where it passes zero on its fall, the joint cruises. Any of these stretches may
+/// take no time. Values known exactly at a moment are stored, so that rounding does not accumulate.
 struct FurthestMotion {
-  /// The beginning of a stretch.
+  /// The motion at the beginning of a stretch.
   struct Moment {
     double time = 0, position = 0, velocity = 0, acceleration = 0;
   };
-  std::array<Moment, 8> moments{};  ///< of the seven stretches, and the end
-  double length = 0;                ///< of the way, there and back
+  std::array<Moment, 8> moments{};  ///< the beginnings of seven stretches, and the end
+  double length = 0;                ///< of the path, in both directions
 
   [[nodiscard]] double duration() const noexcept { return moments[7].time; }
   [[nodiscard]] double distance() const noexcept { return moments[7].position; }
@@ -51,18 +50,18 @@ struct FurthestMotion {
 ///       + ((c_1 + B^2/2)^2 - (P - B^2/2)^2)/(2 B) + V t_cruise,
 ///     K = c_1 a_1 - c_0 a_0 + (a_1^3 - a_0^3)/6.
 ///
-/// There are five kinds, according to which of A, B and P are at their limits. Each has one free
-/// parameter, in which the distance is a polynomial of degree four at most (times the parameter in
-/// the first kind), and the duration is monotonic, linear or quadratic.
+/// There are five kinds, depending on which of A, B and P are at their limits. Each has one free
+/// parameter. The distance is a polynomial of degree four at most in it (times the parameter in the
+/// first kind). The duration is monotonic, linear or quadratic.
 class FurthestMotions {
  public:
-  /// Both states, and the limits of velocity and acceleration with which jerk 1 goes.
+  /// Both states, and the limits of velocity and acceleration, in the unit of time of jerk 1.
   struct Problem {
     double v0 = 0, a0 = 0, v1 = 0, a1 = 0;
     double lowest_acceleration = 0, highest_acceleration = 0;
     double lowest_velocity = 0, highest_velocity = 0;
-    double distance = 0;           ///< that is wanted
-    double distance_rounding = 0;  ///< of the positions of which it is the difference
+    double distance = 0;           ///< to cover
+    double distance_rounding = 0;  ///< rounding of the positions whose difference it is
   };
 
   explicit FurthestMotions(const Problem& problem) noexcept
@@ -72,7 +71,7 @@ class FurthestMotions {
         K_(c1_ * problem.a1 - c0_ * problem.a0 +
            (problem.a1 * problem.a1 * problem.a1 - problem.a0 * problem.a0 * problem.a0) / 6) {}
 
-  /// Calls `found(motion)` for each that leads over the wanted distance.
+  /// Calls `found(motion)` for each motion that covers the distance of the problem.
   /// Real-time: yes.
   template <class Found>
   void for_each_solution(Found found) const noexcept {
@@ -121,8 +120,8 @@ class FurthestMotions {
     if (cruising(0, motion) && V != 0) offer(cruising((D - motion.distance()) / V, motion));
   }
 
-  /// The motion that takes a time.
-  /// @return whether there is one
+  /// The motion of a given duration.
+  /// @return whether it exists
   /// Real-time: yes.
   [[nodiscard]] bool of_duration(double duration, FurthestMotion& best) const noexcept {
     const double A = p_.highest_acceleration, B = p_.lowest_acceleration;
@@ -162,8 +161,8 @@ class FurthestMotions {
                 cruise, motion);
   }
 
-  /// The motion with these figures.
-  /// @param is_bent  there is no time at A and B
+  /// Computes the motion with these parameters.
+  /// @param is_bent  no time is spent at A and B
   /// @return         whether it exists: no duration is negative, and the limits are kept
   [[nodiscard]] bool make(double A, double B, double P, double cruise, FurthestMotion& motion,
                           bool is_bent = false) const noexcept {
@@ -176,7 +175,7 @@ class FurthestMotions {
     if ((p_.a0 < 0 && A > 0 && c0_ < lowest) || (B < 0 && p_.a1 > 0 && c1_ < lowest)) return false;
     const double over_high = P - c0_ - A * A, over_low = P - c1_ - B * B;
     if (is_bent && std::abs(over_high) + std::abs(over_low) > speed) return false;
-    // What rounding leaves of zero is no time at a level that may be next to zero.
+    // A difference of the size of rounding takes no time: the level may be next to zero.
     const auto time_at = [&](double over, double level) {
       return is_bent || std::abs(over) <= speed / 100 ? 0.0 : over / level;
     };
@@ -211,7 +210,7 @@ class FurthestMotions {
     return true;
   }
 
-  /// What rounding of some sums of products may leave, relative to what is summed up.
+  /// Rounding of sums of some products, relative to the terms.
   static constexpr double rounding = 1e-12;
 
   Problem p_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Motions of one joint in stretches of constant jerk, and the fastest ones of two kinds.
+/// @file A motion of one joint in stretches of constant jerk.
 #pragma once
+
+#include "articula/motion/joint_motion.hpp"
+#include "articula/motion/motion_limits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,84 +12,144 @@
 
 namespace articula {
 
-/// One joint at one moment.
-struct JointMotion {
-  double position = 0;      ///< q [rad or m]
-  double velocity = 0;      ///< v [rad/s or m/s]
-  double acceleration = 0;  ///< a [rad/s^2 or m/s^2]
-};
-
-/// Where a motion goes.
-struct PositionRange {
-  double lowest = 0;   ///< [rad or m]
-  double highest = 0;  ///< [rad or m]
-};
-
-/// A motion of one joint in at most seven stretches of constant jerk, and no motion after them.
+/// A motion of one joint in stretches of constant jerk. After its end, the joint goes on with the
+/// acceleration of the end: at rest, if the motion ends at rest.
+///
+///     JerkMotion<2> motion({.position = 1});
+///     motion.append(4, 0.5);   // jerk 4 rad/s^3 for 0.5 s
+///     motion.append(-4, 0.5);
+///     motion.sample(0.7).velocity;
+///
+/// Functions that solve for such a motion are rest_to_rest(), fastest_stop(), stop_within() and
+/// braking_motion(), and the class StateToStateMotion.
+/// @tparam Capacity  largest number of stretches
+template <std::size_t Capacity>
 class JerkMotion {
  public:
   JerkMotion() = default;
-  /// @param start  where it begins
+  /// @param start  the motion at time 0
   explicit JerkMotion(const JointMotion& start) noexcept : end_(start) {}
 
-  /// Adds a stretch. What it ends with is given by the caller, who knows it exactly, so that
-  /// rounding does not add up. Velocity and acceleration must not turn around within a stretch.
-  /// @param jerk          [rad/s^3 or m/s^3]
-  /// @param duration      [s]; a stretch of no or less duration adds nothing
-  /// @param velocity      at its end [rad/s or m/s]
-  /// @param acceleration  at its end [rad/s^2 or m/s^2]
+  /// Adds a stretch.
+  /// @param jerk      [rad/s^3 or m/s^3]
+  /// @param duration  [s]; a stretch of zero or negative duration adds nothing
   /// Real-time: yes.
+  void append(double jerk, double duration) noexcept {
+    append_until(advance(end_, jerk, duration), jerk, duration);
+  }
+  /// Adds a stretch whose final velocity [rad/s or m/s] and acceleration [rad/s^2 or m/s^2] the
+  /// caller knows exactly, so that rounding does not accumulate. Real-time: yes.
   void append(double jerk, double duration, double velocity, double acceleration) noexcept {
-    if (!(duration > 0) || size_ == stretches_.size()) return;
-    stretches_[size_] = {duration_, jerk, end_};
-    end_ = {advance(stretches_[size_], duration).position, velocity, acceleration};
-    duration_ += duration;
-    ++size_;
+    append_until({advance(end_, jerk, duration).position, velocity, acceleration}, jerk, duration);
+  }
+  /// Adds the stretch that changes the acceleration at full jerk.
+  /// @param jerk          J > 0 [rad/s^3 or m/s^3]
+  /// @param acceleration  at the end of the stretch [rad/s^2 or m/s^2]
+  /// Real-time: yes.
+  void change_acceleration(double jerk, double acceleration) noexcept {
+    const double change = acceleration - end_.acceleration;
+    append(std::copysign(jerk, change), std::abs(change) / jerk);
+    end_.acceleration = acceleration;
   }
 
-  /// Where it rests after the last stretch, where that is known better than by adding up.
+  /// Replaces the end by a motion that is known exactly, so that rounding does not accumulate.
   /// Real-time: yes.
-  void rest_at(double position) noexcept { end_ = {position, 0, 0}; }
+  void end_at(const JointMotion& end) noexcept { end_ = end; }
+  /// Replaces the end and its time [s] likewise. Real-time: yes.
+  void end_at(const JointMotion& end, double duration) noexcept {
+    end_ = end;
+    duration_ = duration;
+  }
 
-  /// When it comes to rest [s].
+  /// The time of the end [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
-  /// Where it comes to rest.
+  /// The motion at the end. Real-time: yes.
   [[nodiscard]] const JointMotion& end() const noexcept { return end_; }
+  /// The number of stretches. Real-time: yes.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// The time at which a stretch begins [s]. Real-time: yes.
+  [[nodiscard]] double start_of(std::size_t stretch) const noexcept {
+    return stretch < size_ ? stretches_[stretch].start : duration_;
+  }
+  /// The jerk of a stretch [rad/s^3 or m/s^3]. Real-time: yes.
+  [[nodiscard]] double jerk_of(std::size_t stretch) const noexcept {
+    return stretches_[stretch].jerk;
+  }
 
-  /// The motion at a time from its start [s]; before it: the start. Velocity and acceleration lie
-  /// between those at the ends of the stretch to the last bit.
-  /// Real-time: yes. At most seven comparisons.
+  /// The motion at a time [s]; before 0: the start. Accelerations lie between those at the ends of
+  /// the stretch to the last bit. So do velocities where the acceleration keeps its sign.
+  /// Real-time: yes. O(Capacity).
   [[nodiscard]] JointMotion sample(double time) const noexcept {
-    if (!(time < duration_)) return end_;
+    if (!(time < duration_) || size_ == 0) {
+      const bool rests = end_.velocity == 0 && end_.acceleration == 0;  // also at time infinity
+      return rests ? end_ : advance(end_, 0, std::max(0.0, time - duration_));
+    }
     std::size_t k = 0;
     while (k + 1 < size_ && time >= stretches_[k + 1].start) ++k;
-    const Stretch& stretch = stretches_[k];
-    const JointMotion& from = stretch.from;
+    const auto& [start, jerk, from] = stretches_[k];
     const JointMotion& to = k + 1 < size_ ? stretches_[k + 1].from : end_;
-    JointMotion motion = advance(stretch, std::max(0.0, time - stretch.start));
-    motion.velocity = between(from.velocity, motion.velocity, to.velocity);
-    motion.acceleration = between(from.acceleration, motion.acceleration, to.acceleration);
-    return motion;
+    JointMotion now = advance(from, jerk, std::max(0.0, time - start));
+    now.acceleration = between(from.acceleration, now.acceleration, to.acceleration);
+    if (from.acceleration * to.acceleration >= 0) {
+      now.velocity = between(from.velocity, now.velocity, to.velocity);
+    }
+    return now;
   }
 
-  /// All positions on the way, start and end included. Real-time: yes.
-  [[nodiscard]] PositionRange positions() const noexcept {
-    PositionRange range{end_.position, end_.position};
-    const auto add = [&](double position) noexcept {
-      range = {std::min(range.lowest, position), std::max(range.highest, position)};
-    };
+  /// The range of positions from the start to the end. Real-time: yes. O(Capacity).
+  [[nodiscard]] ValueRange positions() const noexcept {
+    ValueRange range{end_.position, end_.position};
     for (std::size_t k = 0; k < size_; ++k) {
-      const JointMotion& from = stretches_[k].from;
+      const auto& [start, j, from] = stretches_[k];
+      range = range.extended_to(from.position);
       const JointMotion& to = k + 1 < size_ ? stretches_[k + 1].from : end_;
-      add(from.position);
-      const double side = from.velocity < 0 ? -1 : 1;
-      if (!(side * to.velocity < 0)) continue;
-      // The velocity falls to 0 once, since it does not turn around.
-      const double v = side * from.velocity, a = side * from.acceleration;
-      const double root = std::sqrt(std::max(0.0, a * a - 2 * side * stretches_[k].jerk * v));
-      add(advance(stretches_[k], v > 0 ? 2 * v / (root - a) : 0).position);
+      if (from.velocity * to.velocity >= 0 && from.acceleration * to.acceleration >= 0) continue;
+      // The joint turns where v + a t + j t^2/2 = 0, solved in the form that does not cancel.
+      const double a = from.acceleration, v = from.velocity;
+      const double root = std::sqrt(std::max(0.0, a * a - 2 * j * v));
+      const double sum = -(a + std::copysign(root, a));
+      for (const double t : {sum / j, 2 * v / sum}) {
+        if (t > 0 && t < start_of(k + 1) - start) {
+          range = range.extended_to(advance(from, j, t).position);
+        }
+      }
     }
     return range;
+  }
+
+  /// Whether the motion keeps limits and has no jump. A motion that starts beyond a limit may go as
+  /// far as its start, and as far as the velocity goes while the initial acceleration fades.
+  /// Real-time: yes. O(Capacity).
+  [[nodiscard]] bool keeps(const MotionBounds& bounds) const noexcept {
+    if (size_ == 0) return true;
+    const auto& [q0, v0, a0] = stretches_[0].from;
+    const double faded = v0 + a0 / 2 / bounds.jerk * std::abs(a0);
+    const double slowest = std::min({bounds.lowest_velocity, v0, faded});
+    const double fastest = std::max({bounds.highest_velocity, v0, faded});
+    const double lowest = std::min(bounds.lowest_acceleration, a0);
+    const double highest = std::max(bounds.highest_acceleration, a0);
+    // What rounding may add to a limit, and a jump too small for any drive to follow.
+    constexpr double rounding = 1e-9, jump = 1e-6;
+    const double v_slack = rounding * (fastest - slowest), a_slack = rounding * (highest - lowest);
+    const auto has_velocity = [&](double v) noexcept {
+      return v >= slowest - v_slack && v <= fastest + v_slack;
+    };
+    const double v_jump = jump * (fastest - slowest);
+    const double q_jump = v_jump * duration_ + rounding * (std::abs(q0) + std::abs(end_.position));
+    for (std::size_t k = 0; k < size_; ++k) {
+      const auto& [start, j, from] = stretches_[k];
+      const JointMotion& to = k + 1 < size_ ? stretches_[k + 1].from : end_;
+      const JointMotion computed = advance(from, j, start_of(k + 1) - start);
+      if (!(std::abs(j) <= bounds.jerk * (1 + rounding)) || !has_velocity(to.velocity) ||
+          !(to.acceleration >= lowest - a_slack && to.acceleration <= highest + a_slack) ||
+          !(std::abs(computed.velocity - to.velocity) <= v_jump) ||
+          !(std::abs(computed.position - to.position) <= q_jump)) {
+        return false;
+      }
+      const double a = from.acceleration;  // where it passes 0, the velocity turns
+      if (a * to.acceleration < 0 && !has_velocity(from.velocity - a * a / 2 / j)) return false;
+    }
+    return true;
   }
 
  private:
@@ -96,97 +159,27 @@ class JerkMotion {
     JointMotion from{};  ///< at its start
   };
 
-  [[nodiscard]] static JointMotion advance(const Stretch& stretch, double t) noexcept {
-    const auto& [q, v, a] = stretch.from;
-    const double j = stretch.jerk;
-    return {q + t * (v + t * (a / 2 + t * (j / 6))), v + t * (a + t * (j / 2)), a + t * j};
-  }
-  [[nodiscard]] static double between(double a, double x, double b) noexcept {
-    return std::fmin(std::fmax(x, std::fmin(a, b)), std::fmax(a, b));
+  void append_until(const JointMotion& end, double jerk, double duration) noexcept {
+    if (!(duration > 0) || size_ == Capacity) return;
+    stretches_[size_++] = {duration_, jerk, end_};
+    end_ = end;
+    duration_ += duration;
   }
 
-  std::array<Stretch, 7> stretches_{};
+  [[nodiscard]] static JointMotion advance(const JointMotion& from, double jerk,
+                                           double t) noexcept {
+    const auto& [q, v, a] = from;
+    return {q + t * (v + t * (a / 2 + t * (jerk / 6))), v + t * (a + t * (jerk / 2)), a + t * jerk};
+  }
+  /// x, clamped to the range between a and b in either order.
+  [[nodiscard]] static double between(double a, double x, double b) noexcept {
+    return std::min(std::max(std::min(a, b), x), std::max(a, b));
+  }
+
+  std::array<Stretch, Capacity> stretches_{};
   std::size_t size_ = 0;
   double duration_ = 0;
   JointMotion end_{};
 };
-
-/// The fastest motion from rest to rest over a distance D within the limits V, A, J of velocity,
-/// acceleration and jerk: seven stretches, jerk +J 0 -J, cruise, -J 0 +J [Biagiotti, Melchiorri
-/// 2008, section 3.4]. The highest acceleration and velocity are
-///
-///     a = min(A, sqrt(V J), cbrt(D J^2 / 2)),
-///     v = min(V, (sqrt(b^2 + 4 a D) - b)/2) with b = a^2/J,
-///
-/// where the second terms are what D leaves time for. A distance below 1e-100 takes no time.
-/// @param from          where it begins [rad or m]
-/// @param to            where it ends [rad or m]
-/// @param velocity      V [rad/s or m/s], as MotionLimits allows
-/// @param acceleration  A [rad/s^2 or m/s^2], likewise
-/// @param jerk          J [rad/s^3 or m/s^3], likewise
-/// Real-time: yes.
-[[nodiscard]] inline JerkMotion rest_to_rest(double from, double to, double velocity,
-                                             double acceleration, double jerk) noexcept {
-  JerkMotion motion({from, 0, 0});
-  const double distance = std::abs(to - from);
-  if (distance >= 1e-100) {
-    const double side = to < from ? -1 : 1;
-    const double a =
-        std::min({acceleration, std::sqrt(velocity * jerk), std::cbrt(distance / 2 * jerk * jerk)});
-    const double b = a * a / jerk;
-    const double v = std::min(velocity, (std::sqrt(b * b + 4 * a * distance) - b) / 2);
-    const double ramp = a / jerk, push = v / a - ramp, cruise = distance / v - (v / a + ramp);
-    const double bend = std::min(b / 2, v / 2);  // what each stretch of jerk adds to the velocity
-    motion.append(side * jerk, ramp, side * bend, side * a);
-    motion.append(0, push, side * (v - bend), side * a);
-    motion.append(-side * jerk, ramp, side * v, 0);
-    motion.append(0, cruise, side * v, 0);
-    motion.append(-side * jerk, ramp, side * (v - bend), -side * a);
-    motion.append(0, push, side * bend, -side * a);
-    motion.append(side * jerk, ramp, 0, 0);
-  }
-  motion.rest_at(to);
-  return motion;
-}
-
-/// The fastest stop: from any motion to rest, anywhere, within the limits A, J of acceleration and
-/// jerk. Jerk leads the acceleration to -p, which is held, and back to zero, all against the
-/// velocity that would be left if the acceleration just faded, v + a |a| / (2 J):
-///
-///     p = min(A, sqrt(J v + a^2 / 2)), against a, v > 0.
-///
-/// That is the time-optimal control of a double integrator from (v, a) to (0, 0) with bounded jerk
-/// and acceleration. An acceleration beyond A is first led back at full jerk. While an
-/// acceleration fades, the velocity grows by a^2 / (2 J), whatever one does.
-/// @param start         where it begins
-/// @param acceleration  A [rad/s^2 or m/s^2], as MotionLimits allows
-/// @param jerk          J [rad/s^3 or m/s^3], likewise
-/// Real-time: yes.
-[[nodiscard]] inline JerkMotion fastest_stop(const JointMotion& start, double acceleration,
-                                             double jerk) noexcept {
-  JerkMotion motion(start);
-  const double left = start.velocity + start.acceleration / 2 / jerk * std::abs(start.acceleration);
-  const double side = left < 0 ? -1 : 1;
-  double v = side * start.velocity, a = side * start.acceleration;
-  const auto lead_to = [&](double target) {
-    const double direction = target < a ? -1 : 1;
-    v += direction * (target - a) * ((target + a) / 2 / jerk);
-    motion.append(side * direction * jerk, std::abs(target - a) / jerk, side * v, side * target);
-    a = target;
-  };
-  if (a > 0) lead_to(0);
-  if (a < -acceleration) lead_to(-acceleration);
-  const double peak =
-      std::max(-a, std::min(acceleration, std::sqrt(std::max(0.0, jerk * v + a * (a / 2)))));
-  lead_to(-peak);
-  const double faded = peak * (peak / 2 / jerk);
-  if (v > faded && peak > 0) {
-    motion.append(0, (v - faded) / peak, side * faded, side * a);
-    v = faded;
-  }
-  lead_to(0);
-  motion.rest_at(motion.end().position);
-  return motion;
-}
 
 }  // namespace articula

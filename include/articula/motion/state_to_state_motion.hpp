@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file One joint's fastest motion from any state to any other.
+/// @file The fastest motion of one joint from any state to any other, and slower ones.
 #pragma once
 
 #include "articula/motion/braking_motion.hpp"
 #include "articula/motion/furthest_motion.hpp"
-#include "articula/motion/motion_bounds.hpp"
-#include "articula/motion/timed_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,30 +14,29 @@
 namespace articula {
 
 /// Motions of one joint from a state (position, velocity, acceleration) to another one within
-/// limits of velocity, acceleration and jerk: the fastest one, and one of each longer duration that
-/// there is [Berscheid, Kröger 2021].
+/// limits of velocity, acceleration and jerk: the fastest motion, and one of each longer possible
+/// duration [Berscheid, Kröger 2021].
 ///
-/// All motions of duration T between two velocities and accelerations form a convex set. So the
-/// distances that they lead over form an interval, from D-(T) to D+(T), whose ends are those of two
-/// known motions (FurthestMotion). A motion over the distance D takes T if D-(T) <= D <= D+(T). The
-/// fastest one is at an end of such an interval of T, where D-(T) = D or D+(T) = D: it is the
-/// shortest solution of these equations. A slower one is the mixture of the two motions that leads
-/// over D, which keeps all limits because the set is convex.
+/// All motions of duration T between two velocities and accelerations form a convex set. So their
+/// distances form an interval from D-(T) to D+(T), whose ends belong to two known motions
+/// (FurthestMotion). A motion over the distance D can take T if D-(T) <= D <= D+(T). The fastest
+/// motion is the shortest solution of D-(T) = D or D+(T) = D. A slower motion is the mixture of the
+/// two furthest motions that covers D. It keeps all limits because the set is convex.
 ///
-/// A start outside the limits is led back inside first (braking_motion()). So is one whose velocity
-/// will pass its limit while the acceleration fades, unless the target can be reached before.
+/// A motion that starts outside the limits begins with braking_motion(). So does a motion whose
+/// velocity would pass its limit while the acceleration fades, unless it reaches the target before.
 class StateToStateMotion {
  public:
   StateToStateMotion() = default;
 
   /// @param start, target  the states; finite
-  /// @param bounds         limits as validate() accepts them
+  /// @param bounds         limits that validate() accepts
   /// Real-time: yes.
   StateToStateMotion(const JointMotion& start, const JointMotion& target,
                      const MotionBounds& bounds) noexcept
-      : target_(without_traces(target, target.position, bounds)), bounds_(bounds) {
-    const JointMotion from = without_traces(start, target.position, bounds);
-    starts_ = {acceleration_led_back(from, bounds), braking_motion(from, bounds)};
+      : target_(without_rounding(target, target.position, bounds)), bounds_(bounds) {
+    const JointMotion from = without_rounding(start, target.position, bounds);
+    starts_ = {limit_acceleration(from, bounds), braking_motion(from, bounds)};
     if (!can_be_arrived_at(target_, bounds)) return;
     const double J = bounds.jerk, low = bounds.lowest_velocity, high = bounds.highest_velocity;
     const bool is_fast = !within(low, starts_[0].end().velocity, high);
@@ -60,11 +57,10 @@ class StateToStateMotion {
     }
   }
 
-  /// Whether a target is within the limits, and it is possible to have arrived there within them.
-  /// Real-time: yes.
+  /// Whether a motion within the limits can end at a target. Real-time: yes.
   [[nodiscard]] static bool can_be_arrived_at(const JointMotion& target,
                                               const MotionBounds& bounds) noexcept {
-    // The end, backwards in time, must have a motion that leads to it.
+    // Backwards in time, the velocity must stay within its limits while the acceleration fades.
     const double a = target.acceleration, v = target.velocity;
     const double bend = a / 2 / bounds.jerk * std::abs(a);
     const double low = bounds.lowest_velocity, high = bounds.highest_velocity;
@@ -72,23 +68,22 @@ class StateToStateMotion {
            within(low, v, high) && within(low, v - bend, high);
   }
 
-  /// Whether there is a motion: the target must be within the limits, and it must be possible to
-  /// have arrived there within them. Real-time: yes.
+  /// Whether there is a motion to the target. Real-time: yes.
   [[nodiscard]] bool exists() const noexcept { return solutions_.size > 0; }
 
   /// The duration of the fastest motion [s]; infinity if there is none. Real-time: yes.
   [[nodiscard]] double least_duration() const noexcept { return least_duration_; }
 
-  /// Whether there is a motion of a duration [s]. From some velocities and accelerations to others
-  /// there are gaps: a joint that can arrive in time may have to turn around to arrive later.
+  /// Whether there is a motion of a duration [s]. Some states have gaps between their durations: a
+  /// joint that passes through the target may have to turn around to arrive later.
   /// Real-time: yes.
   [[nodiscard]] bool can_take(double duration) const noexcept {
-    if (is_solution(duration)) return true;
+    if (std::find(solutions_.begin(), solutions_.end(), duration) != solutions_.end()) return true;
     Mixture mixture;
     return duration > least_duration_ && find(duration, mixture);
   }
 
-  /// The end of the gap in which a duration lies [s]; infinity if there is none. Real-time: yes.
+  /// The end of the gap that contains a duration [s]; infinity if there is none. Real-time: yes.
   [[nodiscard]] double next_duration(double duration) const noexcept {
     double next = std::numeric_limits<double>::infinity();
     for (const double solution : solutions_) {
@@ -97,31 +92,31 @@ class StateToStateMotion {
     return next;
   }
 
-  /// The motion of a duration for which can_take() is true, or of the least one.
+  /// The motion of a duration for which can_take() is true; of the least duration for a shorter one.
   /// Real-time: yes.
-  [[nodiscard]] TimedMotion motion(double duration) const noexcept {
+  [[nodiscard]] TransferMotion motion(double duration) const noexcept {
     Mixture mixture{fastest_, fastest_, fastest_side_ > 0 ? 1.0 : 0.0, fastest_way_};
     if (duration > least_duration_) static_cast<void>(find(duration, mixture));
-    TimedMotion result = starts_[mixture.way];
+    TransferMotion result = starts_[mixture.way];
     append(result, mixture);
     result.end_at(target_, std::max(duration, least_duration_));
     return result;
   }
 
  private:
-  /// A state without what is 0 but for rounding. Products of up to six such figures leave the range
-  /// of double. 1e-15 of the limits is what rounding leaves of figures of their size: nothing that
-  /// a joint shows. Lengths have the scale of the way on which the joint reaches its limits.
-  [[nodiscard]] static JointMotion without_traces(const JointMotion& state, double target,
-                                                  const MotionBounds& b) noexcept {
-    constexpr double trace = 1e-15;
+  /// A state in which numbers that are 0 but for rounding are 0: products of six such numbers would
+  /// underflow. The bound is 1e-15 of the limits, the rounding of numbers of their size. Distances
+  /// have the scale of the distance on which the joint reaches its limits.
+  [[nodiscard]] static JointMotion without_rounding(const JointMotion& state, double target,
+                                                    const MotionBounds& b) noexcept {
+    constexpr double rounding = 1e-15;
     const auto cleared = [](double x, double scale) {
-      return std::abs(x) <= trace * scale ? 0.0 : x;
+      return std::abs(x) <= rounding * scale ? 0.0 : x;
     };
     const double V = std::min(-b.lowest_velocity, b.highest_velocity);
     const double A = std::min(-b.lowest_acceleration, b.highest_acceleration), J = b.jerk;
     const double length = std::min(V * std::sqrt(V / J), A / J * (A / J) * A);
-    const bool is_there = std::abs(state.position - target) <= trace * length;
+    const bool is_there = std::abs(state.position - target) <= rounding * length;
     return {is_there ? target : state.position, cleared(state.velocity, std::min(V, A / J * A)),
             cleared(state.acceleration, std::min(A, std::sqrt(V * J)))};
   }
@@ -130,18 +125,14 @@ class StateToStateMotion {
     return x >= low - rounding && x <= high + rounding;
   }
 
-  /// share * up + (1 - share) * down, after one of the two starts.
+  /// share * up + (1 - share) * down, after one of the two initial motions.
   struct Mixture {
     detail::FurthestMotion up{}, down{};
     double share = 0;
     std::size_t way = 0;
   };
 
-  [[nodiscard]] bool is_solution(double duration) const noexcept {
-    return std::find(solutions_.begin(), solutions_.end(), duration) != solutions_.end();
-  }
-
-  /// The problem in the unit of time in which the jerk is 1, seen in one direction.
+  /// The problem in the unit of time in which the jerk is 1, mirrored for side -1.
   [[nodiscard]] detail::FurthestMotions furthest(double side, std::size_t way) const noexcept {
     const JointMotion& from = starts_[way].end();
     const double J = bounds_.jerk, v0 = side * J * from.velocity, v1 = side * J * target_.velocity;
@@ -152,11 +143,11 @@ class StateToStateMotion {
     const double highest = up ? bounds_.highest_acceleration : -bounds_.lowest_acceleration;
     const double slowest = J * (up ? bounds_.lowest_velocity : -bounds_.highest_velocity);
     const double fastest = J * (up ? bounds_.highest_velocity : -bounds_.lowest_velocity);
-    // Rounding of the positions, and of a clock after an hour: a picosecond.
+    // Rounding of the positions, and of a clock that shows an hour: a picosecond.
     const double distance_rounding =
         1e-14 * J * J * (std::abs(target_.position) + std::abs(from.position)) +
         1e-12 * J * J * (std::abs(from.velocity) + std::abs(target_.velocity));
-    // States at a limit may be beyond it by rounding, which widens the limit.
+    // Rounding may put a state at a limit slightly beyond it: the limit is widened.
     const double rounding = 1e-11 * (fastest - slowest);
     const auto widened = [&](double limit, double side_of_it, double a, double v) {
       const double reached = std::max(side_of_it * v, side_of_it * v + a * std::abs(a) / 2);
@@ -176,8 +167,8 @@ class StateToStateMotion {
          .distance_rounding = distance_rounding});
   }
 
-  /// The two furthest motions of a duration, and how much of the upper one leads to the target.
-  /// @return whether there are such
+  /// Finds the two furthest motions of a duration, and the mixture that reaches the target.
+  /// @return whether they exist
   [[nodiscard]] bool find(double duration, Mixture& mixture) const noexcept {
     return mix(duration, 0, mixture) || mix(duration, 1, mixture);
   }
@@ -197,8 +188,8 @@ class StateToStateMotion {
     return true;
   }
 
-  /// Appends a mixture to its start.
-  void append(TimedMotion& motion, const Mixture& mixture) const noexcept {
+  /// Appends a mixture to its initial motion.
+  void append(TransferMotion& motion, const Mixture& mixture) const noexcept {
     const auto& [up, down, share, way] = mixture;
     const double J = bounds_.jerk, left = 1 - share, start = starts_[way].end().position;
     const double duration = share > 0 ? up.duration() : down.duration();
@@ -225,7 +216,8 @@ class StateToStateMotion {
 
   JointMotion target_{};
   MotionBounds bounds_{};
-  std::array<TimedMotion, 2> starts_{};  ///< the second one keeps the velocity from its limit, too
+  /// Initial motions: the second one also brings the velocity back within its limit
+  std::array<TransferMotion, 2> starts_{};
   RootList<128> solutions_{};
   double least_duration_ = std::numeric_limits<double>::infinity();
   detail::FurthestMotion fastest_{};

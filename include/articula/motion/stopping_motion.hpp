@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How a joint comes to rest, cycle by cycle.
+/// @file The fastest stop of one joint on the grid of control cycles.
 #pragma once
+
+#include "articula/motion/joint_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,58 +11,47 @@
 
 namespace articula {
 
-/// One joint's command in a cycle. Commands come once per cycle, dt apart, so
-/// differences take the place of derivatives: v_k = (q_k - q_(k-1))/dt and a_k
-/// = (v_k - v_(k-1))/dt.
-struct CommandMotion {
-  double position = 0;      ///< q_k [rad or m]
-  double velocity = 0;      ///< v_k [rad/s or m/s]
-  double acceleration = 0;  ///< a_k [rad/s^2 or m/s^2]
-};
-
-/// Lowest and highest values of something.
-struct ValueRange {
-  double lowest = 0;
-  double highest = 0;
-};
-
-/// A way from any motion to rest within limits B of acceleration and J of jerk, about as fast as
-/// whole cycles allow: the deceleration, at first its present value d, grows in steps of s = J dt
-/// to a level p <= B, stays there, and goes in such steps back to 0. A larger d first goes back to
-/// B.
+/// A stop of one joint within limits B of deceleration and J of jerk, in whole cycles. It is about
+/// as fast as whole cycles allow. The deceleration starts at its present value d, grows in steps of
+/// s = J dt to a level p <= B, stays there, and returns to 0 in such steps. A deceleration above B
+/// first returns to B.
 ///
-/// n steps lead to p = d + n s and take n d + s n (n + 1)/2 of what is to be lost, v/dt. The way
-/// back takes (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for
-/// which that is not too much; in continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri
-/// 2008, section 3.4], of which sums over cycles make J v + d (d + s)/2. What is left to lose is
-/// taken by a smaller step to one more level, p + s at most, or p - s at least.
+/// n steps lead to p = d + n s and reduce v/dt by n d + s n (n + 1)/2. The return to 0 reduces it by
+/// (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which the
+/// sum does not exceed v/dt. In continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri 2008,
+/// section 3.4]; sums over cycles turn this into J v + d (d + s)/2. One cycle at another level, at
+/// most s away from p, removes the rest of the velocity.
 ///
-/// There is such a way from every motion whose acceleration is within B. And as it begins with the
-/// largest steps, no other way to rest within the limits has a lower highest velocity.
+/// Every motion whose acceleration is within B has such a stop. As it begins with the largest steps,
+/// no other stop within the limits has a lower highest velocity.
+///
+/// The class is a plain value: the present motion and the rest of the plan. advance() moves it on by
+/// one cycle.
 class StoppingMotion {
  public:
-  /// At rest, for ever.
+  /// At rest.
   StoppingMotion() = default;
 
-  /// @param from          where it begins
-  /// @param deceleration  B > 0 [rad/s^2 or m/s^2]; a joint that brakes harder already takes that
-  ///                      back
+  /// @param from          the motion to stop
+  /// @param deceleration  B > 0 [rad/s^2 or m/s^2]
   /// @param jerk          J > 0 [rad/s^3 or m/s^3]
   /// @param period        dt > 0 [s]
-  /// Real-time: yes. O(1), however long it takes.
-  StoppingMotion(const CommandMotion& from, double deceleration, double jerk,
-                 double period) noexcept
+  /// Real-time: yes. O(1) for any duration of the stop.
+  StoppingMotion(const JointMotion& from, double deceleration, double jerk, double period) noexcept
       : period_(period), step_(jerk * period), motion_(from) {
-    const double rest = from.velocity / period +
-                        std::copysign(way_back(std::abs(from.acceleration)), from.acceleration);
+    const double rest =
+        from.velocity / period +
+        std::copysign(lost_on_return(std::abs(from.acceleration)), from.acceleration);
     side_ = rest < 0 ? -1 : 1;
     plan(-side_ * from.acceleration, side_ * from.velocity / period, deceleration);
   }
 
-  /// Where the joint is now. Real-time: yes.
-  [[nodiscard]] const CommandMotion& motion() const noexcept { return motion_; }
+  /// The present motion. Real-time: yes.
+  [[nodiscard]] const JointMotion& motion() const noexcept { return motion_; }
+  /// The length of a cycle, dt [s]. Real-time: yes.
+  [[nodiscard]] double period() const noexcept { return period_; }
 
-  /// Goes on by one cycle. Real-time: yes.
+  /// Moves on by one cycle. Real-time: yes.
   void advance() noexcept {
     if (current_ == count_) {
       motion_ = {motion_.position, 0, 0};
@@ -72,13 +63,12 @@ class StoppingMotion {
     if (!(stretch.cycles > 0)) ++current_;
   }
 
-  /// The same stop elsewhere. Real-time: yes.
+  /// Shifts the stop to another present position [rad or m]. Real-time: yes.
   void move_to(double position) noexcept { motion_.position = position; }
 
-  /// All positions on the way, the present one included [rad or m]. Real-time:
-  /// yes.
+  /// The range of positions, the present one included [rad or m]. Real-time: yes.
   [[nodiscard]] ValueRange positions() const noexcept {
-    return range(&CommandMotion::position, [this](const CommandMotion& m, double c) {
+    return range(&JointMotion::position, [this](const JointMotion& m, double c) {
       // v_i = v + dt (i a + c i (i + 1)/2) changes its sign where
       const double half_square = c * period_ / 2, linear = period_ * m.acceleration + half_square;
       if (half_square == 0) return ValueRange{-m.velocity / linear, -m.velocity / linear};
@@ -87,36 +77,37 @@ class StoppingMotion {
     });
   }
 
-  /// All velocities on the way, the present one included [rad/s or m/s]. Real-time: yes.
+  /// The range of velocities, the present one included [rad/s or m/s]. Real-time: yes.
   [[nodiscard]] ValueRange velocities() const noexcept {
-    return range(&CommandMotion::velocity, [](const CommandMotion& m, double c) {
+    return range(&JointMotion::velocity, [](const JointMotion& m, double c) {
       return ValueRange{-m.acceleration / c, -m.acceleration / c};  // where a_i changes its sign
     });
   }
 
  private:
-  /// A number of cycles in each of which the acceleration changes by the same.
+  /// A number of cycles with the same change of the acceleration in each.
   struct Stretch {
     double cycles = 0;
     double change = 0;  ///< [rad/s^2 or m/s^2]
   };
 
-  /// Rounds up and down, but not for rounding's sake.
+  /// The next integer above and below. A count that is an integer but for rounding stays.
   [[nodiscard]] static double up(double count) noexcept { return std::ceil(count - 1e-9); }
   [[nodiscard]] static double down(double count) noexcept { return std::floor(count + 1e-9); }
 
-  /// How many whole steps lie between a level and 0, which the last step reaches.
+  /// The number of whole steps from a level down to 0, without the last one.
   [[nodiscard]] double steps_back(double level) const noexcept {
     return std::max(0.0, up(level / step_) - 1);
   }
-  /// What is lost while the deceleration goes back from a level to 0.
-  [[nodiscard]] double way_back(double level) const noexcept {
+  /// The reduction of v/dt while the deceleration returns from a level to 0.
+  [[nodiscard]] double lost_on_return(double level) const noexcept {
     const double m = steps_back(level);
     return m * level - step_ * m * (m + 1) / 2;
   }
 
+  /// Computes the stretches.
   /// @param d     deceleration at the beginning; negative while the joint accelerates
-  /// @param lost  what is to be lost of velocity/dt
+  /// @param lost  v/dt, which the stop removes
   /// @param most  B
   void plan(double d, double lost, double most) noexcept {
     const bool is_too_high = d > most;
@@ -130,32 +121,32 @@ class StoppingMotion {
     stay(next, left - next);
   }
 
-  /// How many whole steps the deceleration grows at first.
+  /// The number of whole steps in which the deceleration grows at first.
   [[nodiscard]] double steps_up(double d, double lost, double most) const noexcept {
     const auto fits = [&](double n) {
       const double level = d + n * step_;
-      return level <= most && n * d + step_ * n * (n + 1) / 2 + way_back(level) <= lost;
+      return level <= most && n * d + step_ * n * (n + 1) / 2 + lost_on_return(level) <= lost;
     };
     const double fewest = d < 0 ? up(-d / step_) : 0;
     const double peak = std::sqrt(std::max(0.0, step_ * lost + d * (d + step_) / 2));
     double n = std::max(fewest, down((std::min(peak, most) - d) / step_));
     for (int k = 0; k < 2 && fits(n + 1); ++k) ++n;
     for (int k = 0; k < 2 && n > fewest && !fits(n); ++k) --n;
-    // The first level beyond 0 may be too much already.
+    // The first level beyond 0 may already remove too much.
     return n == fewest && !fits(n) ? std::max(0.0, fewest - 1) : n;
   }
 
-  /// The level from which one cycle there and the way back lose as much as said. At m s it is
-  /// s m (m + 1)/2, and between those it grows in proportion.
+  /// The level at which one cycle and the return to 0 remove a given amount. A level m s removes
+  /// s m (m + 1)/2. Between such levels the amount is linear.
   [[nodiscard]] double level_for(double lost) const noexcept {
     if (!(lost > 0)) return 0;
     const double m = down((std::sqrt(1 + 8 * lost / step_) - 1) / 2);
     return (lost + step_ * m * (m + 1) / 2) / (m + 1);
   }
 
-  /// Stays at a level for as long as more is to be lost than on the way back, and goes that way.
+  /// Adds the cycles at a level until only the loss on return is left, and the return.
   void stay(double level, double lost) noexcept {
-    const double n = level > 0 ? down((lost - way_back(level)) / level) : 0;
+    const double n = level > 0 ? down((lost - lost_on_return(level)) / level) : 0;
     add(n, 0);
     const double next = level_for(lost - n * level);
     add(1, next - level);
@@ -170,40 +161,38 @@ class StoppingMotion {
     if (cycles > 0) stretches_[count_++] = {cycles, -side_ * change};
   }
 
-  /// The motion n cycles later, the acceleration changing by c in each.
-  [[nodiscard]] CommandMotion after(const CommandMotion& m, double c, double n) const noexcept {
+  /// The motion n cycles later, if the acceleration changes by c in each.
+  [[nodiscard]] JointMotion after(const JointMotion& m, double c, double n) const noexcept {
     const double ones = n, sum = n * (n + 1) / 2, sums = sum * (n + 2) / 3;
     return {
         m.position + period_ * (ones * m.velocity + period_ * (sum * m.acceleration + sums * c)),
         m.velocity + period_ * (ones * m.acceleration + sum * c), m.acceleration + ones * c};
   }
 
-  /// The range of a quantity, found at the ends of the stretches and next to
-  /// its turning points.
+  /// The range of a quantity, which has its extremes at the ends of stretches or next to turning
+  /// points.
   template <class TurningPoints>
-  [[nodiscard]] ValueRange range(double CommandMotion::* quantity,
+  [[nodiscard]] ValueRange range(double JointMotion::* quantity,
                                  TurningPoints turning_points) const noexcept {
-    CommandMotion m = motion_;
+    JointMotion m = motion_;
     ValueRange values{m.*quantity, m.*quantity};
-    const auto add = [&](double value) {
-      values = {std::min(values.lowest, value), std::max(values.highest, value)};
-    };
     for (std::size_t k = current_; k < count_; ++k) {
       const auto& [n, c] = stretches_[k];
       const ValueRange points = turning_points(m, c);
       for (const double point : {points.lowest, points.highest}) {
-        if (point > 0 && point < n) add(after(m, c, std::floor(point)).*quantity);
+        if (!(point > 0 && point < n)) continue;
+        values = values.extended_to(after(m, c, std::floor(point)).*quantity);
       }
       m = after(m, c, n);
-      add(m.*quantity);
+      values = values.extended_to(m.*quantity);
     }
     return values;
   }
 
   double period_ = 1;  ///< dt [s]
   double step_ = 1;    ///< s [rad/s^2 or m/s^2]
-  double side_ = 1;    ///< of the velocity that is to be lost
-  CommandMotion motion_{};
+  double side_ = 1;    ///< sign of the velocity that the stop removes
+  JointMotion motion_{};
   std::array<Stretch, 6> stretches_{};
   std::size_t current_ = 0;
   std::size_t count_ = 0;

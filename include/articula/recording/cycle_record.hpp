@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What is recorded of one cycle.
+/// @file The data of one cycle of a loop.
 #pragma once
 
 #include "articula/core/joint_reference.hpp"
@@ -12,8 +12,8 @@
 
 namespace articula {
 
-/// All of one cycle: what was measured, asked, computed and when. A plain value of some 50 doubles
-/// for six joints; recording it costs the loop a copy.
+/// The state, reference, command, status and timing of one cycle, for Recorder, RecordStream and
+/// their sinks. A plain value of about 50 doubles for six joints.
 /// @tparam N            number of joints
 /// @tparam CommandType  of the loop
 template <int N, class CommandType>
@@ -34,7 +34,7 @@ struct CycleRecord {
 template <class LoopType>
 using CycleRecordOf = CycleRecord<LoopType::joint_count, typename LoopType::Command>;
 
-/// The record of the cycle that a loop has just made.
+/// The record of the last cycle of a loop.
 /// @param loop    a Loop or a SupervisedLoop
 /// @param report  of its run
 /// Real-time: yes. O(N).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Joint states for whoever listens. POSIX; needs nlohmann-json (target articula::recording).
+/// @file Joint states over UDP, for live plots. POSIX; needs nlohmann-json (target
+/// articula::recording).
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -19,27 +20,26 @@
 
 namespace articula {
 
-/// Where joint states are sent, and how often.
+/// The receiver, rate and contents of joint states over UDP.
 struct JointStateSenderOptions {
   std::string address = "127.0.0.1";  ///< IPv4
-  std::uint16_t port = 9870;          ///< the one on which PlotJuggler's UDP server listens
-  int divisor = 20;                   ///< every 20th record is sent: 50 Hz at 1 kHz
-  bool references = true;             ///< the joints' references are sent, too
-  RecordContents contents{};          ///< mimic joints are sent, and links' poses if named
+  std::uint16_t port = 9870;          ///< the default of PlotJuggler's UDP server
+  int divisor = 20;                   ///< sends every 20th record: 50 Hz at 1 kHz
+  bool references = true;             ///< sends the references of the joints
+  RecordContents contents{};          ///< mimic joints and links to send
 };
 
-/// Sends the joint states of every so-many-th record over UDP as JSON, for which PlotJuggler's "UDP
-/// Server" with the protocol "json" and its timestamp field "timestamp" listens. A sink for
-/// RecordStream. What does not fit into one datagram goes in several, each of which is JSON with the
-/// same timestamp: PlotJuggler adds each figure to its curve by name. Datagrams that the system does
-/// not take are counted, not sent again.
+/// Sends the joint states of every `divisor`-th record over UDP as JSON. It is a sink for
+/// RecordStream. In PlotJuggler, start "UDP Server" with the protocol "json" and the timestamp field
+/// "timestamp". JSON that exceeds a datagram is split into several with the same timestamp.
+/// Datagrams that the system refuses are counted and lost.
 /// @tparam R  the robot
 template <Robot R>
 class JointStateSender {
  public:
   static constexpr std::size_t longest_datagram = 2048;  ///< what PlotJuggler reads [bytes]
 
-  /// @throws std::invalid_argument if the address is none, the divisor is not positive, or the
+  /// @throws std::invalid_argument if the address is not IPv4, the divisor is less than 1, or the
   ///         robot has no link of a name
   /// @throws std::system_error if the system refuses a socket
   explicit JointStateSender(const R& robot, const JointStateSenderOptions& options = {})
@@ -48,7 +48,7 @@ class JointStateSender {
         divisor_(options.divisor),
         references_(options.references) {
     if (options.divisor < 1) {
-      detail::refuse({"joint state sender: divisor ", options.divisor, " is not at least 1"});
+      detail::refuse({"joint state sender: divisor ", options.divisor, " is less than 1"});
     }
     target_.sin_family = AF_INET;
     target_.sin_port = htons(options.port);
@@ -69,7 +69,7 @@ class JointStateSender {
   JointStateSender(const JointStateSender&) = delete;
   JointStateSender& operator=(const JointStateSender&) = delete;
 
-  /// Sends the record's joint states if it is one of those, beginning with the first.
+  /// Sends the joint states of the first record, and of every `divisor`-th after it.
   /// Real-time: no (allocates, calls the system).
   template <class Command>
   void write(const CycleRecord<joint_count<R>, Command>& record) {
@@ -84,9 +84,9 @@ class JointStateSender {
     }
   }
 
-  /// Datagrams that the system took.
+  /// Number of datagrams sent.
   [[nodiscard]] std::uint64_t sent() const noexcept { return sent_; }
-  /// Datagrams that it did not.
+  /// Number of datagrams that the system refused.
   [[nodiscard]] std::uint64_t not_sent() const noexcept { return not_sent_; }
 
  private:

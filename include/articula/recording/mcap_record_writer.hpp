@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Records in an MCAP file. Needs nlohmann-json (target articula::recording).
+/// @file Writes recorded cycles to an MCAP file. Needs nlohmann-json (target articula::recording).
 #pragma once
 
 #include "articula/recording/mcap_writer.hpp"
@@ -11,8 +11,9 @@
 
 namespace articula {
 
-/// Writes records to an MCAP file, as JSON messages of the topic "cycle". Their time is the loop's,
-/// which begins at 0. The destructor completes the file; close() also says whether that went well.
+/// Writes recorded cycles to an MCAP file, as JSON messages of the topic "cycle". Their time stamps
+/// are the loop's time, which begins at 0. The destructor completes the file; close() also reports
+/// errors.
 /// @tparam R            the robot
 /// @tparam CommandType  of the loop
 template <Robot R, class CommandType>
@@ -20,9 +21,12 @@ class McapRecordWriter {
  public:
   using Record = CycleRecord<joint_count<R>, CommandType>;
 
-  /// @param contents  what is written besides the joints that can be commanded
-  /// @throws std::runtime_error if the file cannot be written, std::invalid_argument if the robot
-  ///         has no link of a name
+  /// @param robot     whose loop is recorded
+  /// @param path      of the file
+  /// @param contents  what is written in addition to the commanded joints
+  /// @throws std::runtime_error naming the file and the reason, if it cannot be written
+  /// @throws std::invalid_argument if the robot has no link of a name
+  /// Real-time: no (allocates, calls the system); likewise all functions of this class.
   McapRecordWriter(const R& robot, const std::filesystem::path& path,
                    const RecordContents& contents = {})
       : robot_(robot),

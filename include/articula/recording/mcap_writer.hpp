@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Timed JSON messages in an MCAP file.
+/// @file Writes timed JSON messages to an MCAP file.
 #pragma once
+
+#include "articula/recording/output_file.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,23 +22,22 @@ namespace articula {
 /// Statistics, Chunk Index, Summary Offset and Footer. There is no compression and no checksum.
 ///
 /// Readers with random access need chunks and their index. Readers of a file that was never closed
-/// need messages outside of an unfinished chunk. Both get them: a chunk is first written empty, and
-/// its messages stand behind it. When it is full, its length is set, so that it contains them.
-/// So a file that was never closed has all messages that were written. A file of which the end was
-/// lost has those of all chunks before the one in which it ends.
+/// need messages outside of unfinished chunks. So a chunk is written empty, its messages follow it,
+/// and when they fill it, its length is set to contain them. A file that was never closed has all
+/// messages that were written. A truncated file has those of all chunks before the truncated one.
 class McapWriter {
  public:
-  /// A chunk is complete when its messages take this much [bytes]. Readers load whole chunks.
+  /// Size of the messages at which a chunk is complete [bytes]. Readers load whole chunks.
   static constexpr std::uint64_t chunk_size = 1 << 16;
 
-  /// @param path         the file; must be seekable, so it cannot be a pipe
+  /// @param path         the file; not a pipe, since it must be seekable
   /// @param topic        name of the topic
   /// @param schema_name  name of the messages' type
   /// @param schema       of the messages, as JSON Schema
   /// @throws std::runtime_error if the file cannot be written
   McapWriter(const std::filesystem::path& path, std::string_view topic,
              std::string_view schema_name, std::string_view schema)
-      : path_(path.string()), file_(path, std::ios::binary) {
+      : file_(path) {
     Bytes header;
     header.text("").text("articula");
     schema_.number(id, 2).text(schema_name).text("jsonschema").text(schema);
@@ -47,16 +46,16 @@ class McapWriter {
     put(0x01, header);
     put(0x03, schema_);
     put(0x04, channel_);
-    check();
+    file_.check();
   }
-  /// Completes the file if it is open. What close() would throw is lost: call that to learn of it.
+  /// Completes the file if it is open. Call close() to get its errors.
   ~McapWriter() {
     try {
       close();
-    } catch (...) {
+    } catch (...) {  // NOLINT(bugprone-empty-catch): a destructor does not throw
     }
   }
-  McapWriter(McapWriter&&) = default;
+  McapWriter(McapWriter&&) noexcept = default;
   McapWriter& operator=(McapWriter&&) = delete;
 
   /// Appends a message.
@@ -65,21 +64,23 @@ class McapWriter {
   /// @throws std::runtime_error if it cannot be written
   void write(std::chrono::nanoseconds time, std::string_view message) {
     const auto stamp = static_cast<std::uint64_t>(time.count());
-    if (chunk_.messages.empty()) {
+    if (chunk_.index.data.empty()) {
       chunk_.start = size_;
-      put(0x06, chunk_header(0));
+      put(0x06, chunk_header({0, 0}, 0));
     }
-    chunk_.messages.push_back({stamp, size_ - content_start()});
+    chunk_.index.number(stamp, 8).number(size_ - content_start(), 8);
+    chunk_.times.add(stamp);
+    times_.add(stamp);
     Bytes content;
     content.number(id, 2).number(count_++, 4).number(stamp, 8).number(stamp, 8);
     content.data += message;
     put(0x05, content);
     if (size_ - content_start() >= chunk_size) complete_chunk();
-    check();
+    file_.check();
   }
 
-  /// Completes the file with its summary, which readers use as a table of contents. Does nothing if
-  /// the file is closed already.
+  /// Completes the file with its summary, the table of contents for readers. Does nothing if the file
+  /// is closed already.
   /// @throws std::runtime_error if not all could be written
   void close() {
     if (!file_.is_open()) return;
@@ -88,7 +89,7 @@ class McapWriter {
     Bytes statistics;
     statistics.number(count_, 8).number(1, 2).number(1, 4).number(0, 4).number(0, 4);
     statistics.number(chunk_indexes_.size(), 4);
-    statistics.number(count_ == 0 ? 0 : first_, 8).number(last_, 8);
+    statistics.number(count_ == 0 ? 0 : times_.first, 8).number(times_.last, 8);
     statistics.number(10, 4).number(id, 2).number(count_, 8);
     const std::uint64_t summary = size_;
     Bytes offsets;
@@ -108,7 +109,7 @@ class McapWriter {
     put(0x02, Bytes().number(summary, 8).number(summary_offsets, 8).number(0, 4));
     put(magic);
     file_.close();
-    check();
+    file_.check();
   }
 
  private:
@@ -135,87 +136,68 @@ class McapWriter {
   /// compression (an empty text) and the messages' length.
   static constexpr std::uint64_t chunk_prefix = 1 + 8 + 8 + 8 + 8 + 4 + 4 + 8;
 
-  /// The chunk that is being filled.
-  struct OpenChunk {
-    struct Entry {
-      std::uint64_t time, offset;  ///< of a message, from the beginning of the chunk's messages
-    };
-    std::uint64_t start = 0;  ///< of its record in the file
-    std::vector<Entry> messages{};
+  /// The earliest and the latest time of messages.
+  struct Times {
+    std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), last = 0;
+
+    void add(std::uint64_t time) {
+      first = std::min(first, time);
+      last = std::max(last, time);
+    }
   };
 
-  /// The earliest and the latest time of messages.
-  struct Span {
-    std::uint64_t first, last;
+  /// The chunk that is being filled.
+  struct OpenChunk {
+    std::uint64_t start = 0;  ///< of its record in the file
+    Times times{};
+    Bytes index{};  ///< time and position of each message
   };
 
   [[nodiscard]] std::uint64_t content_start() const { return chunk_.start + chunk_prefix; }
 
   /// The fields of a Chunk record before its messages.
   /// @param length  of the messages that belong to it [bytes]
-  [[nodiscard]] Bytes chunk_header(std::uint64_t length) const {
-    const auto [first, last] = length == 0 ? Span{0, 0} : span_of(chunk_.messages);
+  [[nodiscard]] static Bytes chunk_header(const Times& times, std::uint64_t length) {
     Bytes header;
-    header.number(first, 8).number(last, 8).number(length, 8).number(0, 4).text("");
+    header.number(times.first, 8).number(times.last, 8).number(length, 8).number(0, 4).text("");
     return header.number(length, 8);
   }
 
-  [[nodiscard]] static Span span_of(const std::vector<OpenChunk::Entry>& messages) {
-    Span span{messages.front().time, messages.front().time};
-    for (const auto& message : messages) {
-      span = {std::min(span.first, message.time), std::max(span.last, message.time)};
-    }
-    return span;
-  }
-
-  /// Lets the chunk contain the messages behind it, and adds its index.
+  /// Sets the length of the chunk to contain the messages after it, and adds its index.
   void complete_chunk() {
-    if (chunk_.messages.empty()) return;
+    if (chunk_.index.data.empty()) return;
     const std::uint64_t content = size_ - content_start(), length = size_ - chunk_.start;
-    const Bytes header = chunk_header(content);
-    file_.seekp(static_cast<std::streamoff>(chunk_.start + 1));
-    file_ << Bytes().number(length - 9, 8).data << header.data;
-    file_.seekp(0, std::ios::end);
+    const auto& [first, last] = chunk_.times;
+    const Bytes header = chunk_header(chunk_.times, content);
+    file_.replace(length - 1, Bytes().number(length - 9, 8).data + header.data);
 
     const std::uint64_t message_index = size_;
-    Bytes entries;
-    for (const auto& message : chunk_.messages) {
-      entries.number(message.time, 8).number(message.offset, 8);
-    }
-    put(0x07, Bytes().number(id, 2).text(entries.data));
-    const auto [first, last] = span_of(chunk_.messages);
+    put(0x07, Bytes().number(id, 2).text(chunk_.index.data));
     Bytes index;
     index.number(first, 8).number(last, 8).number(chunk_.start, 8).number(length, 8);
     index.number(2 + 8, 4).number(id, 2).number(message_index, 8);
     index.number(size_ - message_index, 8).text("").number(content, 8).number(content, 8);
     chunk_indexes_.push_back(index);
-    first_ = std::min(first_, first);
-    last_ = std::max(last_, last);
-    chunk_.messages.clear();
+    chunk_ = {};
   }
 
   void put(std::string_view bytes) {
-    file_ << bytes;
+    file_.write(bytes);
     size_ += bytes.size();
   }
   void put(unsigned char opcode, const Bytes& content) {
     put(Bytes().number(opcode, 1).number(content.data.size(), 8).data);
     put(content.data);
   }
-  void check() const {
-    if (!file_) throw std::runtime_error("cannot write " + path_);
-  }
 
-  std::string path_;
-  std::ofstream file_;
+  detail::OutputFile file_;
   Bytes schema_;
   Bytes channel_;
   OpenChunk chunk_;
   std::vector<Bytes> chunk_indexes_;
   std::uint64_t size_ = 0;   ///< of what was written [bytes]
   std::uint64_t count_ = 0;  ///< messages
-  std::uint64_t first_ = std::numeric_limits<std::uint64_t>::max();
-  std::uint64_t last_ = 0;
+  Times times_;
 };
 
 }  // namespace articula

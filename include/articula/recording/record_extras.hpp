@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What follows from a recorded joint state: mimic joints, and the poses of links.
+/// @file Mimic joints and link poses in a recording.
 #pragma once
 
 #include "articula/dynamics/forward_kinematics.hpp"
@@ -12,7 +12,7 @@
 
 namespace articula {
 
-/// What a sink writes besides the joints that can be commanded:
+/// What a sink writes in addition to the commanded joints:
 ///
 ///     CsvWriter<Q2d, EffortCommand<2>> csv("motion.csv", {.links = {"tool_link"}});
 struct RecordContents {
@@ -23,7 +23,7 @@ struct RecordContents {
 /// A joint that mimics another one.
 struct MimicJoint {
   std::string name{};
-  bool slides = false;  ///< it is prismatic
+  bool slides = false;  ///< whether it is prismatic
   int index = 0;        ///< of the joint in moving_joint_names()
 };
 
@@ -33,17 +33,17 @@ struct RecordedLink {
   LinkIndex index{};
 };
 
-/// The mimic joints of a robot and the links whose poses are recorded, found by name once.
+/// The mimic joints of a robot and the recorded links, found by name once.
 /// @tparam R  the robot
 template <Robot R>
 class RecordExtras {
  public:
-  /// @param contents  what is wanted
   /// @throws std::invalid_argument if the robot has no link of a name; the message lists its links
   /// Real-time: no (allocates, throws).
   RecordExtras(const R& robot, const RecordContents& contents) {
-    for (const std::string& link : contents.links)
+    for (const std::string& link : contents.links) {
       links_.push_back({link, link_index(robot, link)});
+    }
     if (!contents.mimic_joints || moving_joint_count<R> == joint_count<R>) return;
     const auto& model = model_of(robot);
     for (std::size_t i = 0; i < model.moving_joints.size(); ++i) {
@@ -58,7 +58,7 @@ class RecordExtras {
   [[nodiscard]] const std::vector<MimicJoint>& mimic_joints() const noexcept {
     return mimic_joints_;
   }
-  /// The links in the order in which they were asked for.
+  /// The links in the order of RecordContents.
   [[nodiscard]] const std::vector<RecordedLink>& links() const noexcept { return links_; }
 
  private:

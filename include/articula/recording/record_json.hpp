@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Records as JSON. Needs nlohmann-json (target articula::recording).
+/// @file Recorded cycles as JSON. Needs nlohmann-json (target articula::recording).
 #pragma once
 
 #include "articula/core/command_parts.hpp"
@@ -10,20 +10,32 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
-#include <concepts>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace articula {
 
 /// JSON whose members stay in the order in which they were written.
 using Json = nlohmann::ordered_json;
 
-/// What is measured at the joints, by their names, with the time as PlotJuggler looks for it:
+namespace detail {
+
+/// The member of a joint in the JSON of a robot; an empty one if there is none.
+template <Robot R>
+[[nodiscard]] Json& member_of(Json& json, const R& robot, int joint) {
+  const auto& model = model_of(robot);
+  const std::string_view name = model.joints[static_cast<std::size_t>(joint)].name.view();
+  return json[std::string(model.name.view())][std::string(name)];
+}
+
+}  // namespace detail
+
+/// The joint states by joint names, with the time under the name that PlotJuggler expects:
 ///
 ///     {"timestamp": 0.02, "q2d": {"shoulder_active_joint": {"position": 0.1, ...}, ...}}
 ///
-/// NaN and infinity, for which JSON has no words, are null.
+/// NaN and infinity become null, since JSON has neither.
 /// @param robot  whose joints these are
 /// @param time   [s]
 /// @param state  of the joints
@@ -31,28 +43,25 @@ using Json = nlohmann::ordered_json;
 template <Robot R>
 [[nodiscard]] Json joint_state_json(const R& robot, double time,
                                     const JointState<joint_count<R>>& state) {
-  Json joints;
+  Json json{{"timestamp", time}};
   for (int j = 0; j < joint_count<R>; ++j) {
-    joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())] = {
-        {"position", state.position[j]},
-        {"velocity", state.velocity[j]},
-        {"effort", state.effort[j]}};
+    detail::member_of(json, robot, j) = {{"position", state.position[j]},
+                                         {"velocity", state.velocity[j]},
+                                         {"effort", state.effort[j]}};
   }
-  return {{"timestamp", time}, {std::string(model_of(robot).name.view()), joints}};
+  return json;
 }
 
-/// Adds the references of the joints to JSON as joint_state_json() makes it: each joint gets a
-/// member "reference" with position, velocity, acceleration and effort.
+/// Adds a member "reference" to each joint of the JSON of joint_state_json(): position, velocity,
+/// acceleration and effort.
 /// Real-time: no (allocates).
 template <Robot R>
 void add_references(const R& robot, Json& json, const JointReference<joint_count<R>>& reference) {
-  Json& joints = json[std::string(model_of(robot).name.view())];
   for (int j = 0; j < joint_count<R>; ++j) {
-    joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())]
-          ["reference"] = {{"position", reference.position[j]},
-                           {"velocity", reference.velocity[j]},
-                           {"acceleration", reference.acceleration[j]},
-                           {"effort", reference.effort[j]}};
+    detail::member_of(json, robot, j)["reference"] = {{"position", reference.position[j]},
+                                                      {"velocity", reference.velocity[j]},
+                                                      {"acceleration", reference.acceleration[j]},
+                                                      {"effort", reference.effort[j]}};
   }
 }
 
@@ -61,7 +70,7 @@ void add_references(const R& robot, Json& json, const JointReference<joint_count
 ///
 ///     {"tool_link": {"translation": {"x": ..., "y", "z"}, "rotation": {"x", "y", "z", "w"}}}
 ///
-/// whose figures are the pose in the root link's frame: metres and a unit quaternion.
+/// with the pose in the root link's frame: position [m] and a unit quaternion.
 /// Real-time: no (allocates).
 template <Robot R>
 void add_extras(const R& robot, Json& json, const RecordExtras<R>& extras,
@@ -83,7 +92,7 @@ void add_extras(const R& robot, Json& json, const RecordExtras<R>& extras,
   }
 }
 
-/// A whole record: the above, and with each joint its command, then status and timing.
+/// A whole record: states, references, commands, mimic joints and link poses; status and timing [s].
 /// @param robot   whose joints these are
 /// @param record  of one cycle
 /// @param extras  mimic joints and links to add
@@ -96,18 +105,12 @@ template <Robot R, class Command>
   };
   Json json = joint_state_json(robot, record.time, record.state);
   add_references(robot, json, record.reference);
-  Json& joints = json[std::string(model_of(robot).name.view())];
+  const auto parts = parts_of(record.command);
   for (int j = 0; j < joint_count<R>; ++j) {
-    Json& joint =
-        joints[std::string(model_of(robot).joints[static_cast<std::size_t>(j)].name.view())];
-    const auto parts = parts_of(record.command);
+    Json& command = detail::member_of(json, robot, j)["command"];
     for (const auto& part : parts) {
-      const double value = (*part.values)[j];
-      if (parts.size() == 1) {
-        joint["command"] = value;
-      } else {
-        joint["command"][std::string(to_string(part.quantity))] = value;
-      }
+      const bool alone = parts.size() == 1;
+      (alone ? command : command[std::string(to_string(part.quantity))]) = (*part.values)[j];
     }
   }
   json["cycle"] = record.cycle;
@@ -125,7 +128,7 @@ template <Robot R, class Command>
   return record_json(robot, record, RecordExtras<R>(robot, {}));
 }
 
-/// The JSON Schema that JSON like this one has: an object or a value, its kind and its members.
+/// The JSON Schema of objects with the same members and types as an example.
 /// Real-time: no (allocates).
 [[nodiscard]] inline Json schema_of(const Json& example) {
   if (!example.is_object()) return {{"type", example.is_string() ? "string" : "number"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Records on their way to files and sockets.
+/// @file Streams records from a real-time loop to files and sockets.
 #pragma once
 
 #include "articula/loop/exchange/event_ring.hpp"
@@ -16,19 +16,22 @@
 
 namespace articula {
 
-/// Takes records from a loop and hands them to sinks (files, sockets) on a thread of its own. The
-/// loop never waits: records that find the ring full are dropped and counted. A sink that throws
-/// gets nothing more; the others go on.
-/// @tparam Record    what is streamed
-/// @tparam Capacity  of the ring in between, a power of two: at 1 kHz, 4096 records bridge a pause
-///                   of four seconds
+/// Passes records of a loop to sinks (files, sockets) on a thread of its own:
+///
+///     RecordStream<Record> stream({[&](const Record& record) { csv.write(record); }});
+///     stream.push(record_of(loop, report));  // after each cycle
+///
+/// The loop never waits: if the ring is full, a record is dropped and counted. A sink that throws
+/// receives no further records; the others do. To keep only the cycles around a fault, use Recorder.
+/// @tparam Record    type of the records
+/// @tparam Capacity  of the ring, a power of two: at 1 kHz, 4096 records last for four seconds
 template <class Record, std::size_t Capacity = 4096>
 class RecordStream {
  public:
   using Sink = std::function<void(const Record&)>;
 
-  /// Starts the thread. It has the scheduling of the thread that calls this, so make the stream
-  /// before that one becomes real-time.
+  /// Starts the thread. It inherits the scheduling of the calling thread, so create the stream before
+  /// make_realtime.
   /// @param sinks  called with each record, in order
   explicit RecordStream(std::vector<Sink> sinks)
       : sinks_(std::move(sinks)), thread_([this] { work(); }) {}
@@ -36,18 +39,18 @@ class RecordStream {
   RecordStream(const RecordStream&) = delete;
   RecordStream& operator=(const RecordStream&) = delete;
 
-  /// Sends a record on its way. For the loop's thread.
-  /// @return false if it was dropped
+  /// Adds a record to the ring. For the loop's thread.
+  /// @return false if the record was dropped
   /// Real-time: yes. Wait-free. One copy.
   bool push(const Record& record) noexcept { return ring_.push(record); }
 
-  /// How many records were dropped. From any thread. Real-time: yes.
+  /// Number of dropped records. From any thread. Real-time: yes.
   [[nodiscard]] std::uint64_t dropped() const noexcept { return ring_.dropped(); }
 
-  /// Waits until all that was pushed has been handed on, and ends. To be called when the loop has
-  /// ended, before the sinks are closed.
-  /// @throws what the first sink that failed has thrown
-  /// Real-time: no.
+  /// Waits until the sinks have all records, and ends the thread. Call it after the loop has ended
+  /// and before the sinks are closed.
+  /// @throws the exception of the first sink that failed
+  /// Real-time: no (waits).
   void close() {
     finish();
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
@@ -60,16 +63,16 @@ class RecordStream {
   }
 
   void work() {
-    // Looks again and again, since waking a thread up would be a system call of the loop's.
+    // Polls the ring: to wake this thread, the loop would have to call the system.
     constexpr std::chrono::milliseconds pause(5);
     for (bool last = false;; last = closing_) {
-      for (Record record; ring_.pop(record);) hand_on(record);
+      for (Record record; ring_.pop(record);) pass_on(record);
       if (last) return;
       if (!closing_) std::this_thread::sleep_for(pause);
     }
   }
 
-  void hand_on(const Record& record) {
+  void pass_on(const Record& record) {
     for (Sink& sink : sinks_) {
       if (!sink) continue;
       try {
@@ -85,7 +88,7 @@ class RecordStream {
   EventRing<Record, Capacity> ring_;
   std::atomic<bool> closing_ = false;
   std::exception_ptr error_;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last, since it uses the others
 };
 
 }  // namespace articula

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Long JSON in several short texts. Needs nlohmann-json (target articula::recording).
+/// @file Splits long JSON into several short texts. Needs nlohmann-json (target articula::recording).
 #pragma once
 
 #include "articula/recording/record_json.hpp"
@@ -10,12 +10,12 @@
 
 namespace articula {
 
-/// Splits a record into texts of limited length, each of which is JSON of the same shape: all have
-/// the values of the first level ("timestamp"), and between them the members of its objects (the
-/// joints, the links), each member whole. One text if everything fits.
+/// Splits a record into texts of limited length. Each is JSON of the same shape: it has all values
+/// of the first level ("timestamp"), and whole members of the objects there (joints, links).
 /// @param json     an object, of which some members may be objects
-/// @param longest  length of a text [bytes]. A member that alone is longer gets a longer text; that
-///                 of a joint has 1000 bytes at most, its name included.
+/// @param longest  length of a text [bytes]. A member that is longer has a text of its own; that of
+///                 a joint has at most 1000 bytes, its name included.
+/// @return         one text if everything fits
 /// Real-time: no (allocates).
 [[nodiscard]] inline std::vector<std::string> split_json(const Json& json, std::size_t longest) {
   std::string whole = json.dump();

@@ -1,34 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Motions from point to point, and stops, within limits of velocity, acceleration and jerk.
+/// @file Motions of all joints from point to point, and stops, with limited jerk.
 #pragma once
 
-#include "articula/core/finite.hpp"
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/refuse.hpp"
-#include "articula/model/robot.hpp"
-#include "articula/motion/jerk_motion.hpp"
+#include "articula/core/joint_array.hpp"
+#include "articula/motion/fastest_stop.hpp"
 #include "articula/motion/motion_limits.hpp"
-#include "articula/motion/stop_within.hpp"
-#include "articula/reference/checks.hpp"
+#include "articula/motion/rest_to_rest.hpp"
+#include "articula/reference/joint_range.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <limits>
 
 namespace articula {
 
-/// A motion of all joints to rest, as a function of the time since it began.
+/// A motion of all joints to rest, as a function of the time since its start:
 ///
 ///     JerkLimitedProfile<Q2d> profile({0, 0}, {-1, 1}, limits);
 ///     loop.reference() = profile.sample(loop.next_time());
 ///
-/// From rest to rest, each joint would take the least time that its limits allow (rest_to_rest);
-/// all take as long as the slowest. The others' motion is stretched in time by a factor s, which
-/// divides their velocities by s, accelerations by s^2 and jerks by s^3. A stop is the fastest of
-/// each joint alone (fastest_stop). Every sample keeps the limits to the last bit; only a stop that
-/// is to stay within a range may be harder.
-/// @tparam R  the robot
+/// - From rest to rest, all joints arrive together. The slowest joint takes its least time
+///   (rest_to_rest). The motions of the others are stretched in time by a factor s, which divides
+///   their velocities by s, accelerations by s^2 and jerks by s^3.
+/// - A stop is the fastest one of each joint alone (fastest_stop).
+///
+/// Every sample keeps the limits to the last bit. Only a stop within a range may exceed them.
+///
+/// For a start or a target in motion, use StateToStateProfile; for points at given times,
+/// Trajectory.
 template <Robot R>
 class JerkLimitedProfile {
  public:
@@ -37,14 +35,12 @@ class JerkLimitedProfile {
   using Limits = MotionLimits<joint_count>;
 
   /// From rest to rest.
-  /// @param robot   whose joints these are
-  /// @param from    where it begins [rad or m], N x 1; may be beyond the joints' limits, so that
-  ///                there is a way back
-  /// @param to      where it ends [rad or m], N x 1
+  /// @param from    start [rad or m], N x 1; may be outside the joints' limits
+  /// @param to      end [rad or m], N x 1
   /// @param limits  V, A, J
   /// @throws std::invalid_argument if a limit is out of range, a position is not finite, `to` is
-  ///         beyond a joint's limits, or a joint is so slow that it would never arrive; the message
-  ///         names joint, value and limit
+  ///         outside a joint's limits, or the duration overflows; the message names joint, value
+  ///         and limit
   JerkLimitedProfile(const R& robot, const JointVector<joint_count>& from,
                      const JointVector<joint_count>& to, const Limits& limits) {
     validate(robot, limits);
@@ -53,7 +49,7 @@ class JerkLimitedProfile {
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(from[j]) && is_finite(duration_)) continue;
       detail::refuse({"profile: from ", from[j], " to ", to[j], " joint '",
-                      joint_names(robot)[static_cast<std::size_t>(j)], "' never arrives"});
+                      model_of(robot).joints[j].name.view(), "' never arrives"});
     }
   }
   /// For a robot known at compile time.
@@ -62,9 +58,10 @@ class JerkLimitedProfile {
     requires DescribedRobot<R>
       : JerkLimitedProfile(R(), from, to, limits) {}
 
-  /// From rest to rest, as the constructor does, for numbers known to be good.
-  /// @param limits  that validate() accepts
-  /// @param effort  feed-forward on the way and after it [N m or N], N x 1
+  /// From rest to rest, without the constructor's checks.
+  /// @param from, to  finite [rad or m], N x 1
+  /// @param limits    that validate() accepts
+  /// @param effort    feed-forward effort, constant [N m or N], N x 1
   /// Real-time: yes. O(N).
   [[nodiscard]] static JerkLimitedProfile move(
       const JointVector<joint_count>& from, const JointVector<joint_count>& to,
@@ -75,26 +72,25 @@ class JerkLimitedProfile {
     profile.lower_ = from.cwiseMin(to);
     profile.upper_ = from.cwiseMax(to);
     for (int j = 0; j < joint_count; ++j) {
-      JerkMotion& motion = profile.motions_[static_cast<std::size_t>(j)];
-      motion =
+      profile.motions_[j] =
           rest_to_rest(from[j], to[j], limits.velocity[j], limits.acceleration[j], limits.jerk[j]);
-      profile.duration_ = std::max(profile.duration_, motion.duration());
+      profile.duration_ = std::max(profile.duration_, profile.motions_[j].duration());
     }
     for (int j = 0; j < joint_count; ++j) {
-      const double own = profile.motions_[static_cast<std::size_t>(j)].duration();
+      const double own = profile.motions_[j].duration();
       profile.pace_[j] = own < profile.duration_ ? own / profile.duration_ : 1;
     }
     return profile;
   }
 
-  /// The fastest stop, wherever that is, or within a range (stop_within). What the reference asked
-  /// for is where it begins: position and velocity go on without a jump, and so does an
-  /// acceleration that can fade without leading beyond V. The reference's effort stays as it is,
-  /// for it may be what carries the robot. A velocity beyond V only falls.
-  /// @param from    what the joints were last asked for
+  /// The fastest stop, at any position or within a range (stop_within). It begins with the position
+  /// and velocity of a reference. So does the acceleration, unless the velocity would exceed V while
+  /// it fades. A velocity beyond V only falls. The reference's effort stays, since it may carry the
+  /// robot's weight.
+  /// @param from    the last reference of the joints
   /// @param limits  that validate() accepts
-  /// @param lower   where the joints can be [rad or m], N x 1; for a joint whose fastest stop leads
-  /// @param upper   out of there, acceleration and jerk are as much higher as it takes
+  /// @param lower   range of positions [rad or m], N x 1; where the fastest stop would leave it,
+  /// @param upper   acceleration and jerk are as much higher as necessary
   /// Real-time: yes. O(N).
   [[nodiscard]] static JerkLimitedProfile stop(
       const Reference& from, const Limits& limits,
@@ -105,36 +101,29 @@ class JerkLimitedProfile {
     for (int j = 0; j < joint_count; ++j) {
       if (from.position[j] >= lower[j]) profile.lower_[j] = lower[j];
       if (from.position[j] <= upper[j]) profile.upper_[j] = upper[j];
-      JerkMotion& motion = profile.motions_[static_cast<std::size_t>(j)];
-      motion = stop_within({from.position[j], from.velocity[j], from.acceleration[j]},
-                           limits.velocity[j], limits.acceleration[j], limits.jerk[j], lower[j],
-                           upper[j]);
-      profile.duration_ = std::max(profile.duration_, motion.duration());
+      profile.motions_[j] = stop_within(motion_of(from, j), limits.velocity[j],
+                                        limits.acceleration[j], limits.jerk[j], lower[j], upper[j]);
+      profile.duration_ = std::max(profile.duration_, profile.motions_[j].duration());
     }
     return profile;
   }
 
-  /// When all joints rest [s]. Real-time: yes.
+  /// The time at which all joints rest [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
 
-  /// The reference at a time since the start [s]; before 0 as at 0, from duration() on at rest. A
-  /// time that is not finite gives NaN, which a loop refuses.
+  /// The reference at a time since the start [s]; before 0 as at 0, after duration() at rest. A time
+  /// that is not finite gives NaN, which a loop refuses.
   /// Real-time: yes. O(N).
   [[nodiscard]] Reference sample(double time) const noexcept {
-    Reference reference;
-    reference.effort = effort_;
-    if (!is_finite(time)) {
-      reference.position.setConstant(std::numeric_limits<double>::quiet_NaN());
-      return reference;
-    }
+    if (!is_finite(time)) return detail::undefined_reference<joint_count>();
+    Reference reference{.effort = effort_};
     for (int j = 0; j < joint_count; ++j) {
-      const JerkMotion& joint = motions_[static_cast<std::size_t>(j)];
       const double own_time = time < duration_ ? std::max(0.0, time * pace_[j]) : duration_;
-      const JointMotion motion = joint.sample(own_time);
-      reference.position[j] =
-          std::min(std::max(motion.position, lower_[j]), upper_[j]);  // rounding
-      reference.velocity[j] = motion.velocity * pace_[j];
-      reference.acceleration[j] = motion.acceleration * pace_[j] * pace_[j];
+      const auto [q, v, a] = motions_[j].sample(own_time);
+      // The clamp removes rounding.
+      set_motion(
+          reference, j,
+          {std::min(std::max(q, lower_[j]), upper_[j]), v * pace_[j], a * pace_[j] * pace_[j]});
     }
     return reference;
   }
@@ -146,9 +135,10 @@ class JerkLimitedProfile {
     return JointVector<joint_count>::Constant(side * std::numeric_limits<double>::infinity());
   }
 
-  std::array<JerkMotion, static_cast<std::size_t>(joint_count)> motions_{};
+  JointArray<JerkMotion<7>, joint_count> motions_{};
   JointVector<joint_count> lower_ = everywhere(-1), upper_ = everywhere(1);  ///< of all samples
-  JointVector<joint_count> pace_ = JointVector<joint_count>::Ones();  ///< own time per time, <= 1
+  /// The motion's own time per time, at most 1
+  JointVector<joint_count> pace_ = JointVector<joint_count>::Ones();
   JointVector<joint_count> effort_ = JointVector<joint_count>::Zero();
   double duration_ = 0;
 };

@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Signals on the joints of a robot: waves, sums of them, steps, sweeps.
+/// @file References from sums of signals on the joints of a robot.
 #pragma once
 
-#include "articula/core/joint_reference.hpp"
 #include "articula/core/name.hpp"
-#include "articula/core/refuse.hpp"
-#include "articula/model/robot.hpp"
-#include "articula/reference/checks.hpp"
+#include "articula/motion/joint_motion.hpp"
+#include "articula/reference/joint_range.hpp"
 #include "articula/reference/signal.hpp"
 
 #include <array>
 #include <cstddef>
 #include <initializer_list>
-#include <limits>
 #include <span>
 #include <variant>
 
 namespace articula {
 
-/// What a signal is added to.
+/// The quantity to which a signal is added.
 enum class SignalTarget : unsigned char {
   position,  ///< the reference's position, with its derivatives in velocity and acceleration
   effort,    ///< the reference's effort: open-loop excitation under Bypass, feed-forward elsewhere
@@ -36,29 +33,26 @@ struct JointSignal {
 ///     JointSignals<Q2d> waves({{"shoulder_active_joint", SineSignal{.amplitude = 0.5,
 ///                                                                   .frequency = 1}}});
 ///
-/// Joints without a signal stay at `around`. A position beyond the joint's limits is kept at the
+/// Joints without a signal stay at `around`. A position outside the joint's limits is clamped to the
 /// limit, with velocity and acceleration 0. A time that is not finite gives NaN, which a loop
 /// refuses.
-/// @tparam R         the robot
-/// @tparam Capacity  most signals there can be, all joints together
+/// @tparam Capacity  largest number of signals of all joints together
 template <Robot R, int Capacity = 32>
 class JointSignals {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
 
-  /// @param robot    whose joints these are
   /// @param signals  in any order; those of one joint add up
-  /// @param around   what they are added to
+  /// @param around   the reference to which they are added
   /// @throws std::invalid_argument if there are too many signals, a joint is unknown, a signal
-  ///         cannot be evaluated, their sum overflows, or `around` is not finite or beyond a
+  ///         cannot be evaluated, their sum overflows, or `around` is not finite or outside a
   ///         joint's limits; the message names joint and signal
   JointSignals(const R& robot, std::span<const JointSignal> signals,
                const JointReference<joint_count>& around = {})
-      : around_(around),
-        lower_(joint_values(robot, [](const auto& joint) { return joint.limits.lower; })),
-        upper_(joint_values(robot, [](const auto& joint) { return joint.limits.upper; })) {
+      : around_(around), range_(joint_range(robot)) {
     detail::check_positions(robot, "signals", around.position);
-    if (!is_finite(around)) detail::refuse({"signals: what they are added to is not finite"});
+    if (!is_finite(around))
+      detail::refuse({"signals: the reference to which they are added is not finite"});
     if (signals.size() > entries_.size()) {
       detail::refuse({"signals: ", signals.size(), " are more than the capacity, ", Capacity});
     }
@@ -94,11 +88,8 @@ class JointSignals {
 
   /// The reference at a time [s]. Real-time: yes. O(N + number of signals).
   [[nodiscard]] JointReference<joint_count> sample(double time) const noexcept {
+    if (!is_finite(time)) return detail::undefined_reference<joint_count>();
     JointReference<joint_count> reference = around_;
-    if (!is_finite(time)) {
-      reference.position.setConstant(std::numeric_limits<double>::quiet_NaN());
-      return reference;
-    }
     for (std::size_t k = 0; k < size_; ++k) {
       const Entry& entry = entries_[k];
       const SignalValue x =
@@ -106,9 +97,8 @@ class JointSignals {
       add(reference, entry, x);
     }
     for (int j = 0; j < joint_count; ++j) {
-      if (reference.position[j] >= lower_[j] && reference.position[j] <= upper_[j]) continue;
-      reference.position[j] = reference.position[j] < lower_[j] ? lower_[j] : upper_[j];
-      reference.velocity[j] = reference.acceleration[j] = 0;
+      const double q = reference.position[j], lower = range_.lower[j], upper = range_.upper[j];
+      if (!(q >= lower && q <= upper)) set_motion(reference, j, {q < lower ? lower : upper, 0, 0});
     }
     return reference;
   }
@@ -132,8 +122,7 @@ class JointSignals {
   }
 
   JointReference<joint_count> around_;
-  JointVector<joint_count> lower_;
-  JointVector<joint_count> upper_;
+  JointRange<joint_count> range_;
   std::array<Entry, static_cast<std::size_t>(Capacity)> entries_{};
   std::size_t size_ = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a generator of references is.
+/// @file The concept of a source of references.
 #pragma once
 
 #include "articula/core/joint_reference.hpp"
@@ -8,14 +8,13 @@
 
 namespace articula {
 
-/// A source of references for N joints: what they shall do at a time.
+/// A source of references for N joints as a function of time:
 ///
 ///     loop.reference() = generator.sample(loop.next_time());
 ///
-/// - `sample(time)` is the reference at a time [s], on whatever clock the user keeps.
-///
-/// It is noexcept and must not allocate, lock or call the system: it runs in the control loop.
-/// Generators without memory (signals, profiles, trajectories) can be sampled in any order; a
+/// `sample(time)` returns the reference at a time [s]. The user chooses the clock. The function is
+/// noexcept and must not allocate, lock or call the system, since it runs in the control loop.
+/// Signals, profiles and trajectories have no memory and can be sampled in any order. A
 /// TrajectoryFollower moves on with each sample.
 /// @tparam G  the generator
 /// @tparam N  number of joints

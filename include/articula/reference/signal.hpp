@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Functions of time to excite or move a joint with: step, ramp, sine, square,
-/// chirp.
+/// @file Functions of time that excite or move a joint: step, ramp, sine, square, chirp.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -15,58 +14,66 @@
 
 namespace articula {
 
-/// A signal at one moment. Its unit is that of what the signal drives: rad or m for a position, N m
-/// or N for an effort.
+/// A signal at one moment. Its unit depends on the quantity that it drives: rad or m for a position,
+/// N m or N for an effort.
 struct SignalValue {
   double value = 0;         ///< [unit]
   double rate = 0;          ///< first derivative [unit/s]
   double acceleration = 0;  ///< second derivative [unit/s^2]
 };
 
-/// True if all of it is finite. Real-time: yes.
+/// True if all members are finite. Real-time: yes.
 [[nodiscard]] inline bool is_finite(const SignalValue& x) noexcept {
   return is_finite(x.value) && is_finite(x.rate) && is_finite(x.acceleration);
 }
+
+namespace detail {
+
+[[nodiscard]] inline bool are_finite(std::initializer_list<double> values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double x) { return is_finite(x); });
+}
+
+inline constexpr std::string_view not_finite = "a member is not a finite number";
+
+}  // namespace detail
+
+// Each signal has these functions, all `Real-time: yes`:
+//
+// - `sample(time)`: the value and its derivatives at a time [s];
+// - `peak()`: bounds of their absolute values;
+// - `fault()`: why the signal cannot be evaluated; empty if it can.
 
 /// x(t) = height from `start` on, 0 before.
 struct StepSignal {
   double height = 0;  ///< [unit]
   double start = 0;   ///< [s]
 
-  /// Real-time: yes.
   [[nodiscard]] SignalValue sample(double time) const noexcept {
     return {time < start ? 0 : height};
   }
-  /// What its sizes never exceed. Real-time: yes.
   [[nodiscard]] SignalValue peak() const noexcept { return {std::abs(height)}; }
-  /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
-    return is_finite(height) && is_finite(start) ? "" : "a member is not a finite number";
+    return detail::are_finite({height, start}) ? "" : detail::not_finite;
   }
 };
 
-/// A straight line from 0 to `height`, which is held from then on.
+/// A straight line from 0 to `height`, constant before and after it.
 struct RampSignal {
   double height = 0;    ///< [unit]
   double duration = 1;  ///< [s], > 0
   double start = 0;     ///< [s]
 
-  /// Real-time: yes.
   [[nodiscard]] SignalValue sample(double time) const noexcept {
     const double share = (time - start) / duration;
     if (share <= 0) return {};
     if (share >= 1) return {height};
     return {height * share, height / duration};
   }
-  /// What its sizes never exceed. Real-time: yes.
   [[nodiscard]] SignalValue peak() const noexcept {
     return {std::abs(height), std::abs(height / duration)};
   }
-  /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
-    if (!is_finite(height) || !is_finite(duration) || !is_finite(start)) {
-      return "a member is not a finite number";
-    }
+    if (!detail::are_finite({height, duration, start})) return detail::not_finite;
     if (!(duration > 0)) return "the duration is not positive";
     return is_finite(height / duration) ? "" : "the slope is infinite";
   }
@@ -79,56 +86,46 @@ struct SineSignal {
   double phase = 0;      ///< [rad]
   double offset = 0;     ///< [unit]
 
-  /// Whole turns are taken off first, so that it is as exact after a year as at the start.
-  /// Real-time: yes.
+  /// Whole turns are removed first, so that the value is as exact after a year as at the start.
   [[nodiscard]] SignalValue sample(double time) const noexcept {
     const double turns = frequency * time, omega = 2 * std::numbers::pi * frequency;
     const double angle = 2 * std::numbers::pi * (turns - std::floor(turns)) + phase;
     const double sine = amplitude * std::sin(angle);
     return {offset + sine, amplitude * omega * std::cos(angle), -sine * omega * omega};
   }
-  /// What its sizes never exceed. Real-time: yes.
   [[nodiscard]] SignalValue peak() const noexcept {
     const double omega = 2 * std::numbers::pi * std::abs(frequency), size = std::abs(amplitude);
     return {std::abs(offset) + size, size * omega, size * omega * omega};
   }
-  /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
-    for (const double x : {amplitude, frequency, phase, offset}) {
-      if (!is_finite(x)) return "a member is not a finite number";
-    }
+    if (!detail::are_finite({amplitude, frequency, phase, offset})) return detail::not_finite;
     return is_finite(peak()) ? ""
                              : "the sum of amplitude and offset or the acceleration is infinite";
   }
 };
 
 /// x(t) = offset + amplitude in the first half of each period, offset - amplitude in the second, at
-/// all times: the sign of the sine of the same frequency and phase. It jumps, as a step does.
+/// all times: the sign of the sine of the same frequency and phase. Its value jumps.
 struct SquareSignal {
   double amplitude = 0;  ///< [unit]
   double frequency = 0;  ///< [Hz]
   double phase = 0;      ///< [rad]
   double offset = 0;     ///< [unit]
 
-  /// Real-time: yes.
   [[nodiscard]] SignalValue sample(double time) const noexcept {
     const double shift = phase / (2 * std::numbers::pi);
     const double turns = frequency * time + shift - std::floor(shift);
-    // The time of an edge is often a product of numbers that are rounded: what is nearer than that
-    // counts as the edge, so that all halves have the same number of cycles.
+    // The time of an edge is often a product of rounded numbers. A time that close to an edge counts
+    // as the edge, so that all halves have the same number of cycles.
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * (1 + std::abs(turns));
     const double share = turns + rounding - std::floor(turns + rounding);
     return {offset + (share < 0.5 ? amplitude : -amplitude)};
   }
-  /// What its sizes never exceed. Real-time: yes.
   [[nodiscard]] SignalValue peak() const noexcept {
     return {std::abs(offset) + std::abs(amplitude)};
   }
-  /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
-    for (const double x : {amplitude, frequency, phase, offset}) {
-      if (!is_finite(x)) return "a member is not a finite number";
-    }
+    if (!detail::are_finite({amplitude, frequency, phase, offset})) return detail::not_finite;
     return is_finite(peak()) ? "" : "the sum of amplitude and offset is infinite";
   }
 };
@@ -138,10 +135,9 @@ struct SquareSignal {
 ///
 ///     x(t) = amplitude sin((w1/k) (exp(k t) - 1)).
 ///
-/// After `duration` the last frequency goes on to the next zero of the sine, and x stays 0 then:
-/// no joint is left under effort. x itself does not jump, but its rate does: by amplitude w1 at the
-/// start, and by 2 pi amplitude last_frequency at the end. Where it drives a position, that is a
-/// velocity that jumps.
+/// After `duration`, the last frequency continues to the next zero of the sine. Then x stays 0, so
+/// that no effort remains. x does not jump. Its rate, the velocity of a position, jumps by
+/// amplitude w1 at the start, and by 2 pi amplitude last_frequency at the end.
 struct ChirpSignal {
   double amplitude = 0;        ///< [unit]
   double first_frequency = 1;  ///< [Hz], > 0
@@ -149,7 +145,6 @@ struct ChirpSignal {
   double duration = 1;         ///< [s], > 0
   double start = 0;            ///< [s]
 
-  /// Real-time: yes.
   [[nodiscard]] SignalValue sample(double time) const noexcept {
     const double t = time - start;
     if (t < 0) return {};
@@ -166,17 +161,15 @@ struct ChirpSignal {
     const double sine = amplitude * std::sin(angle), cosine = amplitude * std::cos(angle);
     return {sine, omega * cosine, slope * omega * cosine - omega * omega * sine};
   }
-  /// What its sizes never exceed. Real-time: yes.
   [[nodiscard]] SignalValue peak() const noexcept {
     const double omega = 2 * std::numbers::pi * std::max(first_frequency, last_frequency);
     const double growth = std::abs(std::log(last_frequency / first_frequency)) / duration;
     const double size = std::abs(amplitude);
     return {size, size * omega, size * omega * (growth + omega)};
   }
-  /// What is wrong with it; empty if nothing.
   [[nodiscard]] std::string_view fault() const noexcept {
-    for (const double x : {amplitude, first_frequency, last_frequency, duration, start}) {
-      if (!is_finite(x)) return "a member is not a finite number";
+    if (!detail::are_finite({amplitude, first_frequency, last_frequency, duration, start})) {
+      return detail::not_finite;
     }
     if (!(first_frequency > 0) || !(last_frequency > 0)) return "a frequency is not positive";
     if (!(duration > 0)) return "the duration is not positive";
@@ -195,7 +188,7 @@ struct ChirpSignal {
   }
 };
 
-/// Any of them.
+/// A signal of any kind.
 using Signal = std::variant<StepSignal, RampSignal, SineSignal, ChirpSignal, SquareSignal>;
 
 }  // namespace articula

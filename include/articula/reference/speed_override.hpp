@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Running a motion slower or faster while it runs.
+/// @file A clock that makes a motion slower or faster while it runs.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -11,20 +11,19 @@
 
 namespace articula {
 
-/// A clock for a motion that can be slowed down, stopped and sped up while it runs. With the speed
-/// f, the motion's own time s and the reference r(s),
+/// A clock that slows down, stops and speeds up a motion while it runs. With the speed f, the
+/// motion's own time s and the reference r(s),
 ///
 ///     ds/dt = f,  position r,  velocity f r',  acceleration f^2 r'' + (df/dt) r'.
 ///
-/// f follows what is asked for at a bounded rate, so that velocities do not jump.
+/// f changes to the requested speed at a bounded rate, so that velocities do not jump.
 ///
 ///     override.advance(loop.period());
 ///     loop.reference() = override.apply(waves.sample(override.time()));
 class SpeedOverride {
  public:
   /// @param rate     |df/dt| while f changes [1/s]
-  /// @param highest  f that can be asked for [1], at least 1; above 1 the joints are faster than
-  ///                 the motion's limits say
+  /// @param highest  highest f [1], at least 1; above 1 the joints can exceed the motion's limits
   /// @throws std::invalid_argument if the rate is not between 1e-9 and 1e9, or the highest speed is
   ///         not between 1 and 1e9
   explicit SpeedOverride(double rate = 2, double highest = 1) : rate_(rate), highest_(highest) {
@@ -36,14 +35,14 @@ class SpeedOverride {
     }
   }
 
-  /// Asks for a speed: 1 is the motion as it is, 0 a pause; above the highest one, for that. What
-  /// is not a finite number, or is negative, asks for a pause. Real-time: yes.
+  /// Requests a speed, clamped to the highest one: 1 is the motion as planned, 0 a pause. A negative
+  /// number, and one that is not finite, is a pause. Real-time: yes.
   void set(double speed) noexcept {
     target_ = is_finite(speed) ? std::clamp(speed, 0.0, highest_) : 0.0;
   }
 
-  /// Lets time pass.
-  /// @param period  [s]; nothing happens unless it is finite and positive
+  /// Moves on by a period.
+  /// @param period  [s]; ignored unless finite and positive
   /// Real-time: yes.
   void advance(double period) noexcept {
     if (!is_finite(period) || period <= 0) return;
@@ -57,12 +56,12 @@ class SpeedOverride {
 
   /// s, the motion's own time [s]. Real-time: yes.
   [[nodiscard]] double time() const noexcept { return time_; }
-  /// Puts the motion's own time to a value [s]. Real-time: yes.
+  /// Sets the motion's own time [s]. Real-time: yes.
   void restart(double time) noexcept { time_ = time; }
-  /// f at this moment. Real-time: yes.
+  /// The present f [1]. Real-time: yes.
   [[nodiscard]] double speed() const noexcept { return speed_; }
 
-  /// A reference in the motion's own time, as one in the time of the joints. Real-time: yes.
+  /// Converts a reference from the motion's own time to real time. Real-time: yes.
   template <int N>
   [[nodiscard]] JointReference<N> apply(JointReference<N> reference) const noexcept {
     reference.acceleration = speed_ * speed_ * reference.acceleration + slope_ * reference.velocity;
@@ -70,7 +69,8 @@ class SpeedOverride {
     return reference;
   }
 
-  /// The other way round; for a speed of 0 velocity and acceleration are 0. Real-time: yes.
+  /// Converts a reference from real time to the motion's own time. At speed 0, velocity and
+  /// acceleration become 0. Real-time: yes.
   template <int N>
   [[nodiscard]] JointReference<N> unapply(JointReference<N> reference) const noexcept {
     if (speed_ > 0) {

@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Motions of all joints from any state to any other, within limits of each direction.
+/// @file Motions of all joints from any state to any other, with limits of each direction.
 #pragma once
 
-#include "articula/core/finite.hpp"
-#include "articula/core/joint_reference.hpp"
-#include "articula/core/refuse.hpp"
-#include "articula/model/robot.hpp"
-#include "articula/motion/motion_bounds.hpp"
 #include "articula/motion/state_to_state_motion.hpp"
-#include "articula/motion/timed_motion.hpp"
-#include "articula/reference/checks.hpp"
+#include "articula/reference/joint_range.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -20,8 +13,8 @@
 
 namespace articula {
 
-/// The least duration that all joints can take together [s]: at least a given one, and in no
-/// joint's gap (StateToStateMotion::can_take). Infinity if a joint has no motion.
+/// The least duration that the motions of all joints can take together [s]: at least `minimum`, and
+/// in no joint's gap (StateToStateMotion::can_take). Infinity if a joint has no motion.
 /// Real-time: yes. O(N^2) in the worst case.
 [[nodiscard]] inline double common_duration(std::span<const StateToStateMotion> joints,
                                             double minimum = 0) noexcept {
@@ -41,31 +34,30 @@ namespace articula {
   return duration;
 }
 
-/// A motion of all joints from one state to another, either of which may move and accelerate, as a
-/// function of the time since it began:
+/// A motion of all joints from one state to another as a function of the time since its start. Both
+/// states may have velocities and accelerations:
 ///
 ///     StateToStateProfile<Q2d> profile(loop.reference(), {.position = {-1, 1}}, both_ways(limits));
 ///     loop.reference() = profile.sample(time);
 ///
-/// It is the fastest motion in which all joints arrive together (StateToStateMotion,
-/// common_duration), or takes a duration that is asked for. After the end it goes on with the
-/// velocity and the acceleration of the target: a target that moves is passed, not held. Where both
-/// states are at rest, JerkLimitedProfile does the same with less computation.
-/// @tparam R  the robot
+/// All joints arrive together, as fast as possible or after a given duration (StateToStateMotion,
+/// common_duration). After the end, the reference goes on with the velocity and the acceleration of
+/// the target. So the profile passes a moving target and does not hold it. If both states are at
+/// rest, JerkLimitedProfile does the same with less computation.
 template <Robot R>
 class StateToStateProfile {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using Reference = JointReference<joint_count>;
-  using Limits = DirectedLimits<joint_count>;
+  using Limits = JointArray<MotionBounds, joint_count>;
 
-  /// @param from     where it begins; may be beyond the limits, so that there is a way back
-  /// @param to       where it ends; the feed-forward effort goes there linearly
+  /// @param from     state at the start; may be outside the limits
+  /// @param to       state at the end; the feed-forward effort changes linearly
   /// @param limits   of each joint
   /// @param minimum  least duration [s]
-  /// @throws std::invalid_argument if a limit is out of range, a figure is not finite, `to` is
-  ///         beyond a limit or cannot be arrived at within them, the minimum is negative, or a
-  ///         joint passes its limits of position on the way; the message names joint, value, limit
+  /// @throws std::invalid_argument if a limit is out of range, a number is not finite, `to` is
+  ///         beyond a limit or no motion within the limits can end there, the minimum is negative,
+  ///         or a joint leaves its position limits in between; the message names joint, value, limit
   StateToStateProfile(const R& robot, const Reference& from, const Reference& to,
                       const Limits& limits, double minimum = 0) {
     validate(robot, limits);
@@ -74,33 +66,34 @@ class StateToStateProfile {
       detail::refuse({"profile: minimum duration ", minimum, " s is not a number >= 0"});
     }
     if (!is_finite(from) || !is_finite(to)) {
-      detail::refuse({"profile: start or target has a figure that is not finite"});
+      detail::refuse({"profile: start or target has a number that is not finite"});
     }
     const auto found = plan(from, to, limits, minimum);
     if (found) *this = *found;
     for (int j = 0; j < joint_count; ++j) {
-      const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
-      const JointMotion target{to.position[j], to.velocity[j], to.acceleration[j]};
-      if (!StateToStateMotion::can_be_arrived_at(target, limits.of(j))) {
+      const JointProperties& joint = model_of(robot).joints[j];
+      if (!StateToStateMotion::can_be_arrived_at(motion_of(to, j), limits[j])) {
         detail::refuse({"profile: target velocity ", to.velocity[j], " and acceleration ",
                         to.acceleration[j], " of joint '", joint.name.view(),
-                        "' are not within its motion limits, or cannot be arrived at within them"});
+                        "' are not within its motion limits, or no motion within them ends there"});
       }
-      if (!motion_of(from, to, limits, j).exists()) {
+      if (!StateToStateMotion(motion_of(from, j), motion_of(to, j), limits[j]).exists()) {
         detail::refuse({"profile: no motion was found for joint '", joint.name.view(), "' from ",
                         from.position[j], " with velocity ", from.velocity[j], " to ",
                         to.position[j], " with velocity ", to.velocity[j]});
       }
       if (!found) continue;
-      const PositionRange way = motions_[static_cast<std::size_t>(j)].positions();
+      const ValueRange positions = motions_[j].positions();
       constexpr double rounding = 1e-9;  // [rad or m]
-      const bool below = way.lowest < std::min(joint.limits.lower, from.position[j]) - rounding;
-      if (!below && way.highest <= std::max(joint.limits.upper, from.position[j]) + rounding) {
+      const bool below =
+          positions.lowest < std::min(joint.limits.lower, from.position[j]) - rounding;
+      if (!below &&
+          positions.highest <= std::max(joint.limits.upper, from.position[j]) + rounding) {
         continue;
       }
-      detail::refuse({"profile: on its way joint '", joint.name.view(), "' swings out to ",
-                      below ? way.lowest : way.highest, ", outside its limits ", joint.limits.lower,
-                      " .. ", joint.limits.upper});
+      detail::refuse({"profile: between start and target joint '", joint.name.view(),
+                      "' swings out to ", below ? positions.lowest : positions.highest,
+                      ", outside its limits ", joint.limits.lower, " .. ", joint.limits.upper});
     }
     if (!found) {
       detail::refuse(
@@ -114,50 +107,42 @@ class StateToStateProfile {
     requires DescribedRobot<R>
       : StateToStateProfile(R(), from, to, limits, minimum) {}
 
-  /// The same for the control loop: the limits are known to be good, and positions on the way are
-  /// not compared with the joints' limits.
-  /// @return nothing if a figure is not finite, a target cannot be arrived at, or no motion was
-  ///         found that keeps the limits
+  /// The same for the control loop, without the checks of the constructor. Position limits are not
+  /// checked.
+  /// @param limits  that validate() accepts
+  /// @return        nothing if a number is not finite, or no motion within the limits was found
   /// Real-time: yes. O(N^2) in the worst case; some 10 us for each joint.
   [[nodiscard]] static std::optional<StateToStateProfile> plan(const Reference& from,
                                                                const Reference& to,
                                                                const Limits& limits,
                                                                double minimum = 0) noexcept {
     if (!is_finite(from) || !is_finite(to)) return std::nullopt;
-    std::array<StateToStateMotion, static_cast<std::size_t>(joint_count)> joints;
+    JointArray<StateToStateMotion, joint_count> joints;
     for (int j = 0; j < joint_count; ++j) {
-      joints[static_cast<std::size_t>(j)] = motion_of(from, to, limits, j);
+      joints[j] = StateToStateMotion(motion_of(from, j), motion_of(to, j), limits[j]);
     }
     StateToStateProfile profile;
     profile.duration_ = common_duration(joints, minimum);
     if (!is_finite(profile.duration_)) return std::nullopt;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
+    for (int j = 0; j < joint_count; ++j) {
       profile.motions_[j] = joints[j].motion(profile.duration_);
-      if (!profile.motions_[j].keeps(limits.of(static_cast<int>(j)))) return std::nullopt;
+      if (!profile.motions_[j].keeps(limits[j])) return std::nullopt;
     }
     profile.from_effort_ = from.effort;
     profile.to_effort_ = to.effort;
     return profile;
   }
 
-  /// When all joints arrive [s]. Real-time: yes.
+  /// The time at which all joints arrive [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
 
   /// The reference at a time since the start [s]; before 0 as at 0. A time that is not finite gives
   /// NaN, which a loop refuses.
   /// Real-time: yes. O(N).
   [[nodiscard]] Reference sample(double time) const noexcept {
+    if (!is_finite(time)) return detail::undefined_reference<joint_count>();
     Reference reference;
-    if (!is_finite(time)) {
-      reference.position.setConstant(std::numeric_limits<double>::quiet_NaN());
-      return reference;
-    }
-    for (int j = 0; j < joint_count; ++j) {
-      const JointMotion now = motions_[static_cast<std::size_t>(j)].sample(time);
-      reference.position[j] = now.position;
-      reference.velocity[j] = now.velocity;
-      reference.acceleration[j] = now.acceleration;
-    }
+    for (int j = 0; j < joint_count; ++j) set_motion(reference, j, motions_[j].sample(time));
     const double share = duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1;
     reference.effort = from_effort_ + share * (to_effort_ - from_effort_);
     return reference;
@@ -166,14 +151,7 @@ class StateToStateProfile {
  private:
   StateToStateProfile() = default;
 
-  [[nodiscard]] static StateToStateMotion motion_of(const Reference& from, const Reference& to,
-                                                    const Limits& limits, int j) noexcept {
-    return {{from.position[j], from.velocity[j], from.acceleration[j]},
-            {to.position[j], to.velocity[j], to.acceleration[j]},
-            limits.of(j)};
-  }
-
-  std::array<TimedMotion, static_cast<std::size_t>(joint_count)> motions_{};
+  JointArray<TransferMotion, joint_count> motions_{};
   JointVector<joint_count> from_effort_ = JointVector<joint_count>::Zero();
   JointVector<joint_count> to_effort_ = JointVector<joint_count>::Zero();
   double duration_ = 0;

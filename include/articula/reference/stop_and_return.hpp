@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Coming to rest from any motion, and where it should be.
+/// @file A stop from any motion, and the motion back to a given position.
 #pragma once
 
-#include "articula/core/finite.hpp"
-#include "articula/core/joint_reference.hpp"
-#include "articula/model/robot.hpp"
-#include "articula/motion/motion_limits.hpp"
 #include "articula/reference/jerk_limited_profile.hpp"
+#include "articula/reference/joint_range.hpp"
 
 #include <limits>
 #include <optional>
 
 namespace articula {
 
-/// The fastest stop from any motion, and then the way back, if it does not end where it should.
-/// From within the joints' limits of position neither leads out of them: where the fastest stop
-/// would, it is harder than the limits of acceleration and jerk allow, by no more than it takes
-/// (stop_within). The reference's effort stays.
-/// @tparam R  the robot
+/// The fastest stop from any motion, followed by a motion from rest to a given position. If the
+/// joints start within their position limits, they stay there: where the fastest stop would leave
+/// them, acceleration and jerk exceed their limits as little as possible (stop_within). The
+/// reference's effort stays.
 template <Robot R>
 class StopAndReturn {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using Reference = JointReference<joint_count>;
   using Position = JointVector<joint_count>;
+
+  /// No final position for any joint: NaN, N x 1. Real-time: yes.
+  [[nodiscard]] static Position unknown() noexcept {
+    return Position::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
 
   /// At rest.
   /// @param position  finite [rad or m], N x 1
@@ -32,63 +33,57 @@ class StopAndReturn {
   StopAndReturn(const R& robot, const Position& position,
                 const MotionLimits<joint_count>& limits) noexcept
       : limits_(limits),
-        lower_(joint_values(robot, [](const auto& joint) { return joint.limits.lower; })),
-        upper_(joint_values(robot, [](const auto& joint) { return joint.limits.upper; })),
-        way_(JerkLimitedProfile<R>::move(position, position, limits)) {}
+        range_(joint_range(robot)),
+        profile_(JerkLimitedProfile<R>::move(position, position, limits)) {}
 
   /// Begins a stop.
-  /// @param from  what the joints were last asked for
-  /// @param back  where they should be in the end [rad or m], N x 1; where it is not given, or not
-  ///              finite, where the stop ends. Either no further out than the limits of the joints,
-  ///              or than it began
+  /// @param from  the last reference of the joints
+  /// @param back  final position [rad or m], N x 1; a joint whose number is not finite stays where
+  ///              its stop ends. It is clamped to the joint's limits or the initial position,
+  ///              whichever is further out
   /// Real-time: yes. O(N).
-  void begin(const Reference& from, const std::optional<Position>& back = {}) noexcept {
-    way_ = JerkLimitedProfile<R>::stop(from, limits_, lower_, upper_);
+  void begin(const Reference& from, const Position& back = unknown()) noexcept {
+    profile_ = JerkLimitedProfile<R>::stop(from, limits_, range_.lower, range_.upper);
     time_ = 0;
-    const Position end = way_.sample(way_.duration()).position;
-    target_ = back.value_or(unknown());
+    const Position end = profile_.sample(profile_.duration()).position;
+    target_ = back;
     Position wanted = end;
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(target_[j])) wanted[j] = target_[j];
     }
-    const Position target =
-        wanted.cwiseMax(lower_.cwiseMin(from.position)).cwiseMin(upper_.cwiseMax(from.position));
+    const Position target = wanted.cwiseMax(range_.lower.cwiseMin(from.position))
+                                .cwiseMin(range_.upper.cwiseMax(from.position));
     back_.reset();
     if (target != end) back_ = target;
   }
 
-  /// Lets time pass.
+  /// Moves on by a period.
   /// @param period  [s], >= 0
-  /// @return        the reference then
+  /// @return        the reference at its end
   /// Real-time: yes. O(N).
   [[nodiscard]] Reference advance(double period) noexcept {
     time_ += period;
-    if (back_ && time_ >= way_.duration()) {
-      time_ -= way_.duration();
-      const Reference here = way_.sample(way_.duration());
-      way_ = JerkLimitedProfile<R>::move(here.position, *back_, limits_, here.effort);
+    if (back_ && time_ >= profile_.duration()) {
+      time_ -= profile_.duration();
+      const Reference here = profile_.sample(profile_.duration());
+      profile_ = JerkLimitedProfile<R>::move(here.position, *back_, limits_, here.effort);
       back_.reset();
     }
-    return way_.sample(time_);
+    return profile_.sample(time_);
   }
 
-  /// What begin() was given to go back to [rad or m], N x 1; not finite where nothing.
-  /// Real-time: yes.
+  /// The final position that begin() received [rad or m], N x 1. Real-time: yes.
   [[nodiscard]] const Position& target() const noexcept { return target_; }
 
-  /// Whether it is not yet at rest for good. Real-time: yes.
-  [[nodiscard]] bool moves() const noexcept { return back_ || time_ < way_.duration(); }
+  /// Whether a joint still moves, or will move back. Real-time: yes.
+  [[nodiscard]] bool moves() const noexcept { return back_ || time_ < profile_.duration(); }
 
  private:
-  [[nodiscard]] static Position unknown() noexcept {
-    return Position::Constant(std::numeric_limits<double>::quiet_NaN());
-  }
-
   MotionLimits<joint_count> limits_;
-  Position lower_, upper_;
-  JerkLimitedProfile<R> way_;
+  JointRange<joint_count> range_;
+  JerkLimitedProfile<R> profile_;
   double time_ = 0;
-  std::optional<Position> back_{};  ///< where to go after the stop
+  std::optional<Position> back_{};  ///< target of the motion after the stop
   Position target_ = unknown();
 };
 

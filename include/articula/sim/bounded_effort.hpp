@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Constraint efforts with bounds: what stops and dry friction do to a robot.
+/// @file Constraint efforts with bounds, as those of stops and dry friction.
 #pragma once
 
 #include "articula/dynamics/engine/evaluate.hpp"
@@ -7,37 +7,37 @@
 
 namespace articula {
 
-/// What each joint's constraint can exert: any effort between the bounds, as much as it takes to
-/// hold the joint still. A joint without constraint has both at 0.
+/// The bounds of each joint's constraint effort. The constraint holds the joint still by any effort
+/// between them. A joint without constraint has both at 0.
 template <int N>
 struct EffortBounds {
   JointVector<N> lower = JointVector<N>::Zero();  ///< [N m or N], N x 1, <= upper, may be -infinity
   JointVector<N> upper = JointVector<N>::Zero();  ///< [N m or N], N x 1, may be infinity
 };
 
-/// The answer of hold_within_bounds.
+/// The result of hold_within_bounds.
 template <int N>
 struct BoundedEffort {
   JointVector<N> motion = JointVector<N>::Zero();  ///< x, zero for the joints that are held, N x 1
-  JointVector<N> effort = JointVector<N>::Zero();  ///< what each constraint exerts, N x 1
+  JointVector<N> effort = JointVector<N>::Zero();  ///< of each constraint, N x 1
   JointArray<bool, N> held{};                      ///< which joints are held still
 };
 
-/// Finds constraint efforts within bounds that hold as many joints as they can:
+/// Solves for constraint efforts within bounds that hold joints still as far as they can:
 ///
 ///     M x = load + effort,   lower <= effort <= upper,
 ///     x_j = 0 where effort_j lies between its bounds, x_j >= 0 at the lower, x_j <= 0 at the
 ///     upper.
 ///
-/// With accelerations for x this is dry friction and contact with a stop; with velocities and load
-/// = M v it is an inelastic impact. The answer exists and is unique for positive definite M. Found
-/// by principal pivoting: the first joint that breaks a rule changes sides, until none does [Murty
-/// 1974]; from the usual starts that takes a few rounds.
-/// @param parents      of the tree that M has, see branches
+/// With x an acceleration this is dry friction and contact with a stop. With x a velocity and
+/// load = M v it is an inelastic impact. For positive definite M there is exactly one solution. The
+/// method is principal pivoting: the first joint that violates a condition changes sides, until
+/// none does [Murty 1974]. It usually takes a few rounds.
+/// @param parents      elimination tree of M
 /// @param mass_matrix  M, N x N, positive definite
 /// @param load         all other efforts (or momenta), N x 1
 /// @param bounds       of the constraint efforts (or impulses)
-/// Real-time: yes. O(N^3) a round; the number of rounds is limited.
+/// Real-time: yes. O(N^3) per round, at most 16 N rounds.
 template <int N>
 [[nodiscard]] BoundedEffort<N> hold_within_bounds(const JointArray<int, N>& parents,
                                                   const JointMatrix<N>& mass_matrix,
@@ -47,7 +47,7 @@ template <int N>
   for (int j = 0; j < N; ++j) {
     answer.held[j] = bounds.lower[j] < bounds.upper[j];
   }
-  constexpr int rounds = 16 * N;  // far beyond what was seen; the limit only bounds the time
+  constexpr int rounds = 16 * N;  // far more than measured; it only bounds the time
   for (int round = 0; round < rounds; ++round) {
     // Held joints leave the equations: identity rows and columns, zero right-hand side.
     JointRows<double, N> m = detail::to_rows(mass_matrix);

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How a robot's joints move under efforts: rigid bodies, damping, dry friction and stops.
+/// @file Motion of a robot's joints under efforts: rigid bodies, damping, dry friction and stops.
 #pragma once
 
+#include "articula/core/scalar.hpp"
 #include "articula/dynamics/forward_dynamics.hpp"
 #include "articula/sim/bounded_effort.hpp"
 #include "articula/sim/crossing.hpp"
 #include "articula/sim/runge_kutta.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
-#include <type_traits>
+#include <optional>
 
 namespace articula {
 
-/// Advances a robot in time under the efforts of its drives. Between events the motion is smooth
-/// and is integrated by Runge-Kutta; an event (a joint reaches its stop, or comes to rest against
-/// dry friction) is located in time to the last bits, dealt with, and the step goes on from there.
-/// Stops are inelastic: a joint that arrives gives up its velocity by an impulse through the mass
-/// matrix, which cannot add energy, and is then held for as long as it is pushed. Dry friction
-/// holds a resting joint exactly.
+/// Advances a robot in time under the efforts of its drives. Between events the motion is smooth,
+/// and Runge-Kutta integrates it. An event is a joint that reaches its stop or that dry friction
+/// brings to rest. It is located in time to the last bits and handled, and the step continues from
+/// there. Stops are inelastic: an impulse through the mass matrix, which cannot add energy, takes
+/// the joint's velocity. The stop then holds the joint as long as efforts push against it. Dry
+/// friction holds a resting joint exactly.
 /// @tparam R  the robot
 template <Robot R>
 class JointDynamics {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
+  using Vector = JointVector<joint_count>;
 
   explicit JointDynamics(const R& robot)
       : robot_(robot),
@@ -33,81 +36,96 @@ class JointDynamics {
         friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
         parents_(elimination_tree(model_of(robot).mechanism)) {}
 
-  /// The motion after one step under constant efforts.
+  /// The motion after one step.
   /// @param motion  position and velocity at its beginning; positions within the joints' limits
-  /// @param effort  efforts of the drives [N m or N], N x 1
-  /// @param step    [s]
-  /// Real-time: yes. One Runge-Kutta step, and some ten more for each event, at most some fifty.
-  [[nodiscard]] Motion<joint_count> advance(const Motion<joint_count>& motion,
-                                            const JointVector<joint_count>& effort,
-                                            double step) const noexcept {
-    return advance(motion, [&effort](const auto&, const auto&) noexcept { return effort; }, step);
-  }
-
-  /// The motion after one step under efforts that depend on it.
-  /// @param motion  as above
   /// @param effort  callable with (q, v) -> efforts of the drives [N m or N], N x 1
   /// @param step    [s]
-  /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step.
+  /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step. One
+  /// such step, and some ten more for each event, at most some fifty.
   template <class Drives>
-    requires std::is_invocable_r_v<JointVector<joint_count>, const Drives&,
-                                   const JointVector<joint_count>&, const JointVector<joint_count>&>
   [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion, const Drives& effort,
                                             double step) const noexcept {
     double rest = step;
     for (int event = 0; event < most_events && rest > 0; ++event) {
       if (any_at_stop(motion)) motion = after_impact(motion, Rebound::yes);
-      const Phase phase = phase_at(motion, effort);
+      const Phase<> phase = phase_at(motion, effort);
       Motion<joint_count> next = smooth_step(phase, motion, effort, rest);
       const double excess_at_end = excess(phase, next);
       if (!(excess_at_end > 0)) return next;
 
-      rest -=
-          locate_crossing({0, excess(phase, motion)}, {rest, excess_at_end},
-                          std::numeric_limits<double>::epsilon() * step, [&](double time) noexcept {
-                            const auto there = smooth_step(phase, motion, effort, time);
-                            const double past = excess(phase, there);
-                            if (past > 0) next = there;
-                            return past;
-                          });
+      const auto excess_after = [&](double time) noexcept {
+        const auto there = smooth_step(phase, motion, effort, time);
+        const double past = excess(phase, there);
+        if (past > 0) next = there;
+        return past;
+      };
+      rest -= locate_crossing({0, excess(phase, motion)}, {rest, excess_at_end},
+                              std::numeric_limits<double>::epsilon() * step, excess_after);
       motion = settle(phase, next);
     }
-    if (rest > 0) {  // joints at stops jolt each other ever more often and less: that ends here
+    if (rest > 0) {  // impacts between joints at stops follow each other at ever shorter times
       motion = after_impact(motion, Rebound::no);
-      const Phase phase = phase_at(motion, effort);
+      const Phase<> phase = phase_at(motion, effort);
       motion = settle(phase, smooth_step(phase, motion, effort, rest));
     }
     return motion;
   }
 
+  /// The motion of several robots after one step without events.
+  /// @tparam Pack   a scalar with the numbers of several robots
+  /// @param motion, effort, step  as above
+  /// @return        nothing if a robot has an event in this step: then advance each robot alone
+  /// Real-time: yes if `effort` is. One Runge-Kutta step.
+  template <PackedScalar Pack, class Drives>
+  [[nodiscard]] std::optional<Motion<joint_count, Pack>> advance_smoothly(
+      const Motion<joint_count, Pack>& motion, const Drives& effort, double step) const noexcept {
+    Phase<Pack> phase;
+    bool event = any_at_stop(motion);
+    for (int j = 0; j < joint_count; ++j) {
+      if (friction_[j] == 0) continue;
+      const Pack& v = motion.velocity[j];
+      phase.sliding[j] = select(v > 0, Pack(-friction_[j]), Pack(friction_[j]));
+      event = event || any_of(v == 0);
+    }
+    if (event) return {};
+    const Motion<joint_count, Pack> next = smooth_step(phase, motion, effort, step);
+    if (any_of(excess(phase, next) > 0)) return {};
+    return next;
+  }
+
  private:
   static constexpr int most_events = 8 * joint_count;
 
-  /// Whether a joint at its stop may leave it when another one's impact throws it back.
+  /// Whether a joint at its stop may leave it when the impact of another joint throws it back.
   enum class Rebound { yes, no };
 
-  /// What stays the same between two events.
+  /// What is constant between two events.
+  template <class S = double>
   struct Phase {
-    bool any_held = false;  ///< some joint is held still
-    JointArray<bool, joint_count> held{};
+    bool any_held = false;              ///< some joint is held still
+    EffortBounds<joint_count> holding;  ///< infinite for joints that are held, else 0
     /// Friction efforts of the joints that slide [N m or N], N x 1
-    JointVector<joint_count> sliding = JointVector<joint_count>::Zero();
+    JointVector<joint_count, S> sliding = JointVector<joint_count, S>::Zero();
   };
 
-  [[nodiscard]] bool at_lower(const Motion<joint_count>& m, int j) const noexcept {
-    return m.position[j] <= lower_[j];
+  /// Whether a joint is at its stop, of any robot.
+  template <class S>
+  [[nodiscard]] bool at_lower(const Motion<joint_count, S>& m, int j) const noexcept {
+    return any_of(m.position[j] <= lower_[j]);
   }
-  [[nodiscard]] bool at_upper(const Motion<joint_count>& m, int j) const noexcept {
-    return m.position[j] >= upper_[j];
+  template <class S>
+  [[nodiscard]] bool at_upper(const Motion<joint_count, S>& m, int j) const noexcept {
+    return any_of(m.position[j] >= upper_[j]);
   }
-  [[nodiscard]] bool any_at_stop(const Motion<joint_count>& m) const noexcept {
+  template <class S>
+  [[nodiscard]] bool any_at_stop(const Motion<joint_count, S>& m) const noexcept {
     bool any = false;
     for (int j = 0; j < joint_count; ++j) any = any || at_lower(m, j) || at_upper(m, j);
     return any;
   }
 
-  /// The velocity after all joints that run into their stops have hit them. Without rebound, all
-  /// joints that are at a stop come to rest, which takes more energy.
+  /// The motion after impacts at the stops. Without rebound, all joints at a stop come to rest, which
+  /// takes more energy.
   [[nodiscard]] Motion<joint_count> after_impact(Motion<joint_count> motion,
                                                  Rebound rebound) const noexcept {
     EffortBounds<joint_count> impulse;
@@ -121,18 +139,17 @@ class JointDynamics {
     }
     if (hits) {
       const JointMatrix<joint_count> m = mass_matrix(robot_, motion.position);
-      motion.velocity = hold_within_bounds<joint_count>(
-                            parents_, m, product<joint_count>(m, motion.velocity), impulse)
-                            .motion;
+      const Vector momentum = product<joint_count>(m, motion.velocity);
+      motion.velocity = hold_within_bounds<joint_count>(parents_, m, momentum, impulse).motion;
     }
     return motion;
   }
 
   /// Which joints are held from here on, and how friction acts on the others.
   template <class Drives>
-  [[nodiscard]] Phase phase_at(const Motion<joint_count>& motion,
-                               const Drives& effort) const noexcept {
-    Phase phase;
+  [[nodiscard]] Phase<> phase_at(const Motion<joint_count>& motion,
+                                 const Drives& effort) const noexcept {
+    Phase<> phase;
     EffortBounds<joint_count> bounds;
     bool may_hold = false;
     for (int j = 0; j < joint_count; ++j) {
@@ -146,76 +163,74 @@ class JointDynamics {
     }
     if (!may_hold) return phase;
     const auto answer = held_within(bounds, phase, motion.position, motion.velocity, effort);
-    phase.held = answer.held;
     for (int j = 0; j < joint_count; ++j) {
-      const bool held = answer.held[j];
-      phase.any_held = phase.any_held || held;
-      const bool breaks_away = !held && bounds.lower[j] < bounds.upper[j];
-      if (breaks_away) phase.sliding[j] = answer.effort[j];
+      if (answer.held[j]) {
+        phase.any_held = true;
+        phase.holding.lower[j] = -(phase.holding.upper[j] = JointLimits::infinity);
+      } else if (bounds.lower[j] < bounds.upper[j]) {
+        phase.sliding[j] = answer.effort[j];  // breaks away
+      }
     }
     return phase;
   }
 
   /// A Runge-Kutta step within one phase.
-  template <class Drives>
-  [[nodiscard]] Motion<joint_count> smooth_step(const Phase& phase,
-                                                const Motion<joint_count>& motion,
-                                                const Drives& effort, double step) const noexcept {
-    if (!phase.any_held) {
-      return runge_kutta_step<joint_count>(
-          motion, step, [&](const auto& q, const auto& v) noexcept {
-            return forward_dynamics(robot_, q, v, applied(phase, v, effort(q, v)));
-          });
+  template <class S, class Drives>
+  [[nodiscard]] Motion<joint_count, S> smooth_step(const Phase<S>& phase,
+                                                   const Motion<joint_count, S>& motion,
+                                                   const Drives& effort,
+                                                   double step) const noexcept {
+    if constexpr (std::same_as<S, double>) {
+      if (phase.any_held) {
+        return runge_kutta_step(motion, step, [&](const auto& q, const auto& v) noexcept {
+          return held_within(phase.holding, phase, q, v, effort).motion;
+        });
+      }
     }
-    EffortBounds<joint_count> bounds;
-    for (int j = 0; j < joint_count; ++j) {
-      if (!phase.held[j]) continue;
-      bounds.lower[j] = -JointLimits::infinity;
-      bounds.upper[j] = JointLimits::infinity;
-    }
-    return runge_kutta_step<joint_count>(motion, step, [&](const auto& q, const auto& v) noexcept {
-      return held_within(bounds, phase, q, v, effort).motion;
+    return runge_kutta_step(motion, step, [&](const auto& q, const auto& v) noexcept {
+      return forward_dynamics(robot_, q, v, applied(phase, v, effort(q, v)));
     });
   }
 
   /// The efforts on the joints: of the drives, of friction where joints slide, and of damping.
-  [[nodiscard]] JointVector<joint_count> applied(
-      const Phase& phase, const JointVector<joint_count>& v,
-      const JointVector<joint_count>& drives) const noexcept {
-    return for_each_joint<joint_count>(
+  template <class S>
+  [[nodiscard]] JointVector<joint_count, S> applied(
+      const Phase<S>& phase, const JointVector<joint_count, S>& v,
+      const JointVector<joint_count, S>& drives) const noexcept {
+    return for_each_joint<joint_count, S>(
         [&](int j) noexcept { return drives[j] + phase.sliding[j] - damping_[j] * v[j]; });
   }
 
-  /// The accelerations where friction and stops hold joints still as far as they can. What pulls on
-  /// the joints is M times the acceleration that they would have without: another program, of the
-  /// nonlinear effects, would be less to compute, but more to compile for every simulator.
+  /// The accelerations with joints held still as far as bounds allow. The load on the joints is M
+  /// times the acceleration without bounds, for which no further program has to be compiled.
   template <class Drives>
   [[nodiscard]] BoundedEffort<joint_count> held_within(const EffortBounds<joint_count>& bounds,
-                                                       const Phase& phase,
-                                                       const JointVector<joint_count>& q,
-                                                       const JointVector<joint_count>& v,
+                                                       const Phase<>& phase, const Vector& q,
+                                                       const Vector& v,
                                                        const Drives& effort) const noexcept {
-    const JointVector<joint_count> free =
-        forward_dynamics(robot_, q, v, applied(phase, v, effort(q, v)));
+    const Vector free = forward_dynamics(robot_, q, v, applied(phase, v, Vector(effort(q, v))));
     const JointMatrix<joint_count> m = mass_matrix(robot_, q);
     return hold_within_bounds<joint_count>(parents_, m, product<joint_count>(m, free), bounds);
   }
 
-  /// How far a joint has passed its stop, or one that slid against friction has turned back, at
-  /// most; positive after an event. [rad or m; W]
-  [[nodiscard]] double excess(const Phase& phase, const Motion<joint_count>& later) const noexcept {
-    double most = -JointLimits::infinity;
+  /// The largest distance of a joint beyond its stop [rad or m], or power that friction would give
+  /// to a joint that has turned back [W], by robot. Positive after an event.
+  template <class S>
+  [[nodiscard]] S excess(const Phase<S>& phase,
+                         const Motion<joint_count, S>& later) const noexcept {
+    S most = -JointLimits::infinity;
+    const auto include = [&most](const S& x) noexcept { most = select(most < x, x, most); };
     for (int j = 0; j < joint_count; ++j) {
-      if (phase.held[j]) continue;
-      most = std::max({most, lower_[j] - later.position[j], later.position[j] - upper_[j]});
-      if (phase.sliding[j] != 0) most = std::max(most, later.velocity[j] * phase.sliding[j]);
+      if (phase.holding.upper[j] > 0) continue;
+      include(lower_[j] - later.position[j]);
+      include(later.position[j] - upper_[j]);
+      if (friction_[j] != 0) include(later.velocity[j] * phase.sliding[j]);
     }
     return most;
   }
 
-  /// Puts joints that have just passed their stop onto it, and brings those that friction has
-  /// stopped to rest.
-  [[nodiscard]] Motion<joint_count> settle(const Phase& phase,
+  /// Puts joints beyond their stop onto it, and joints that friction has turned back to rest.
+  [[nodiscard]] Motion<joint_count> settle(const Phase<>& phase,
                                            Motion<joint_count> motion) const noexcept {
     for (int j = 0; j < joint_count; ++j) {
       motion.position[j] = std::clamp(motion.position[j], lower_[j], upper_[j]);
@@ -225,10 +240,10 @@ class JointDynamics {
   }
 
   [[no_unique_address]] R robot_;
-  JointVector<joint_count> lower_;
-  JointVector<joint_count> upper_;
-  JointVector<joint_count> damping_;
-  JointVector<joint_count> friction_;
+  Vector lower_;
+  Vector upper_;
+  Vector damping_;
+  Vector friction_;
   JointArray<int, joint_count> parents_;
 };
 

@@ -8,9 +8,9 @@
 
 namespace articula {
 
-/// Independent standard normal numbers, on every machine the same but for the rounding of its
-/// mathematical library. The standard library's distribution is another one with every
-/// implementation, and neither it nor the generators promise not to throw.
+/// Independent standard normal numbers, the same on every machine up to rounding of its
+/// mathematical library. (The sequence of std::normal_distribution depends on the implementation,
+/// and neither it nor the generators are noexcept.)
 ///
 /// Sources: SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014);
 /// Box and Muller: A note on the generation of random normal deviates, 1958.
@@ -33,7 +33,7 @@ class NormalNoise {
   }
 
  private:
-  /// In (0, 1]: of 0 there is no logarithm.
+  /// In (0, 1], without 0, whose logarithm is infinite.
   [[nodiscard]] double uniform() noexcept {
     state_ += 0x9e3779b97f4a7c15;
     std::uint64_t bits = state_;
@@ -44,7 +44,7 @@ class NormalNoise {
   }
 
   std::uint64_t state_;
-  double second_ = 0;  ///< the other one of the last pair
+  double second_ = 0;  ///< second number of the last pair
   bool has_second_ = false;
 };
 

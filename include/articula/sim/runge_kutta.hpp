@@ -7,10 +7,14 @@
 namespace articula {
 
 /// Position and velocity of N joints: the state of the equations of motion.
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  type of a number: double, or a pack with the numbers of several robots
+template <int N, class Scalar = double>
 struct Motion {
-  JointVector<N> position = JointVector<N>::Zero();  ///< q [rad or m], N x 1
-  JointVector<N> velocity = JointVector<N>::Zero();  ///< v [rad/s or m/s], N x 1
+  using Vector = JointVector<N, Scalar>;
+
+  Vector position = Vector::Zero();  ///< q [rad or m], N x 1
+  Vector velocity = Vector::Zero();  ///< v [rad/s or m/s], N x 1
 };
 
 /// One step of the classical Runge-Kutta method for dq/dt = v, dv/dt = acceleration(q, v). The
@@ -18,19 +22,19 @@ struct Motion {
 /// II.1.2].
 /// @param start         motion at the beginning of the step
 /// @param step          h [s]
-/// @param acceleration  callable with (q, v) -> JointVector<N> [rad/s^2 or m/s^2]
-/// @return              motion at its end
+/// @param acceleration  callable with (q, v) -> JointVector<N, S> [rad/s^2 or m/s^2]
+/// @return              motion at the end of the step
 /// Real-time: yes if `acceleration` is, which is called four times.
-template <int N, class Acceleration>
-[[nodiscard]] Motion<N> runge_kutta_step(const Motion<N>& start, double step,
-                                         const Acceleration& acceleration) noexcept {
-  using Vector = JointVector<N>;
+template <int N, class S = double, class Acceleration>
+[[nodiscard]] Motion<N, S> runge_kutta_step(const Motion<N, S>& start, double step,
+                                            const Acceleration& acceleration) noexcept {
+  using Vector = JointVector<N, S>;
   const auto after = [](double time, const Vector& x, const Vector& rate) noexcept {
-    return for_each_joint<N>([&](int j) noexcept { return x[j] + time * rate[j]; });
+    return for_each_joint<N, S>([&](int j) noexcept { return x[j] + time * rate[j]; });
   };
   const auto at_end = [step](const Vector& x, const Vector& k1, const Vector& k2, const Vector& k3,
                              const Vector& k4) noexcept {
-    return for_each_joint<N>(
+    return for_each_joint<N, S>(
         [&](int j) noexcept { return x[j] + step / 6 * (k1[j] + 2 * (k2[j] + k3[j]) + k4[j]); });
   };
   const Vector& q = start.position;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A simulated robot that looks like hardware.
+/// @file A simulated robot with the interface of hardware.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -11,28 +11,36 @@
 #include "articula/sim/servo_drives.hpp"
 #include "articula/sim/simulator_options.hpp"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace articula {
 
 /// A robot in simulation, to be controlled like the real one. `write` holds the command for one
-/// period and moves the robot that far in time (zero-order hold); `read` measures where it is then.
-/// Drives take efforts, positions, velocities or springs and dampers, and may be given another kind
-/// of command in every period. They give at most the joints' effort limits; the measured effort is
-/// what they give at that moment, so limited and without friction. Joints have their damping, dry
-/// friction and stops (see JointDynamics). Velocity limits are kept under position and velocity
-/// commands; under the others they are the controller's to keep. Drives are active until
-/// `deactivate`; drives that are not give no effort, and the robot falls. The same options and commands give
-/// the same motion to the last bit. docs/simulator.md has it all.
+/// period and advances the robot by this time (zero-order hold); `read` measures the joints then.
+///
+/// - Drives take efforts, positions, velocities, or springs and dampers. The kind of command may
+///   change from one period to the next.
+/// - Drives give at most the joints' effort limits. The measured effort is what they give at that
+///   moment: limited, and without friction.
+/// - Joints have damping, dry friction and stops, see JointDynamics.
+/// - Velocity limits hold under position and velocity commands. Under the others they are the
+///   controller's responsibility.
+/// - Drives are active until `deactivate`. Inactive drives give no effort, and the robot falls.
+/// - The same options and commands give the same motion to the last bit.
+///
+/// docs/simulator.md has the details. `Simulator<R, symbolic::Pack<>>` simulates several robots at
+/// once, with a command for each. Steps without events are computed for all robots together, a step
+/// with an event (a stop, friction that brings a joint to rest) for each robot alone.
 /// @tparam R  the robot
-template <Robot R>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
 class Simulator {
   static_assert(detail::has_masses<R, Simulator>);
 
  public:
   using RobotType = R;
   static constexpr int joint_count = articula::joint_count<R>;
+  using State = JointState<joint_count, S>;
 
   /// A robot known at compile time.
   /// @throws std::invalid_argument if the options cannot be simulated; the message names joint,
@@ -52,69 +60,64 @@ class Simulator {
         sensors_(options) {
     validate(robot, options);
     servo_substeps_ = static_cast<int>(servo_substeps(options));
-    truth_.position = initial_position(robot, options);
-    truth_.velocity = options.initial_velocity;
+    truth_.position = initial_position(robot, options).template cast<S>();
+    truth_.velocity = options.initial_velocity.template cast<S>();
     measured_ = sensors_.measure(truth_);
   }
 
   /// Real-time: yes.
-  [[nodiscard]] Status activate() noexcept {
-    active_ = true;
-    return Status::ok;
-  }
+  [[nodiscard]] Status activate() noexcept { return active_ = true, Status::ok; }
   /// Real-time: yes.
-  [[nodiscard]] Status deactivate() noexcept {
-    active_ = false;
-    return Status::ok;
-  }
+  [[nodiscard]] Status deactivate() noexcept { return active_ = false, Status::ok; }
 
   /// The measurement at this moment. Reading twice gives the same.
   /// @param state  receives it
   /// @return       Status::ok, Status::non_finite_state if the motion has overflowed, or
   ///               Status::inactive after `deactivate`
   /// Real-time: yes.
-  [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
+  [[nodiscard]] Status read(State& state) noexcept {
     state = measured_;
-    if (!is_finite(measured_)) return Status::non_finite_state;
+    if (!all_finite(state)) return Status::non_finite_state;
     return active_ ? Status::ok : Status::inactive;
   }
 
   /// Holds efforts for one period.
-  /// @param command  efforts [N m or N], cut off at the drives' limits
-  /// @return         Status::ok, or Status::non_finite_command if a NaN or infinity was refused and
-  ///                 the drives gave no effort instead; Status::inactive after `deactivate`,
-  ///                 when they give none either
+  /// @param command  efforts [N m or N], clamped to the drives' limits
+  /// @return         Status::ok; Status::inactive after `deactivate`; Status::non_finite_command if
+  ///                 a number is NaN or infinite. Unless Status::ok the drives give no effort.
   /// Real-time: yes. Costs `substeps` Runge-Kutta steps, and more where a joint reaches a stop or
   /// comes to rest against dry friction.
-  [[nodiscard]] Status write(const EffortCommand<joint_count>& command) noexcept {
-    const bool finite = is_finite(command), accepted = finite && active_;
-    truth_.effort = for_each_joint<joint_count>([&](int j) noexcept {
-      return accepted ? std::clamp(command.effort[j], -limits_[j], limits_[j]) : 0.0;
+  [[nodiscard]] Status write(const EffortCommand<joint_count, S>& command) noexcept {
+    const bool finite = all_finite(command), accepted = finite && active_;
+    truth_.effort = for_each_joint<joint_count, S>([&](int j) noexcept {
+      return accepted ? clamp(command.effort[j], -limits_[j], limits_[j]) : S(0);
     });
-    advance(options_.substeps, [this](const auto&, const auto&) noexcept { return truth_.effort; });
+    advance(options_.substeps, truth_.effort,
+            [](const auto& effort, const auto&, const auto&) noexcept { return effort; });
     return accepted ? Status::ok : finite ? Status::inactive : Status::non_finite_command;
   }
 
-  /// Holds another command for one period: positions or velocities for drives that are servos or
-  /// ideal as the options say; or springs and dampers, which act without delay or sampling, so that
+  /// Holds another command for one period. Drives follow positions and velocities as servos or
+  /// ideally, see SimulatorOptions::drives. Springs and dampers act without delay or sampling, so
   /// `substeps` must suit them.
-  /// @param command  beyond the joints' limits, the limits
+  /// @param command  a PositionCommand, VelocityCommand or MultiModeCommand; positions and
+  ///                 velocities are clamped to the joints' limits
   /// @return         as above
   /// Real-time: yes. Costs as above, with `servo_substeps` for servos; each step takes the inverse
   /// dynamics as well.
-  template <JointCommand<joint_count> Command>
-  [[nodiscard]] Status write(const Command& command) noexcept {
-    const bool finite = is_finite(command);
+  template <template <int, class> class Command>
+  [[nodiscard]] Status write(const Command<joint_count, S>& command) noexcept {
+    const bool finite = all_finite(command);
     if (!finite || !active_) {
-      const Status without_effort = write(EffortCommand<joint_count>{});
+      const Status without_effort = write(EffortCommand<joint_count, S>{});
       return finite ? without_effort : Status::non_finite_command;
     }
     follow(command);
     return Status::ok;
   }
 
-  /// The exact state at this moment, as no sensor sees it. Real-time: yes.
-  [[nodiscard]] const JointState<joint_count>& true_state() const noexcept { return truth_; }
+  /// The exact state at this moment, without sensors. Real-time: yes.
+  [[nodiscard]] const State& true_state() const noexcept { return truth_; }
   /// Simulated time [s]. Real-time: yes.
   [[nodiscard]] double time() const noexcept {
     return static_cast<double>(periods_) * options_.period;
@@ -125,69 +128,101 @@ class Simulator {
   [[nodiscard]] const R& robot() const noexcept { return robot_; }
 
  private:
-  void follow(const PositionCommand<joint_count>& command) noexcept {
-    if (options_.drives == DriveModel::ideal) return move_to(command.position);
-    advance(servo_substeps_, [&](const auto& q, const auto& v) noexcept {
-      return servo_.effort_to_position(command.position, q, v);
-    });
-  }
-  void follow(const VelocityCommand<joint_count>& command) noexcept {
-    if (options_.drives == DriveModel::ideal) {
-      return move_to(truth_.position + command.velocity * options_.period);
-    }
-    advance(servo_substeps_, [&](const auto& q, const auto& v) noexcept {
-      return servo_.effort_to_velocity(command.velocity, q, v);
-    });
-  }
-  void follow(const MultiModeCommand<joint_count>& command) noexcept {
-    advance(options_.substeps,
-            [&](const auto& q, const auto& v) noexcept { return spring_effort(command, q, v); });
+  using Vector = JointVector<joint_count, S>;
+
+  /// Whether all numbers of all robots are finite.
+  template <class Numbers>
+  [[nodiscard]] static bool all_finite(const Numbers& numbers) noexcept {
+    bool finite = true;
+    for (int k = 0; k < lanes<S>; ++k) finite = finite && is_finite(lane_of(numbers, k));
+    return finite;
   }
 
-  /// Moves on by one period.
-  /// @param steps   Runge-Kutta steps that it takes
-  /// @param effort  callable with (q, v) -> efforts of the drives
-  template <class Drives>
-  void advance(int steps, const Drives& effort) noexcept {
-    Motion<joint_count> motion{truth_.position, truth_.velocity};
+  void follow(const PositionCommand<joint_count, S>& command) noexcept {
+    if (options_.drives == DriveModel::ideal) return move_to(command.position);
+    advance(servo_substeps_, command.position,
+            [this](const auto& target, const auto& q, const auto& v) noexcept {
+              return servo_.effort_to_position(target, q, v);
+            });
+  }
+  void follow(const VelocityCommand<joint_count, S>& command) noexcept {
+    if (options_.drives == DriveModel::ideal) {
+      return move_to(truth_.position + command.velocity * S(options_.period));
+    }
+    advance(servo_substeps_, command.velocity,
+            [this](const auto& target, const auto& q, const auto& v) noexcept {
+              return servo_.effort_to_velocity(target, q, v);
+            });
+  }
+  void follow(const MultiModeCommand<joint_count, S>& command) noexcept {
+    advance(options_.substeps, command,
+            [this](const auto& springs, const auto& q, const auto& v) noexcept {
+              return this->spring_effort(springs, q, v);
+            });
+  }
+
+  /// Advances by one period.
+  /// @param steps    number of Runge-Kutta steps
+  /// @param command  of all robots
+  /// @param drives   callable with (command, q, v) -> efforts of the drives
+  template <class Command, class Drives>
+  void advance(int steps, const Command& command, const Drives& drives) noexcept {
+    Motion<joint_count, S> motion{truth_.position, truth_.velocity};
     const double step = options_.period / steps;
-    for (int k = 0; k < steps; ++k) motion = dynamics_.advance(motion, effort, step);
+    const auto effort = [&](const auto& q, const auto& v) noexcept {
+      return drives(command, q, v);
+    };
+    for (int i = 0; i < steps; ++i) {
+      if constexpr (!PackedScalar<S>) {
+        motion = dynamics_.advance(motion, effort, step);
+      } else if (const auto next = dynamics_.advance_smoothly(motion, effort, step)) {
+        motion = *next;
+      } else {
+        for (int k = 0; k < lanes<S>; ++k) {
+          const auto own_command = lane_of(command, k);
+          const Motion<joint_count> own = dynamics_.advance(
+              {lane_of(motion.position, k), lane_of(motion.velocity, k)},
+              [&](const auto& q, const auto& v) noexcept { return drives(own_command, q, v); },
+              step);
+          set_lane(motion.position, k, own.position);
+          set_lane(motion.velocity, k, own.velocity);
+        }
+      }
+    }
     finish(motion, effort(motion.position, motion.velocity));
   }
 
-  /// Moves on by one period with ideal drives: at an even speed, as far as the limits of position
-  /// and velocity allow. The effort is what the mean acceleration takes, without limit.
-  void move_to(const JointVector<joint_count>& target) noexcept {
-    const auto limit = [this](double JointLimits::* which) {
-      return joint_values(robot_, [&](const JointProperties& j) { return j.limits.*which; });
-    };
-    const JointVector<joint_count> farthest = limit(&JointLimits::velocity) * options_.period;
-    Motion<joint_count> motion;
-    motion.position = target.cwiseMin(truth_.position + farthest)
-                          .cwiseMax(truth_.position - farthest)
-                          .cwiseMax(limit(&JointLimits::lower))
-                          .cwiseMin(limit(&JointLimits::upper));
-    motion.velocity = (motion.position - truth_.position) / options_.period;
-    finish(motion, inverse_dynamics(robot_, motion.position, motion.velocity,
-                                    (motion.velocity - truth_.velocity) / options_.period) -
+  /// Advances by one period with ideal drives: at constant speed, within the limits of position and
+  /// velocity. The effort is that of the mean acceleration, without limit.
+  void move_to(const Vector& target) noexcept {
+    Motion<joint_count, S> motion;
+    Vector acceleration;
+    for (int j = 0; j < joint_count; ++j) {
+      const JointLimits& limits = model_of(robot_).joints[j].limits;
+      const double farthest = limits.velocity * options_.period;
+      const S q = truth_.position[j], low = q - farthest, high = q + farthest;
+      motion.position[j] = clamp(clamp(target[j], low, high), limits.lower, limits.upper);
+      motion.velocity[j] = (motion.position[j] - q) / options_.period;
+      acceleration[j] = (motion.velocity[j] - truth_.velocity[j]) / options_.period;
+    }
+    finish(motion, inverse_dynamics(robot_, motion.position, motion.velocity, acceleration) -
                        friction_effort(robot_, motion.velocity));
   }
 
-  /// effort = K (q_ref - q) + D (v_ref - v) + effort_ref, cut off at the drives' limits; 0 for a
+  /// effort = K (q_ref - q) + D (v_ref - v) + effort_ref, clamped to the drives' limits; 0 for a
   /// drive where it overflows.
-  [[nodiscard]] JointVector<joint_count> spring_effort(
-      const MultiModeCommand<joint_count>& command, const JointVector<joint_count>& q,
-      const JointVector<joint_count>& v) const noexcept {
-    JointVector<joint_count> effort = command.stiffness.cwiseProduct(command.position - q) +
-                                      command.damping.cwiseProduct(command.velocity - v) +
-                                      command.effort;
-    for (int j = 0; j < joint_count; ++j) {
-      effort[j] = is_finite(effort[j]) ? std::clamp(effort[j], -limits_[j], limits_[j]) : 0;
-    }
-    return effort;
+  template <class T>
+  [[nodiscard]] JointVector<joint_count, T> spring_effort(
+      const MultiModeCommand<joint_count, T>& command, const JointVector<joint_count, T>& q,
+      const JointVector<joint_count, T>& v) const noexcept {
+    return for_each_joint<joint_count, T>([&](int j) noexcept {
+      const T effort = command.stiffness[j] * (command.position[j] - q[j]) +
+                       command.damping[j] * (command.velocity[j] - v[j]) + command.effort[j];
+      return select(is_finite(effort), clamp(effort, -limits_[j], limits_[j]), T(0));
+    });
   }
 
-  void finish(const Motion<joint_count>& motion, const JointVector<joint_count>& effort) noexcept {
+  void finish(const Motion<joint_count, S>& motion, const Vector& effort) noexcept {
     truth_ = {motion.position, motion.velocity, effort};
     measured_ = sensors_.measure(truth_);
     ++periods_;
@@ -199,9 +234,9 @@ class Simulator {
   ServoDrives<R> servo_;
   int servo_substeps_ = 1;
   JointVector<joint_count> limits_;
-  JointSensors<joint_count> sensors_;
-  JointState<joint_count> truth_{};
-  JointState<joint_count> measured_{};
+  JointSensors<joint_count, S> sensors_;
+  State truth_{};
+  State measured_{};
   std::uint64_t periods_ = 0;
   bool active_ = true;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How a simulated robot starts, steps and measures.
+/// @file Options of a simulated robot: start, steps, drives and sensors.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -18,31 +18,31 @@
 
 namespace articula {
 
-/// What the drives of a simulated robot make of position and velocity commands.
+/// The response of simulated drives to position and velocity commands.
 enum class DriveModel : unsigned char {
-  servo,  ///< They follow with `servo_bandwidth`, by efforts within their limits: see ServoDrives.
-  ideal,  ///< Their joints are there at the end of the period, whatever effort that takes.
+  servo,  ///< They follow with `servo_bandwidth`, by efforts within their limits, see ServoDrives.
+  ideal,  ///< The joints reach the command at the end of the period, without a limit of effort.
 };
 
-/// How a simulated robot starts, steps and measures. What is not given has a neutral default.
+/// The start, steps, drives and sensors of a simulated robot. All members have defaults.
 /// @tparam N  number of joints
 template <int N>
 struct SimulatorOptions {
   double period = 1e-3;  ///< time from one command to the next [s]
   int substeps = 1;      ///< Runge-Kutta steps in each period
 
-  /// q(0) [rad or m], N x 1; if not given: 0, or the nearest position within the limits
+  /// q(0) [rad or m], N x 1; by default 0, or the nearest position within the limits
   std::optional<JointVector<N>> initial_position{};
   JointVector<N> initial_velocity = JointVector<N>::Zero();  ///< v(0) [rad/s or m/s], N x 1
 
   DriveModel drives = DriveModel::servo;  ///< under position and velocity commands
-  /// w of the drives' own loops [rad/s], N x 1; it does not depend on the period. Where it needs
-  /// shorter steps than `substeps` gives, more are made.
+  /// w of the drives' own loops [rad/s], N x 1; it does not depend on the period. If it needs
+  /// shorter steps than `substeps` gives, the simulator takes more of them.
   JointVector<N> servo_bandwidth = JointVector<N>::Constant(100);
 
-  /// Encoder step per joint [rad or m], N x 1; 0: exact measurement. Where it is not 0, the
-  /// measured position is a whole number of steps and the measured velocity is its change over the
-  /// last period.
+  /// Encoder step per joint [rad or m], N x 1; 0 for exact measurement. Otherwise the measured
+  /// position is a multiple of the step, and the measured velocity is its change over the last
+  /// period.
   JointVector<N> encoder_resolution = JointVector<N>::Zero();
   JointVector<N> position_noise = JointVector<N>::Zero();  ///< standard deviation [rad or m], N x 1
   JointVector<N> velocity_noise =
@@ -51,16 +51,16 @@ struct SimulatorOptions {
   std::uint64_t seed = 1;  ///< of the noise; the same seed gives the same noise
 };
 
-/// The Runge-Kutta steps in each period under position and velocity commands. In a step of 0.2/w
-/// the method is off by 0.2^5/120 = 3e-6 of what the drive's loop decays by.
-/// Real-time: yes.
+/// The number of Runge-Kutta steps in each period under position and velocity commands. In a step
+/// of 0.2/w the relative error of the decay of the drive's loop is 0.2^5/120 = 3e-6. Real-time:
+/// yes.
 template <int N>
 [[nodiscard]] double servo_substeps(const SimulatorOptions<N>& options) noexcept {
   const double needed = std::ceil(options.period * options.servo_bandwidth.maxCoeff() / 0.2);
   return std::fmax(options.substeps, needed);
 }
 
-/// The start position that the options ask for.
+/// The start position of the options.
 /// Real-time: no (set-up).
 template <Robot R>
 [[nodiscard]] JointVector<joint_count<R>> initial_position(
@@ -127,33 +127,33 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     }
   }
 
-  // A pivot is the inertia that a joint feels when the joints that it carries are free to give way.
+  // A pivot is the inertia of a joint when the joints that it carries are free.
   const JointArray<int, n> parents = elimination_tree(model_of(robot).mechanism);
   const auto factors = factorise<double, n>(parents, detail::to_rows(mass_matrix(robot, q)));
   for (int j = 0; j < n; ++j) {
     const double pivot = 1 / factors.inverse_pivot[j];
     const double whole = mass_matrix(robot, q)(j, j);
-    if (!(pivot > 1e-12 * whole)) {  // what cancellation leaves of nothing is some 1e-16
+    if (!(pivot > 1e-12 * whole)) {  // cancellation leaves some 1e-16 of zero
       refuse({"the mass matrix is singular at the initial position: joint '",
               model_of(robot).joints[j].name.view(),
               "' moves no mass when the joints that it carries give way"});
     }
   }
 
-  // Damped joints decay with the eigenvalues of M^-1 D, the largest of which is found by power
-  // iteration. The Runge-Kutta method is stable on the negative real axis up to 2.785 per step
-  // [Hairer, Wanner 1996, section IV.2]; M changes with the position and the iteration may fall
-  // short, so half of it is asked for.
+  // Damped joints decay with the eigenvalues of M^-1 D. Power iteration computes the largest one.
+  // The Runge-Kutta method is stable on the negative real axis up to 2.785 per step [Hairer, Wanner
+  // 1996, section IV.2]. Half of it is the limit here: M changes with the position, and the
+  // iteration may underestimate.
   const JointVector<n> damping =
       joint_values(robot, [](const JointProperties& joint) { return joint.damping; });
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  JointArray<double, n> mode;  // to begin with, one that no robot's symmetry makes a slow one
+  JointArray<double, n> mode;  // a start without the symmetries of robots
   for (int j = 0; j < n; ++j) mode[j] = 1 / (1.0 + j);
   double rate = 0;
   for (int k = 0; k < 100; ++k) {
     for (int j = 0; j < n; ++j) mode[j] *= damping[j];
     mode = solve<double, n>(parents, factors, mode);
-    rate = 0;  // the largest number; of squares the sum may overflow
+    rate = 0;  // the largest number: a sum of squares may overflow
     for (const double x : mode) rate = std::fmax(rate, is_finite(x) ? std::abs(x) : infinity);
     if (rate == 0) return;
     if (!is_finite(rate)) refuse({"joint damping decays too fast for a number"});

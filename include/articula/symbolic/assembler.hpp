@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file From an expression graph to a straight-line program.
+/// @file Assembly of an expression graph into a straight-line program.
 #pragma once
 
 #include "articula/symbolic/graph.hpp"
@@ -10,18 +10,17 @@
 
 namespace articula::symbolic {
 
-/// Writes the part of a graph that its outputs need as a program, in three stages: what the angles
-/// need, their sines and cosines, and the rest. What the angles do not need comes after them even
-/// if it could be computed before: there is no register in which it could wait while sines are
-/// taken.
-/// @tparam Room  for how long a program
-template <ProgramSize Room>
+/// Writes the nodes on which the outputs of a graph depend as a program, in three stages: the
+/// operands of the angles, the sines and cosines, and the rest. A node that no angle needs comes in
+/// the last stage: no register is free to hold its value while sines are computed.
+/// @tparam Capacity  the largest program
+template <ProgramSize Capacity>
 class Assembler {
  public:
   /// @param graph    the expressions
-  /// @param outputs  the results that are wanted
-  [[nodiscard]] static constexpr Program<Room> assemble(const Graph& graph,
-                                                        const GrowingArray<Term>& outputs) {
+  /// @param outputs  the results
+  [[nodiscard]] static constexpr Program<Capacity> assemble(const Graph& graph,
+                                                            const GrowingArray<Term>& outputs) {
     Assembler assembler(graph);
     assembler.find_stages(outputs);
     assembler.append_nodes();
@@ -31,17 +30,17 @@ class Assembler {
   }
 
  private:
-  /// When a node is computed, in the order of urgency: of two stages that need it the greater one
-  /// says when.
+  /// The stage in which a node is computed, the earlier the greater. A node that two stages need
+  /// belongs to the greater one.
   enum Stage : unsigned char { unused, after_angles, before_angles, angles };
   static constexpr std::size_t stages = 4;
 
-  /// What becomes of a node.
+  /// The properties of a node in the program.
   struct Step {
     bool of_sines;  // is a sine or cosine, or computed from some
     Stage stage;
-    bool is_angle;             // its sine or cosine is taken
-    std::size_t sine_number;   // of the instruction that does so; 0 before there is one
+    bool is_angle;             // the program has its sine and cosine
+    std::size_t sine_number;   // of the instruction of its sine; 0 before there is one
     std::size_t value_number;  // of the instruction that computes the node
   };
 
@@ -58,10 +57,10 @@ class Assembler {
     }
   }
 
-  /// Finds out when each node is computed, and how many instructions each stage has. It goes from
-  /// the outputs to the inputs: what a node needs is needed when the node is, or sooner. Sines of
-  /// what depends on no other sine are the angles' stage, what they need comes before it. What
-  /// comes before the angles depends on no sine, so it asks for none of the angles' stage.
+  /// Determines the stage of each node and the number of instructions of each stage, from the
+  /// outputs to the inputs: an operand's stage is that of the node or an earlier one. Sines of
+  /// angles that depend on no other sine belong to the stage of the angles, and their operands to
+  /// the stage before. Nodes of that stage depend on no sine.
   constexpr void find_stages(const GrowingArray<Term>& outputs) {
     const auto* const nodes = graph_.nodes();
     Step* const steps = steps_.data();
@@ -126,7 +125,7 @@ class Assembler {
     }
   }
 
-  /// The sine and cosine of an angle go side by side, even if only one of them is needed.
+  /// Appends the sine and cosine of an angle side by side, even if only one of them is needed.
   /// @return the number of the sine, which is never 0: its angle comes before it
   constexpr std::size_t append_angle(Stage stage, Step& angle) {
     if (angle.sine_number == 0) {
@@ -138,7 +137,7 @@ class Assembler {
 
   constexpr std::size_t append_constant(Stage stage, double constant) {
     const std::size_t number = program_.size.constants++;
-    if (number < Room.constants) program_.constants[number] = constant;
+    if (number < Capacity.constants) program_.constants[number] = constant;
     return append(stage, Operation::constant, number);
   }
 
@@ -146,7 +145,7 @@ class Assembler {
   constexpr std::size_t append(Stage stage, Operation operation, std::size_t left,
                                std::size_t right = 0) {
     const std::size_t number = next_[stage]++;
-    if (number < Room.instructions) program_.instructions[number] = {operation, left, right};
+    if (number < Capacity.instructions) program_.instructions[number] = {operation, left, right};
     return number;
   }
 
@@ -154,13 +153,13 @@ class Assembler {
     const std::size_t value = term.is_constant() ? append_constant(after_angles, term.constant)
                                                  : steps_[term.node].value_number;
     const std::size_t number = program_.size.outputs++;
-    if (number < Room.outputs) program_.outputs[number] = {value, term.negative};
+    if (number < Capacity.outputs) program_.outputs[number] = {value, term.negative};
   }
 
   const Graph& graph_;
   GrowingArray<Step> steps_;       // one for each node
   std::size_t next_[stages] = {};  // the number of the next instruction
-  Program<Room> program_{};
+  Program<Capacity> program_{};
 };
 
 }  // namespace articula::symbolic

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What an expression graph is made of.
+/// @file Operations, nodes and terms: the elements of an expression graph.
 #pragma once
 
 namespace articula::symbolic {
 
-/// What a node of the graph does with its operands.
+/// The operation of a node on its operands.
 enum class Operation : unsigned char {
   input,        ///< one of the function's inputs
   constant,     ///< a number
@@ -17,30 +17,30 @@ enum class Operation : unsigned char {
   cosine,       ///< of left [rad]
 };
 
-/// True for the operations that compute a sine or a cosine.
+/// True for sine and cosine.
 [[nodiscard]] constexpr bool is_angle_function(Operation operation) noexcept {
   return operation == Operation::sine || operation == Operation::cosine;
 }
 
-/// A node of the graph: an operation on nodes that stand before it.
+/// A node of the graph: an operation on nodes before it.
 struct Node {
   static constexpr int none = -1;
 
   Operation operation;
   int left;      ///< node of the left operand, or none
   int right;     ///< node of the right operand, or none
-  double value;  ///< of a constant; of an input, which one it is
+  double value;  ///< of a constant; the number of an input
 };
 
-/// A value while an expression is built: a number, or what a node computes, perhaps negated. Signs
-/// live here and not in nodes: a sum of two terms is a node for their sum or difference, and the
-/// sign that is left over is passed on to whatever uses it next.
+/// A value during the construction of an expression: a number or the value of a node, perhaps
+/// negated. Signs belong to terms and not to nodes: a sum of two terms is a node for their sum or
+/// difference, and a remaining sign moves to the next operation.
 struct Term {
   static constexpr int none = Node::none;
 
   double constant = 0;    ///< the value, if there is no node
   int node = none;        ///< index in the graph
-  bool negative = false;  ///< stands for minus the node's value
+  bool negative = false;  ///< the value is minus that of the node
 
   [[nodiscard]] constexpr bool is_constant() const noexcept { return node == none; }
   [[nodiscard]] constexpr bool is(double number) const noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A graph of expressions that simplifies itself while it grows.
+/// @file A graph of expressions that is simplified as it grows.
 #pragma once
 
 #include "articula/core/constant_math.hpp"
@@ -15,19 +15,19 @@
 
 namespace articula::symbolic {
 
-/// Expressions of real numbers as a graph in which no two nodes compute the same. Every operation
-/// looks for a simpler form of its result before it adds a node:
+/// Expressions of real numbers as a graph in which no two nodes compute the same value. Every
+/// operation simplifies its result before it adds a node:
 ///
-/// - constants are computed at once, and so are sums with 0 and products with 0, 1 and -1;
-/// - signs move outwards, (-x) y = -(x y), -x - y = -(x + y), sin(-x) = -sin x, until a sum or an
-///   output takes them in;
-/// - nested constants meet: a (b x) = (a b) x, (x + a) + b = x + (a + b);
-/// - like terms meet: a x + b x = (a + b) x;
-/// - opposite terms cancel: (x + y) + (z - y) = x + z, also if they differ by a constant;
-/// - operands of sums and products are put in order, so that x y and y x are one node.
+/// - Constants are folded, as are sums with 0 and products with 0, 1 and -1.
+/// - Signs move outwards up to a sum or an output: (-x) y = -(x y), -x - y = -(x + y),
+///   sin(-x) = -sin x.
+/// - Nested constants are combined: a (b x) = (a b) x, (x + a) + b = x + (a + b).
+/// - Like terms are combined: a x + b x = (a + b) x.
+/// - Opposite terms cancel: (x + y) + (z - y) = x + z, also if they differ by a constant.
+/// - Operands of sums and products are sorted, so that x y and y x are one node.
 ///
-/// Real numbers, not floating-point ones: 0 x is 0 even where x turns out to be infinite, and
-/// results may differ in rounding from the operations as they were written.
+/// The rules are those of real numbers: 0 x is 0 even for an infinite x, and results may differ in
+/// rounding from the operations as written.
 class Graph {
  public:
   constexpr Graph() {
@@ -35,8 +35,8 @@ class Graph {
   }
 
   [[nodiscard]] constexpr int size() const { return entries_.size(); }
-  /// The nodes, each after those it needs: entries that are more than a Node, so a pointer to them
-  /// is no pointer to Node.
+  /// The nodes, each after its operands. They are entries that derive from Node, with a larger
+  /// size.
   [[nodiscard]] constexpr const auto* nodes() const { return entries_.data(); }
 
   /// The function's input number `index`.
@@ -96,7 +96,7 @@ class Graph {
     int node;
   };
 
-  /// A term as a multiple of a node that is no multiple itself.
+  /// A term as a multiple of a node that is not a multiple.
   [[nodiscard]] constexpr Multiple multiple(const Term& x) const {
     const double sign = x.negative ? -1 : 1;
     const Entry* const nodes = entries_.data();
@@ -114,7 +114,7 @@ class Graph {
     double offset;
   };
 
-  /// A node as another one, which is no such sum itself, plus a number.
+  /// A node as another node, which is not a sum with a number, plus a number.
   [[nodiscard]] constexpr Shifted shifted(int index) const {
     const Entry* const nodes = entries_.data();
     const Entry& node = nodes[index];
@@ -124,7 +124,7 @@ class Graph {
     return {index, 0};
   }
 
-  /// The two terms whose sum a term is: the operands of a sum or difference, or itself and 0.
+  /// Two terms with the term as their sum: the operands of a sum or difference, or itself and 0.
   [[nodiscard]] constexpr std::array<Term, 2> summands(const Term& x) const {
     const Entry* const nodes = entries_.data();
     const Entry& node = nodes[x.node];
@@ -136,7 +136,7 @@ class Graph {
     return {left, Term{right.negative ? -constant : constant}};
   }
 
-  /// a x + b x = (a + b) x. Not x + x, which is as good as 2 x.
+  /// a x + b x = (a + b) x. Except x + x, which costs the same as 2 x.
   constexpr std::optional<Term> add_like_terms(const Term& x, const Term& y) {
     const Multiple a = multiple(x), b = multiple(y);
     if (a.node != b.node) return {};
@@ -188,8 +188,8 @@ class Graph {
     return x.is_constant() ? intern_leaf(Operation::constant, x.constant) : x.node;
   }
 
-  /// The node that does this; a new one if there is none. It is looked for among those that have
-  /// the same last operand, of which there are few.
+  /// The node of an operation, a new one if there is none. The search covers the nodes with the
+  /// same last operand, which are few.
   constexpr int intern(Operation operation, int left, int right = Node::none) {
     Entry* const nodes = entries_.data();
     int& newest = nodes[right == Node::none ? left : right].newest_user;
@@ -202,8 +202,7 @@ class Graph {
     return entries_.append({{operation, left, right, 0}, Node::none, next});
   }
 
-  /// The same for a node that has no operands: it is looked for among those that its number or
-  /// value is likely to tell apart from others.
+  /// The same for a node without operands. The search covers the nodes with the same hash.
   constexpr int intern_leaf(Operation operation, double value) {
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
     int& newest = newest_leaf_[(bits * golden) >> (64U - leaf_bits)];
@@ -218,10 +217,10 @@ class Graph {
   static constexpr std::uint64_t golden = 0x9E3779B97F4A7C15U;  // 2^64 over the golden ratio
   static constexpr unsigned leaf_bits = 8;
 
-  /// A node and its place in the lists that intern searches.
+  /// A node and its links in the lists that intern searches.
   struct Entry : Node {
     int newest_user;  // of the nodes that have this one as their last operand
-    int next;         // in the list that this node is in, an older one
+    int next;         // older node in the same list
   };
 
   GrowingArray<Entry> entries_{2048};

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A growing array that compilers execute fast.
+/// @file A growing array that compilers evaluate fast.
 #pragma once
 
 #include <cstddef>
 
 namespace articula::symbolic {
 
-/// An array that grows at its end: what std::vector is, but for the compiler to execute, which
-/// takes its time for each function that is called, and std::vector calls half a dozen for each
-/// element.
-/// @tparam T  made without initialising anything, so that room for elements costs nothing
+/// An array that grows at its end, for constant evaluation. Compilers spend time on each function
+/// call, and std::vector makes half a dozen calls for each element.
+/// @tparam T  with a default constructor that initialises nothing
 template <class T>
 class GrowingArray {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Several numbers that a processor computes with at once.
+/// @file Packs: several doubles as one scalar, computed by the same instructions.
 #pragma once
 
 #include "articula/symbolic/vector_sine_cosine.hpp"
@@ -11,7 +11,7 @@
 
 namespace articula::symbolic {
 
-/// How many doubles fit into a register of the processor that is compiled for.
+/// The number of doubles in a register of the target processor.
 #if defined(__AVX512F__)
 inline constexpr int lanes_of_a_register = 8;
 #elif defined(__AVX__)
@@ -20,25 +20,25 @@ inline constexpr int lanes_of_a_register = 4;
 inline constexpr int lanes_of_a_register = 2;
 #endif
 
-/// The sine and the cosine of something.
+/// The sine and the cosine of an angle.
 template <class S>
 struct SineAndCosine {
   S sine;
   S cosine;
 };
 
-/// Doubles side by side, which one instruction adds or multiplies: a scalar for algorithms that
-/// makes them compute for as many robots at once.
-/// @tparam Lanes  how many: 2, or 4 or 8 if they fit into a register
+/// Doubles side by side, which one instruction adds or multiplies: a scalar that makes an algorithm
+/// compute for several robots at once. A double converts to a pack with that number in all lanes.
+/// @tparam Lanes  number of doubles: 2, or 4 or 8 if they fit into a register
 template <int Lanes = lanes_of_a_register>
   requires(Lanes == 2 || Lanes == 4 || Lanes == 8) && (Lanes <= lanes_of_a_register)
 class Pack {
  public:
   static constexpr int lanes = Lanes;
 
-  Pack() = default;  ///< not initialised, as a double
+  Pack() = default;  ///< uninitialised, like a double
   /// The same number in all lanes.
-  [[gnu::always_inline]] explicit Pack(double x) noexcept : reals_(x - Reals{}) {}
+  [[gnu::always_inline]] Pack(double x) noexcept : reals_(x - Reals{}) {}  // NOLINT: implicit
 
   /// Reads as many numbers as there are lanes, the first into lane 0.
   [[nodiscard, gnu::always_inline]] static Pack load(const double* numbers) noexcept {
@@ -52,6 +52,7 @@ class Pack {
   [[nodiscard, gnu::always_inline]] double operator[](int lane) const noexcept {
     return reals_[lane];
   }
+  [[gnu::always_inline]] void set(int lane, double number) noexcept { reals_[lane] = number; }
 
   [[gnu::always_inline]] friend Pack operator+(const Pack& a, const Pack& b) noexcept {
     return made_of(a.reals_ + b.reals_);
@@ -68,6 +69,40 @@ class Pack {
   [[gnu::always_inline]] friend Pack operator-(const Pack& a) noexcept {
     return made_of(-a.reals_);
   }
+  [[gnu::always_inline]] Pack& operator+=(const Pack& b) noexcept { return *this = *this + b; }
+  [[gnu::always_inline]] Pack& operator-=(const Pack& b) noexcept { return *this = *this - b; }
+  [[gnu::always_inline]] Pack& operator*=(const Pack& b) noexcept { return *this = *this * b; }
+
+  // Comparisons give a vector of integers: in each lane -1 for true, 0 for false.
+  [[gnu::always_inline]] friend auto operator<(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ < b.reals_;
+  }
+  [[gnu::always_inline]] friend auto operator<=(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ <= b.reals_;
+  }
+  [[gnu::always_inline]] friend auto operator>(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ > b.reals_;
+  }
+  [[gnu::always_inline]] friend auto operator>=(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ >= b.reals_;
+  }
+  [[gnu::always_inline]] friend auto operator==(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ == b.reals_;
+  }
+  [[gnu::always_inline]] friend auto operator!=(const Pack& a, const Pack& b) noexcept {
+    return a.reals_ != b.reals_;
+  }
+  /// `chosen` in lanes where the mask is true, else `other`.
+  template <class Mask>
+  [[gnu::always_inline]] friend Pack select(const Mask& mask, const Pack& chosen,
+                                            const Pack& other) noexcept {
+    return made_of(mask ? chosen.reals_ : other.reals_);
+  }
+  [[gnu::always_inline]] friend Pack abs(const Pack& a) noexcept { return select(a < 0, -a, a); }
+  [[gnu::always_inline]] friend auto is_finite(const Pack& a) noexcept {
+    return a - a == 0;  // of infinities and NaN the difference is NaN
+  }
+
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) noexcept {
     Pack root;
     for (int lane = 0; lane < Lanes; ++lane) root.reals_[lane] = std::sqrt(a.reals_[lane]);
@@ -82,8 +117,8 @@ class Pack {
   }
 
   /// Sines and cosines of K packs of angles [rad], within three units in the last place; NaN for
-  /// angles that are not finite. If one is large all are left to <cmath>: to ask once costs less
-  /// than K times.
+  /// angles that are not finite. If any angle is large, <cmath> computes all: one check costs less
+  /// than K checks.
   template <std::size_t K>
   [[gnu::always_inline]] friend void sincos(const std::array<Pack, K>& angle,
                                             std::array<Pack, K>& sine,
@@ -95,7 +130,7 @@ class Pack {
     if (sum <= detail::largest_reduced_square) [[likely]] {
       sincos_of_small<0>(angle, sine, cosine);
     } else {
-      // With arrays of its own: those that a call gets the addresses of would go through memory.
+      // Arrays of its own: arrays whose addresses are passed to a call would go through memory.
       std::array<Pack, K> s, c;
       sincos_of_large(std::array<Pack, K>(angle), s, c);
       sine = s;
@@ -111,7 +146,8 @@ class Pack {
     pack.reals_ = reals;
     return pack;
   }
-  /// Of the angles from one on, three packs at a time: more do not fit into the registers.
+  /// Sines and cosines of the angles from Begin on, three packs at a time: more do not fit into the
+  /// registers.
   template <std::size_t Begin, std::size_t K>
   [[gnu::always_inline]] static void sincos_of_small(const std::array<Pack, K>& angle,
                                                      std::array<Pack, K>& sine,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Straight-line programs as values of the compiler.
+/// @file Straight-line programs as compile-time values.
 #pragma once
 
 #include "articula/symbolic/expression.hpp"
@@ -8,27 +8,27 @@
 
 namespace articula::symbolic {
 
-/// How many operations a program takes. Changes of sign are not counted.
+/// The number of operations of a program. Changes of sign are not counted.
 struct OperationCounts {
   int multiplications = 0;
   int additions = 0;  ///< and subtractions
   int divisions = 0;
   int square_roots = 0;
-  int sines = 0;  ///< angles whose sine, cosine or both are taken
+  int sines = 0;  ///< angles with a sine, a cosine or both
 
   friend constexpr bool operator==(const OperationCounts&, const OperationCounts&) = default;
 
-  /// A rough measure of the time they take, in multiplications.
+  /// A rough measure of their time, in multiplications.
   [[nodiscard]] constexpr int cost() const noexcept {
     return multiplications + additions + 4 * (divisions + square_roots) + 10 * sines;
   }
 };
 
-/// One step of a program. Its result is value number i, where i is its place in the program.
+/// One step of a program. The result of step i is value number i.
 struct Instruction {
   Operation operation;
-  std::size_t left;   ///< value of the left operand; for inputs and constants, which one it is
-  std::size_t right;  ///< value of the right operand
+  std::size_t left;   ///< number of the left operand's value, of the input or of the constant
+  std::size_t right;  ///< number of the right operand's value
 };
 
 /// A result of a program: a value, perhaps negated.
@@ -37,32 +37,32 @@ struct Output {
   bool negative;
 };
 
-/// How large a program is.
+/// The size of a program.
 struct ProgramSize {
   std::size_t instructions = 0;
   std::size_t constants = 0;
   std::size_t outputs = 0;
 };
 
-/// A function without branches and loops, as a value that the compiler can hold. Sines and cosines
-/// come in pairs, the sine first; those of angles that depend on the inputs by arithmetic alone
-/// stand together, so that they can be taken at once. The arrays have room for more than there is,
-/// so that a program can be returned by the one function that finds out how long it is. (Plain
-/// arrays: compilers read them faster than std::array.)
-/// @tparam Room  for how much there is room
-template <ProgramSize Room>
+/// A function without branches and loops, as a compile-time value. Sines and cosines come in pairs,
+/// the sine first. Pairs of angles that depend on the inputs by arithmetic alone are adjacent, so
+/// that they can be computed at once. The arrays may be larger than the program, because the
+/// function that returns it is the one that determines its size. (Plain arrays: compilers read them
+/// faster than std::array.)
+/// @tparam Capacity  the size of the arrays
+template <ProgramSize Capacity>
 struct Program {
-  Instruction instructions[Room.instructions];  // NOLINT
-  double constants[Room.constants + 1];         // NOLINT: there may be none, but no empty array
-  Output outputs[Room.outputs];                 // NOLINT
-  ProgramSize size;                             ///< how much there is, or would be
-  std::size_t angles_begin;                     ///< where those sines and cosines begin
-  std::size_t angles_end;                       ///< and where they end
+  Instruction instructions[Capacity.instructions];  // NOLINT
+  double constants[Capacity.constants + 1];  // NOLINT: one more, because no array may be empty
+  Output outputs[Capacity.outputs];          // NOLINT
+  ProgramSize size;                          ///< of the program, even if it exceeds the capacity
+  std::size_t angles_begin;                  ///< first of the adjacent sines and cosines
+  std::size_t angles_end;                    ///< end of the adjacent sines and cosines
 
-  /// False if there was not room enough: then the size alone is right.
-  [[nodiscard]] constexpr bool is_whole() const noexcept {
-    return size.instructions <= Room.instructions && size.constants <= Room.constants &&
-           size.outputs <= Room.outputs;
+  /// False if the program exceeds the capacity: then only the size is valid.
+  [[nodiscard]] constexpr bool is_complete() const noexcept {
+    return size.instructions <= Capacity.instructions && size.constants <= Capacity.constants &&
+           size.outputs <= Capacity.outputs;
   }
 
   [[nodiscard]] constexpr OperationCounts operations() const noexcept {

@@ -15,10 +15,10 @@ namespace articula::symbolic {
 
 namespace detail {
 
-/// Computes what one step of a program says. The numbers of the operands are constants to the
-/// optimiser, which keeps the values in registers. (Compilers take their time for each argument, to
-/// be deduced or passed, a thousand times: so there are few, and those of the template are given.)
-/// @param value   those before this step; not const, because the others have no value yet
+/// Computes one step of a program. The numbers of the operands are constants for the optimiser,
+/// which keeps the values in registers. (There are few parameters, and template arguments are
+/// explicit, because compilers spend time on each, a thousand times.)
+/// @param value   values before this step; not const, because the others are not initialised yet
 /// @param number  of the step
 template <const auto& program, Operation operation, class S, class Input>
 [[gnu::always_inline]] inline S execute(S* value, const Input& input, std::size_t number) noexcept {
@@ -35,9 +35,9 @@ template <const auto& program, Operation operation, class S, class Input>
   if constexpr (operation == Operation::cosine) return cos(value[step.left]);
 }
 
-/// Takes the sines and cosines that stand together.
-/// @param value  those before them
-/// @param taken  receives sines and cosines by turns
+/// Computes the adjacent sines and cosines.
+/// @param value  values before them
+/// @param taken  receives sines and cosines in turn
 /// @return       the first sine
 template <const auto& program, class S, std::size_t... Angle>
 [[gnu::always_inline]] inline S take_angles(S* value, S* taken,
@@ -52,10 +52,9 @@ template <const auto& program, class S, std::size_t... Angle>
 }
 
 /// Executes the steps before the angles, the angles, and the steps after them. Each value is
-/// computed from those before it in the same list of initialisers, which are executed in order:
-/// compilers take twice as long for a fold of assignments, and limit its length. The first sine
-/// takes all sines and cosines; those that follow in the list find theirs taken. The program of
-/// 2 cos(x) + x, say, becomes
+/// computed from preceding values in the same list of initialisers, which run in order. (Compilers
+/// take twice as long for a fold of assignments, and limit its length.) The first sine computes all
+/// adjacent sines and cosines. For example, the program of 2 cos(x) + x becomes
 ///
 ///     S value[] = {input[0],                          // Before: x
 ///                  take_angles(value, taken),         // SineOrCosine 0: sin(x)
@@ -88,14 +87,14 @@ template <const auto& program, class S, class Input, std::size_t... Before,
 
 /// Runs a program.
 /// @tparam program  a constexpr variable
-/// @param input     input[i] is input number i, read when it is needed: a double, float, a pack of
-///                  them or another type that has their operators and can be made without a value
+/// @param input     input[i] is input number i: a double, a float, a pack of them or another type
+///                  with their operators and a default constructor
 /// @return          the results
 /// Real-time: yes, if the operations of that type are.
 template <const auto& program, class Input>
 [[nodiscard, gnu::always_inline]] inline auto run_program(const Input& input) noexcept {
   using S = std::remove_cvref_t<decltype(input[0])>;
-  static_assert(program.is_whole());
+  static_assert(program.is_complete());
   static_assert(program.size.outputs > 0, "articula: this program has no results");
   constexpr std::size_t begin = program.angles_begin, end = program.angles_end;
   return detail::execute_steps<program, S>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The scalars that a result consists of, whatever its shape.
+/// @file Access to all scalars of a result of any shape.
 #pragma once
 
 #include "articula/model/placement.hpp"
@@ -15,8 +15,7 @@ namespace articula::symbolic {
 
 /// Calls `visit` for each scalar of a result, always in the same order.
 /// @tparam S      the scalar
-/// @param result  a scalar, Vector3, Matrix3 or Placement of scalars, or arrays of those, nested as
-///                they like
+/// @param result  a scalar, Vector3, Matrix3 or Placement of scalars, or nested arrays of those
 /// @param visit   takes an S&, or a const S& if the result is const
 /// Real-time: yes, if `visit` is.
 template <class S, class Result, class Visit>
@@ -34,7 +33,7 @@ template <class S, class Result, class Visit>
     for_each_scalar<S>(result.rotation, visit);
     for_each_scalar<S>(result.translation, visit);
   } else {
-    // No loop: compilers leave arrays that loops have filled in memory.
+    // A fold and not a loop: compilers leave arrays in memory that are filled by loops.
     [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
       (for_each_scalar<S>(result[I], visit), ...);
     }(std::make_index_sequence<std::tuple_size_v<Shape>>{});

@@ -14,34 +14,34 @@ namespace articula::symbolic {
 
 namespace detail {
 
-/// The lanes for a number of angles: all of a register, or half and so on if that has room enough.
+/// The number of lanes for a number of angles: those of the smallest sufficient register.
 [[nodiscard]] constexpr int lanes_for(std::size_t angles) noexcept {
   int lanes = 2;
   while (lanes < lanes_of_a_register && static_cast<std::size_t>(lanes) < angles) lanes *= 2;
   return lanes;
 }
 
-/// An angle that compilers load by itself. Neighbours in memory they would load as one vector. If
-/// those were stored one by one, or as other vectors, just before, a processor cannot forward them
+/// An angle that compilers load alone. They would load neighbours in memory as one vector. If the
+/// neighbours were just stored one by one, or as other vectors, the processor cannot forward them
 /// to that load: it waits until all stores have reached the cache (failed store forwarding).
-[[nodiscard, gnu::always_inline]] inline double by_itself(double angle) noexcept {
+[[nodiscard, gnu::always_inline]] inline double loaded_alone(double angle) noexcept {
 #if defined(__x86_64__)
   asm("" : "+x"(angle));
 #endif
   return angle;
 }
 
-/// Some of the angles, each in as many lanes as said, and zeros in the lanes that are left. Put
-/// together in registers: what goes through memory in parts and comes back as one waits long.
+/// The angles from Begin on, each in `Times` lanes, and zeros in the remaining lanes. The vector is
+/// composed in registers: a vector that is stored in parts and loaded as a whole waits long.
 template <int Lanes, std::size_t Begin, std::size_t Times, std::size_t K>
 [[gnu::always_inline]] inline Reals<Lanes> in_lanes(const std::array<double, K>& angle) noexcept {
   return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
-    // (% K: the compiler wants a valid index also where none is read.)
+    // (% K: the index must be valid even where no element is read.)
     return Reals<Lanes>{(Begin + I / Times < K ? angle[(Begin + I / Times) % K] : 0.0)...};
   }(std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
 }
 
-/// Sines and cosines of the angles from one on.
+/// Sines and cosines of the angles from Begin on.
 /// @pre the angles are no larger than largest_reduced_angle
 template <std::size_t Begin, std::size_t K>
 [[gnu::always_inline]] inline void sine_cosine_in_lanes(const std::array<double, K>& angle,
@@ -80,11 +80,13 @@ template <std::size_t K>
 
 }  // namespace detail
 
-/// Sines and cosines of K angles [rad]: of doubles side by side, within three units in the last
-/// place, and by <cmath> if they are large, infinite or NaN; of other types by their function
-/// sincos, of all angles (as packs have it) or of one, returning both, found by argument-dependent
-/// lookup, or by sin and cos, found so or in namespace std. Programs take those of all joints by
-/// one call of this function.
+/// Sines and cosines of K angles [rad]. Programs compute those of all joints by one call.
+///
+/// - double: side by side, within three units in the last place; by <cmath> if an angle is large,
+///   infinite or NaN
+/// - a type with a function sincos, found by argument-dependent lookup: by that function, which
+///   takes all angles, as that of packs does, or takes one angle and returns both
+/// - any other type: by sin and cos, found by argument-dependent lookup or in namespace std
 /// Real-time: yes, if those of S are.
 template <class S, std::size_t K>
 [[gnu::always_inline]] inline void sine_cosine(const std::array<S, K>& angle,
@@ -94,7 +96,7 @@ template <class S, std::size_t K>
     std::array<double, K> single;
     double squares = 0;
     detail::for_each_index<K>([&](std::size_t i) __attribute__((always_inline)) {
-      single[i] = detail::by_itself(angle[i]);
+      single[i] = detail::loaded_alone(angle[i]);
       squares += single[i] * single[i];
     });
     if (squares <= detail::largest_reduced_square) [[likely]] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The scalar that writes down what is done with it.
+/// @file The scalar that records operations as an expression.
 #pragma once
 
 #include "articula/symbolic/graph.hpp"
@@ -10,22 +10,21 @@ namespace articula::symbolic {
 
 namespace detail {
 
-/// No constant expression: compilers name it. Who divides by a constant 0 has made an algorithm
-/// that works for no input, such as forward dynamics of a robot one of whose joints feels no
-/// inertia.
+/// Not a constant expression, so that compilers name it in their message. A constant divisor 0
+/// occurs in an algorithm that has no result for any input, such as forward dynamics of a robot
+/// with a joint without inertia.
 [[noreturn]] inline void the_divisor_is_always_zero() {
   throw std::domain_error("articula: the divisor is always zero");
 }
 
 }  // namespace detail
 
-/// A scalar that stands for an expression. An algorithm that is written for any scalar type and run
-/// on symbols leaves its result as expressions in the graph that its inputs came from. Constants
-/// need no graph; all other symbols of one calculation must be of the same one, which must outlive
-/// them.
+/// A scalar that represents an expression. The results of an algorithm over any scalar, run on
+/// symbols, are expressions in the graph of its inputs. Constants need no graph. All other symbols
+/// of one calculation must belong to the same graph, which must outlive them.
 class Symbol {
  public:
-  /// Operations with zeros and ones vanish.
+  /// Operations with zeros and ones are removed.
   static constexpr bool simplifies = true;
 
   constexpr Symbol() = default;  ///< zero
@@ -34,8 +33,8 @@ class Symbol {
 
   [[nodiscard]] constexpr const Term& term() const noexcept { return term_; }
 
-  // What needs no graph is done here, although the graph would find it as well: compilers take
-  // their time for each call.
+  // Constants are folded here although the graph would fold them, too: compilers spend time on each
+  // call.
   friend constexpr Symbol operator-(const Symbol& x) { return {x.graph_, -x.term_}; }
   friend constexpr Symbol operator+(const Symbol& x, const Symbol& y) {
     const bool x_constant = x.term_.node == Term::none, y_constant = y.term_.node == Term::none;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Sines and cosines of the lanes of compilers' vectors, without branches.
+/// @file Sines and cosines of vector registers, lane by lane, without branches.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ template <std::size_t Count, class Function>
       __attribute__((always_inline)) { (f(I), ...); }(std::make_index_sequence<Count>{});
 }
 
-/// The vectors of g++ and clang++: they have the operators of numbers, lane by lane.
+/// The vector types of g++ and clang++, with the operators of numbers for each lane.
 template <int Lanes>
 struct Vectors {
   typedef double Reals __attribute__((vector_size(Lanes * sizeof(double))));           // NOLINT
@@ -28,7 +28,7 @@ using Reals = typename Vectors<Lanes>::Reals;
 template <int Lanes>
 using Integers = typename Vectors<Lanes>::Integers;
 
-/// Keeps -ffast-math from rearranging what is rounded on purpose. (clang++ has a pragma for that.)
+/// Prevents -ffast-math from rearranging intended rounding. (clang++ has a pragma for that.)
 template <class Vector>
 [[gnu::always_inline]] inline Vector as_written(const Vector& x) noexcept {
 #if defined(__clang__)
@@ -46,7 +46,7 @@ template <class Vector, class T>
   }(std::make_index_sequence<sizeof(Vector) / sizeof(T)>{});
 }
 
-/// Lanes 0 and 1, 2 and 3, ... in each other's place.
+/// Lanes 0 and 1, 2 and 3, ... exchanged.
 template <int Lanes>
 [[gnu::always_inline]] inline Reals<Lanes> with_swapped_lanes(const Reals<Lanes>& x) noexcept {
   return [&]<std::size_t... I>(std::index_sequence<I...>) __attribute__((always_inline)) {
@@ -54,22 +54,21 @@ template <int Lanes>
   }(std::make_index_sequence<static_cast<std::size_t>(Lanes)>{});
 }
 
-/// The largest angle that is reduced right [rad].
+/// The largest angle whose reduction is accurate [rad].
 inline constexpr double largest_reduced_angle = 2e5;
-/// Its square, with which a sum of squares is compared: that asks once whether all angles of many
-/// are small, finite numbers.
+/// Its square. A sum of squares below it shows that all angles are small and finite.
 inline constexpr double largest_reduced_square = largest_reduced_angle * largest_reduced_angle;
 
-/// An angle as right angles and the rest.
+/// An angle as a number of right angles and a rest.
 template <int Lanes>
 struct ReducedAngle {
   Reals<Lanes> rest;             ///< in [-pi/4, pi/4] [rad]
   Integers<Lanes> right_angles;  ///< their number in the last bits
 };
 
-/// Pi/2 is subtracted in three parts, of which the first two have so few bits that up to 2^20 times
-/// them are exact [Cody, Waite 1980, chapter 8]. Adding 1.5 * 2^52 rounds to an integer and leaves
-/// it in the last bits.
+/// Subtracts pi/2 in three parts, of which the first two have so few bits that their multiples up
+/// to 2^20 are exact [Cody, Waite 1980, chapter 8]. Adding 1.5 * 2^52 rounds to an integer in the
+/// last bits.
 /// @pre the angle is no larger than largest_reduced_angle
 template <int Lanes>
 [[gnu::always_inline]] inline ReducedAngle<Lanes> reduce(const Reals<Lanes>& angle) noexcept {
@@ -84,16 +83,16 @@ template <int Lanes>
   return {near - count * tail, reinterpret_cast<Integers<Lanes>>(shifted)};
 }
 
-// Of a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 + z q(z). The polynomials go
-// through the true values at Chebyshev's nodes, which keeps p z and (q + 1/2) z within 2e-17 in
-// between. Signs by the number of right angles are + + - - for the sine, + - - + for the cosine; an
-// odd number has them change places.
+// For a reduced angle x, with z = x^2: sin x = x + x z p(z), cos x = 1 + z q(z). The polynomials
+// interpolate the true values at Chebyshev's nodes, so that p z and (q + 1/2) z are accurate to
+// 2e-17. The signs by the number of right angles are + + - - for the sine and + - - + for the
+// cosine; an odd number exchanges sine and cosine.
 //
-// There are two ways to fill the lanes, and how many lanes there are is a matter of the processor.
-// Both do the same operations for each angle, so that all give the same bits unless the compiler
-// contracts multiplications and additions.
+// There are two ways to fill the lanes, and the number of lanes depends on the processor. All do
+// the same operations for each angle and give the same bits, unless the compiler contracts
+// multiplications and additions.
 
-/// Coefficients of z^0 to z^6. (What is multiplied with a 0 and added changes no bit.)
+/// Coefficients of z^0 to z^6. (Adding a product with the 0 changes no bit.)
 inline constexpr double of_sine[] = {-0x1.5555555555555p-3,
                                      0x1.1111111110bb2p-7,
                                      -0x1.a01a019e83816p-13,
@@ -109,9 +108,9 @@ inline constexpr double of_cosine[] = {-0.5,
                                        0x1.1eeb68cd22f56p-29,
                                        -0x1.907d8f29fe831p-37};
 
-/// A polynomial of z, summed in pairs: no step waits long for another one [Estrin].
+/// A polynomial of z, summed in pairs for short dependencies [Estrin].
 /// @tparam Degree      5 or 6
-/// @param coefficient  takes the power of z
+/// @param coefficient  callable with the power of z
 template <std::size_t Degree, class Vector, class Coefficient>
 [[gnu::always_inline]] inline Vector polynomial(const Vector& z, const Vector& z2, const Vector& z4,
                                                 const Coefficient& coefficient) noexcept {
@@ -121,8 +120,8 @@ template <std::size_t Degree, class Vector, class Coefficient>
          z4 * last;
 }
 
-/// Stage by stage for several vectors: processors look ahead not much farther than one of them
-/// goes, and what they find to do beside it is the next one's part in the same stage.
+/// Sines and cosines of several vectors, stage by stage. Processors look ahead about as far as the
+/// operations of one vector; this order gives them independent operations of other vectors.
 /// @param[out] sine, cosine  of the angle in each lane
 /// @pre the angles are no larger than largest_reduced_angle
 template <int Lanes, std::size_t Count>
@@ -159,7 +158,7 @@ template <int Lanes, std::size_t Count>
   });
 }
 
-/// The same for few angles, with half the work: the sine in one lane, the cosine in the next.
+/// The same for few angles, with half the operations: the sine in one lane, the cosine in the next.
 /// @param angle  each in two lanes
 /// @return       sines in even lanes, cosines in odd ones
 /// @pre the angles are no larger than largest_reduced_angle

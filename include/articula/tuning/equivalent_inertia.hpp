@@ -1,89 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The inertia that one joint's drive sees.
+/// @file The inertia that the drive of a joint accelerates.
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/joint_array.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/dynamics/engine/tree_factors.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/model/robot.hpp"
 
-#include <cstddef>
+#include <concepts>
 #include <string_view>
 
 namespace articula {
 
-/// What the other joints do while one is moved.
+/// The state of the other joints while one joint moves.
 enum class OtherJoints : unsigned char {
-  locked,  ///< they stay: held by brakes, or by controllers that are much stiffer
-  free,    ///< no drive holds them: they give way
+  locked,  ///< held by brakes or by much stiffer controllers
+  free,    ///< without effort
 };
 
 namespace detail {
 
-/// @throws std::invalid_argument naming the index and how many joints there are, or the joint whose
-///         position is not finite
-template <Robot R>
-void check_joint_and_positions(const R& robot, const JointVector<joint_count<R>>& q, int joint) {
-  if (joint < 0 || joint >= joint_count<R>) {
-    refuse({"robot '", model_of(robot).name.view(), "': joint index ", joint,
-            " is not within 0 .. ", joint_count<R> - 1});
-  }
+/// The index of a joint.
+/// @param q      joint positions [rad or m], N x 1
+/// @param joint  its index or its name
+/// @throws std::invalid_argument if there is no such joint or a position is not finite; the message
+///         names the joint and the valid range
+template <Robot R, class Joint>
+[[nodiscard]] int checked_joint(const R& robot, const JointVector<joint_count<R>>& q,
+                                const Joint& joint) {
   for (int j = 0; j < joint_count<R>; ++j) {
     if (is_finite(q[j])) continue;
-    refuse({"position ", q[j], " of joint '", joint_names(robot)[static_cast<std::size_t>(j)],
+    refuse({"position ", q[j], " of joint '", model_of(robot).joints[j].name.view(),
             "' is not finite"});
+  }
+  if constexpr (std::convertible_to<const Joint&, std::string_view>) {
+    return joint_index(robot, joint);
+  } else {
+    if (joint >= 0 && joint < joint_count<R>) return joint;
+    refuse({"robot '", model_of(robot).name.view(), "': joint index ", joint,
+            " is not within 0 .. ", joint_count<R> - 1});
   }
 }
 
 }  // namespace detail
 
-/// The inertia that a joint's drive has to accelerate, at rest and without weight:
+/// The inertia that the drive of a joint accelerates, at rest and without gravity:
 ///
 ///     I = M_jj               the other joints locked
-///     I = 1 / (M^-1)_jj      the other joints free, never more than the former
+///     I = 1 / (M^-1)_jj      the other joints free, at most the former
 ///
-/// Both follow from M(q) a = effort [Featherstone 2008, section 6.1]: with the acceleration of
-/// joint j alone, or its effort alone, not zero.
+/// Both follow from M(q) a = effort [Featherstone 2008, section 6.1]: only the acceleration of joint
+/// j, or only its effort, is not zero.
+///
+///     equivalent_inertia(Ur10(), q, "elbow_joint", OtherJoints::free)
+///
 /// @param robot   a described robot or a model
 /// @param q       joint positions [rad or m], N x 1
-/// @param joint   index of the joint, 0 .. N - 1
-/// @param others  what the other joints do
+/// @param joint   index of the joint, 0 .. N - 1, or its name
+/// @param others  whether the other joints are locked or free
 /// @return        I [kg m^2 or kg]
-/// @throws std::invalid_argument if there is no such joint, a position is not finite, or M(q) is
-///         singular, which leaves nothing to compute where the others are free; the message names
-///         the joint
+/// @throws std::invalid_argument if there is no such joint, a position is not finite, or the other
+///         joints are free and M(q) is singular; the message names the joint
 /// Real-time: no (set-up).
-template <Robot R>
+template <Robot R, class Joint>
 [[nodiscard]] double equivalent_inertia(const R& robot, const JointVector<joint_count<R>>& q,
-                                        int joint, OtherJoints others = OtherJoints::locked) {
+                                        const Joint& joint,
+                                        OtherJoints others = OtherJoints::locked) {
   constexpr int n = joint_count<R>;
-  detail::check_joint_and_positions(robot, q, joint);
+  const int own = detail::checked_joint(robot, q, joint);
   const JointMatrix<n> matrix = mass_matrix(robot, q);
-  if (others == OtherJoints::locked) return matrix(joint, joint);
+  if (others == OtherJoints::locked) return matrix(own, own);
   const JointArray<int, n> parents = elimination_tree(model_of(robot).mechanism);
   const auto factors = factorise<double, n>(parents, detail::to_rows(matrix));
   for (int j = n - 1; j >= 0; --j) {  // in the order of elimination
-    const double pivot = 1 / factors.inverse_pivot[j];
-    if (pivot > 1e-12 * matrix(j, j))
-      continue;  // what cancellation leaves of nothing is some 1e-16
-    detail::refuse({"the mass matrix is singular: joint '",
-                    joint_names(robot)[static_cast<std::size_t>(j)],
-                    "' moves no mass when the joints that it carries give way"});
+    // Where a pivot should be 0, cancellation leaves about 1e-16 of the diagonal.
+    if (1 / factors.inverse_pivot[j] > 1e-12 * matrix(j, j)) continue;
+    detail::refuse({"the mass matrix is singular: joint '", model_of(robot).joints[j].name.view(),
+                    "' moves no mass if the joints that it carries are free"});
   }
   JointArray<double, n> effort{};
-  effort[joint] = 1;
-  return 1 / solve<double, n>(parents, factors, effort)[joint];
-}
-
-/// The same for a joint by its name.
-/// @throws std::invalid_argument as above
-/// Real-time: no (set-up).
-template <Robot R>
-[[nodiscard]] double equivalent_inertia(const R& robot, const JointVector<joint_count<R>>& q,
-                                        std::string_view joint,
-                                        OtherJoints others = OtherJoints::locked) {
-  return equivalent_inertia(robot, q, joint_index(robot, joint), others);
+  effort[own] = 1;
+  return 1 / solve<double, n>(parents, factors, effort)[own];
 }
 
 }  // namespace articula

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the user should know about a controller's gains before the robot moves.
+/// @file Notices about gains that make a joint unstable, before the robot moves.
 #pragma once
 
 #include "articula/control/laws/part_scope.hpp"
@@ -21,13 +21,18 @@ namespace articula {
 
 namespace detail {
 
-/// Whether a joint under a law never comes to rest. Where nothing holds the position the spectral
-/// radius is 1, and rounding gives it an error of up to 1e-8: the root of that of a number, where
-/// two eigenvalues meet. What grows by less than 1e-6 in a cycle is left to friction.
-[[nodiscard]] inline bool shakes(const JointPlant& plant, const SampledFeedback& feedback,
-                                 double period) {
-  return spectral_radius(plant, feedback, period) > 1 + 1e-6;
-}
+/// A joint under a law that is computed once per period.
+struct SampledJoint {
+  JointPlant plant;
+  SampledFeedback law;
+  double period;         ///< dt [s]
+  bool is_unit_inertia;  ///< the law's output is an acceleration, so the plant is an inertia of 1
+
+  /// Whether the joint never comes to rest. Where nothing holds the position the spectral radius is
+  /// 1, with a rounding error of up to 1e-8, the root of that of a number, where two eigenvalues
+  /// meet. Growth by less than 1e-6 per period is within the reach of friction.
+  [[nodiscard]] bool unstable() const { return spectral_radius(plant, law, period) > 1 + 1e-6; }
+};
 
 /// A list in words: "a", "a and b", "a, b and c", with " and " before the last.
 [[nodiscard]] inline std::string in_words(const std::vector<std::string>& items,
@@ -40,20 +45,19 @@ namespace detail {
   return text;
 }
 
-/// "lower p and d, for example to 60 and 0.6": halved as often as it takes until the joint does not
-/// shake, up to ten times. Nothing if that does not help.
-/// @param gains  which of them are lowered together
+/// "lower p and d, for example to 60 and 0.6": halves gains until the joint is stable, up to ten
+/// times. Empty if that does not help.
+/// @param gains  which are lowered together
 [[nodiscard]] inline std::string lower_gains(
-    const JointPlant& plant, SampledFeedback feedback, double period,
-    std::initializer_list<double SampledFeedback::*> gains) {
+    SampledJoint joint, std::initializer_list<double SampledFeedback::*> gains) {
   for (int k = 0; k < 10; ++k) {
-    for (double SampledFeedback::* gain : gains) feedback.*gain /= 2;
-    if (shakes(plant, feedback, period)) continue;
+    for (double SampledFeedback::* gain : gains) joint.law.*gain /= 2;
+    if (joint.unstable()) continue;
     std::vector<std::string> names, values;
     for (double SampledFeedback::* gain : gains) {
-      if (feedback.*gain == 0) continue;
-      names.emplace_back(feedback.name_of(gain));
-      values.push_back(message_of({feedback.*gain}));
+      if (joint.law.*gain == 0) continue;
+      names.emplace_back(joint.law.name_of(gain));
+      values.push_back(message_of({joint.law.*gain}));
     }
     return message_of(
         {"lower ", in_words(names, " and "), ", for example to ", in_words(values, " and ")});
@@ -61,104 +65,95 @@ namespace detail {
   return {};
 }
 
-/// "raise d, for example to 0.8", to what calms the joint soonest of fractions of 2 I/dt, from which
-/// on a derivative alone makes it shake. Nothing if that does not help.
-[[nodiscard]] inline std::string raise_derivative(const JointPlant& plant,
-                                                  const SampledFeedback& feedback, double period) {
-  if (feedback.of_velocity) return {};
+/// "raise d, for example to 0.8": tries fractions of 2 I/dt, above which a derivative alone is
+/// unstable, and takes the one with the smallest spectral radius. Empty if none helps.
+[[nodiscard]] inline std::string raise_derivative(SampledJoint joint) {
+  if (joint.law.of_velocity) return {};
+  const double present = joint.law.derivative;
   double best = 0, smallest = 1;
   for (double fraction = 0.75; fraction > 1e-3; fraction /= 1.5) {
-    const double derivative = fraction * 2 * plant.inertia / period;
-    SampledFeedback raised = feedback;
-    raised.derivative = derivative;
-    const double radius = spectral_radius(plant, raised, period);
-    if (derivative <= feedback.derivative || radius >= smallest) continue;
-    best = derivative;
+    joint.law.derivative = fraction * 2 * joint.plant.inertia / joint.period;
+    const double radius = spectral_radius(joint.plant, joint.law, joint.period);
+    if (joint.law.derivative <= present || radius >= smallest) continue;
+    best = joint.law.derivative;
     smallest = radius;
   }
   if (best == 0) return {};
-  return message_of({"raise ", feedback.derivative_name, ", for example to ", best});
+  return message_of({"raise ", joint.law.derivative_name, ", for example to ", best});
 }
 
-/// What calms a joint that shakes: each of these is tried out with the same law.
-[[nodiscard]] inline std::string calming(const JointPlant& plant, const SampledFeedback& feedback,
-                                         double period, bool asks_acceleration) {
+/// Changes that make an unstable joint stable. Each is tried with the same law.
+[[nodiscard]] inline std::string remedies(const SampledJoint& joint) {
   using F = SampledFeedback;
-  if (feedback.proportional < 0 || feedback.integral < 0 || feedback.derivative < 0) {
+  if (joint.law.proportional < 0 || joint.law.integral < 0 || joint.law.derivative < 0) {
     return "choose gains that are not negative";
   }
   std::vector<std::string> ways;
-  std::string lower =
-      lower_gains(plant, feedback, period, {&F::proportional, &F::integral, &F::derivative});
-  if (lower.empty()) lower = lower_gains(plant, feedback, period, {&F::integral});
-  if (lower.empty()) lower = lower_gains(plant, feedback, period, {&F::proportional});
-  if (!lower.empty()) ways.push_back(lower);
-  if (const std::string raise = raise_derivative(plant, feedback, period); !raise.empty()) {
-    ways.push_back(raise);
+  std::string lower = lower_gains(joint, {&F::proportional, &F::integral, &F::derivative});
+  if (lower.empty()) lower = lower_gains(joint, {&F::integral});
+  if (lower.empty()) lower = lower_gains(joint, {&F::proportional});
+  for (const std::string& way : {lower, raise_derivative(joint)}) {
+    if (!way.empty()) ways.push_back(way);
   }
-  if (F unfiltered = feedback; feedback.filter_time > 0) {
-    unfiltered.filter_time = 0;
-    if (!shakes(plant, unfiltered, period)) ways.emplace_back("shorten the derivative's filter");
+  const auto add_if_stable = [&](const SampledJoint& changed, const char* way) {
+    if (!changed.unstable()) ways.emplace_back(way);
+  };
+  SampledJoint changed = joint;
+  changed.law.filter_time = 0;
+  add_if_stable(changed, "shorten the derivative's filter");
+  changed = joint;
+  changed.period /= 16;
+  add_if_stable(changed, "shorten the period");
+  changed = joint;
+  if (!joint.is_unit_inertia) {
+    changed.plant.inertia *= 1000;  // of rotors, which count with the square of the gear ratio
+    changed.plant.time_constant *= 1000;
   }
-  if (!shakes(plant, feedback, period / 16)) ways.emplace_back("shorten the period");
-  if (JointPlant heavier = plant; !asks_acceleration) {
-    heavier.inertia *= 1000;  // drives' rotors are seen through the square of their gear ratio
-    heavier.time_constant *= 1000;
-    if (!shakes(heavier, feedback, period)) {
-      ways.emplace_back("add the drive's reflected_inertia, if the model has none");
-    }
-  }
-  if (ways.empty()) ways.emplace_back("design the gains anew with design_pd");
+  add_if_stable(changed, "add the drive's reflected_inertia, if the model has none");
+  if (ways.empty()) ways.emplace_back("design new gains with design_pd");
   return in_words(ways, ", or ");
 }
 
-/// The line for a joint that shakes.
-[[nodiscard]] inline std::string gain_notice(const JointProperties& joint, const JointPlant& plant,
-                                             const SampledFeedback& feedback, double period,
-                                             bool asks_acceleration) {
-  const double growth = std::log(spectral_radius(plant, feedback, period));
-  std::string gains = message_of({feedback.proportional_name, " ", feedback.proportional, ", ",
-                                  feedback.derivative_name, " ", feedback.derivative});
-  if (feedback.integral != 0) {
-    gains += message_of({", i ", feedback.integral});
+/// The notice of an unstable joint.
+[[nodiscard]] inline std::string gain_notice(const JointProperties& properties,
+                                             const SampledJoint& joint) {
+  const auto& [plant, law, period, is_unit_inertia] = joint;
+  std::string gains = message_of({law.proportional_name, " ", law.proportional, ", ",
+                                  law.derivative_name, " ", law.derivative});
+  if (law.integral != 0) gains += message_of({", i ", law.integral});
+  if (law.filter_time > 0) {
+    gains += message_of({", derivative filter ", law.filter_time, " s"});
   }
-  if (feedback.filter_time > 0) {
-    gains += message_of({", derivative filter ", feedback.filter_time, " s"});
-  }
-  const std::string inertia =
-      asks_acceleration ? std::string("an output that is an acceleration")
-                        : message_of({"an inertia of ", plant.inertia,
-                                      joint.type == JointType::prismatic ? " kg" : " kg m^2"});
-  return message_of({"joint '", joint.name.view(), "': the gains ", gains, " make it shake. With ",
-                     inertia, " and a period of ", period,
-                     " s, its motion grows to twice its size within ",
-                     period * std::log(2.0) / growth, " s. To calm it, ",
-                     calming(plant, feedback, period, asks_acceleration), "."});
+  const char* const unit = properties.type == JointType::prismatic ? " kg" : " kg m^2";
+  const std::string inertia = is_unit_inertia ? std::string("an output that is an acceleration")
+                                              : message_of({"an inertia of ", plant.inertia, unit});
+  const double growth = std::log(spectral_radius(plant, law, period));
+  return message_of({"joint '", properties.name.view(), "' is unstable with the gains ", gains,
+                     ". With ", inertia, " and a period of ", period,
+                     " s, its motion doubles within ", period * std::log(2.0) / growth,
+                     " s. Remedy: ", remedies(joint), "."});
 }
 
-/// Looks at a part of a controller, and at the parts that it is made of.
+/// Adds the notices of a part of a controller, and of the parts that it consists of.
 template <Robot R, class Part>
 void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_count<R>>& scope,
                       const JointVector<joint_count<R>>& q, double period,
                       std::vector<std::string>& notices) {
   if constexpr (requires { part.sampled_feedback(std::size_t{}); }) {
-    const double own_period = scope.divisor * period;
     for (int j = 0; j < joint_count<R>; ++j) {
       if (scope.joints[j] == 0) continue;
-      const auto i = static_cast<std::size_t>(j);
-      const SampledFeedback feedback = part.sampled_feedback(i);
-      JointPlant plant;
+      SampledJoint joint{.plant = {},
+                         .law = part.sampled_feedback(static_cast<std::size_t>(j)),
+                         .period = scope.divisor * period,
+                         .is_unit_inertia = scope.asks_acceleration};
       if (!scope.asks_acceleration) {
         try {
-          plant = joint_plant(robot, q, j, OtherJoints::free);
+          joint.plant = joint_plant(robot, q, j, OtherJoints::free);
         } catch (const std::invalid_argument&) {
           return;  // a robot without masses
         }
       }
-      if (shakes(plant, feedback, own_period)) {
-        notices.push_back(gain_notice(model_of(robot).joints[i], plant, feedback, own_period,
-                                      scope.asks_acceleration));
-      }
+      if (joint.unstable()) notices.push_back(gain_notice(model_of(robot).joints[j], joint));
     }
   } else if constexpr (requires { part.for_each_part([](const auto&...) {}); }) {
     part.for_each_part([&](const auto& own, const PartScope<joint_count<R>>& inner = {}) {
@@ -169,16 +164,14 @@ void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_co
 
 }  // namespace detail
 
-/// What the user should know about a controller's gains, a line each: which joints they make shake,
-/// and what helps. A joint shakes if the spectral_radius of the joint under its law is above 1. It
-/// is looked at alone, with the inertia that it has while the other joints give way, and with
-/// viscous damping.
+/// Notices about a controller's gains, a line each: which joints they make unstable, and remedies. A
+/// joint is unstable if its spectral_radius under its law is above 1. Each joint is checked alone,
+/// with its inertia while the other joints are free, and with viscous damping.
 ///
-/// Looked at are the laws of efforts that have a `sampled_feedback`: PidLaw, ControlToolboxPidLaw
-/// and ImpedanceLaw, each by itself, also within OnJoints, Groups, Limited, Switch and the
-/// ComputedTorqueLaw. Left out are dry friction, limits, delays of the hardware, sensors, how
-/// joints and laws act on each other, and drives that close their own loop. So no line is no
-/// promise.
+/// The check covers laws of efforts with a function `sampled_feedback`: PidLaw, ControlToolboxPidLaw
+/// and ImpedanceLaw, each alone, also within OnJoints, Groups, Limited, Switch and ComputedTorqueLaw.
+/// It does not cover dry friction, limits, delays of hardware and sensors, the coupling of joints and
+/// laws, and drives that close their own loop. So gains without a notice can be unstable.
 /// @param robot       whose joints these are
 /// @param controller  with its gains
 /// @param q           positions at which inertias are taken [rad or m], N x 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A joint as the designer of its controller sees it: an inertia with damping.
+/// @file A joint as a linear plant: an inertia with damping.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -8,16 +8,16 @@
 #include "articula/tuning/equivalent_inertia.hpp"
 
 #include <limits>
-#include <string_view>
 
 namespace articula {
 
-/// One joint from effort to position: inertia I against viscous damping D, I q'' + D q' = effort,
+/// One joint from effort to position, with the inertia I and viscous damping D:
+/// I q'' + D q' = effort,
 ///
 ///     P(s) = (1/I) / (s (s + 1/T)),   T = I/D.
 ///
-/// T is the time in which the joint coasts down to 37 % of its speed. Without damping T is infinite
-/// and P(s) = 1/(I s^2).
+/// In the time T a coasting joint slows down to 37 % of its speed. Without damping T is infinite and
+/// P(s) = 1/(I s^2).
 struct JointPlant {
   static constexpr double undamped = std::numeric_limits<double>::infinity();
 
@@ -28,7 +28,7 @@ struct JointPlant {
   [[nodiscard]] double decay_rate() const noexcept { return 1 / time_constant; }
 };
 
-/// Refuses what is no plant.
+/// Checks a plant.
 /// @throws std::invalid_argument naming the member and its value
 /// Real-time: no (throws).
 inline void validate(const JointPlant& plant) {
@@ -42,7 +42,7 @@ inline void validate(const JointPlant& plant) {
   }
 }
 
-/// A plant from its damping instead of its time constant, T = I/D.
+/// A plant with a given damping, T = I/D.
 /// @param inertia  I [kg m^2 or kg], > 0
 /// @param damping  D [N m s/rad or N s/m], >= 0
 /// @throws std::invalid_argument naming the parameter and its value
@@ -57,33 +57,26 @@ inline void validate(const JointPlant& plant) {
   return plant;
 }
 
-/// A joint of a robot as a plant: its equivalent inertia at a configuration and the damping of its
-/// description. Dry friction, gravity and stops are no part of a linear plant.
+/// A joint of a robot as a plant: its equivalent inertia and the damping of its description. Dry
+/// friction, gravity and stops are not part of a linear plant.
 /// @param robot   a described robot or a model
 /// @param q       joint positions [rad or m], N x 1
-/// @param joint   index or name of the joint
-/// @param others  what the other joints do
+/// @param joint   index of the joint, 0 .. N - 1, or its name
+/// @param others  whether the other joints are locked or free
 /// @throws std::invalid_argument as equivalent_inertia, and if the joint moves no mass; the message
-///         names joint and value
+///         names the joint and the value
 /// Real-time: no (set-up).
-template <Robot R>
+template <Robot R, class Joint>
 [[nodiscard]] JointPlant joint_plant(const R& robot, const JointVector<joint_count<R>>& q,
-                                     int joint, OtherJoints others = OtherJoints::locked) {
+                                     const Joint& joint, OtherJoints others = OtherJoints::locked) {
+  const JointProperties& properties =
+      model_of(robot).joints[detail::checked_joint(robot, q, joint)];
   const double inertia = equivalent_inertia(robot, q, joint, others);
-  const JointProperties& properties = model_of(robot).joints[static_cast<std::size_t>(joint)];
   if (!is_finite(inertia) || !(inertia > 0)) {
     detail::refuse({"joint '", properties.name.view(), "': equivalent inertia ", inertia,
                     " is not a finite number > 0"});
   }
   return damped_plant(inertia, properties.damping);
-}
-
-/// @copydoc joint_plant
-template <Robot R>
-[[nodiscard]] JointPlant joint_plant(const R& robot, const JointVector<joint_count<R>>& q,
-                                     std::string_view joint,
-                                     OtherJoints others = OtherJoints::locked) {
-  return joint_plant(robot, q, joint_index(robot, joint), others);
 }
 
 }  // namespace articula

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The frequency response of a PID and a joint.
+/// @file The frequency response of a joint under a PID.
 #pragma once
 
 #include "articula/control/laws/pid_gains.hpp"
@@ -15,19 +15,19 @@
 
 namespace articula {
 
-/// The loop gain of a joint under a PID, around the loop once from error to position:
+/// The loop gain of a joint under a PID, from error to position:
 ///
 ///     L(s) = C(s) P(s) exp(-s delay),   C(s) = p + i/s + d s/(1 + T_f s).
 ///
-/// That is the loop within its clamps; where the reference enters (the weights b and c) and which
-/// derivative is taken make no difference to it. T_f is derivative_filter_time.
+/// It holds within the clamps. It does not depend on the weights of the reference, b and c, nor on
+/// the choice of the derivative. T_f is derivative_filter_time.
 /// Source: [Åström, Murray 2021, sections 10.1 and 11.1].
 class LoopGain {
  public:
   /// @param plant  the joint
   /// @param gains  of the PID; p, i, d >= 0, at least one of them > 0
-  /// @param delay  from measuring to the effort [s], >= 0. An effort that is held for a period
-  ///               comes half a period late on average, and computing it may take time as well.
+  /// @param delay  from measurement to effort [s], >= 0: half a period for an effort that is held for
+  ///               a period, and the time that its computation takes
   /// @throws std::invalid_argument naming the parameter and its value
   /// Real-time: no (set-up).
   LoopGain(const JointPlant& plant, const PidGains& gains, double delay = 0)
@@ -59,8 +59,8 @@ class LoopGain {
            std::hypot(w, plant_.decay_rate()) / std::hypot(1.0, filter_time_ * w);
   }
 
-  /// The phase of L [rad], counted on without jumps from -pi (-3 pi/2 without damping) at frequency
-  /// 0, where there is an integral term. Real-time: no.
+  /// The phase of L [rad], continuous in the frequency. With an integral term it starts at -pi, or at
+  /// -3 pi/2 without damping. Real-time: no.
   /// @param frequency  w [rad/s], > 0
   [[nodiscard]] double phase(double frequency) const {
     const double w = frequency;

@@ -13,11 +13,11 @@
 
 namespace articula {
 
-/// What the loop of a joint and its controller shall be like.
+/// The required crossover and phase margin of a control loop.
 struct LoopTarget {
   double crossover = 0;                        ///< w_c, where |L| = 1 [rad/s], > 0
   double phase_margin = std::numbers::pi / 3;  ///< at w_c [rad], within 0 .. pi
-  double delay = 0;  ///< from measuring to the effort, half a period if it is held [s], >= 0
+  double delay = 0;  ///< from measurement to effort, half a period if it is held [s], >= 0
 };
 
 namespace detail {
@@ -28,10 +28,10 @@ struct ControllerValue {
   double imaginary = 0;  ///< d w_c - i/w_c
 };
 
-/// The value that the controller must have at the crossover frequency. Its phase is what the plant
-/// and the delay leave to do, phase_margin - pi/2 + atan(w_c T) + w_c delay, and its size 1/|P|.
+/// The value of the controller at the crossover frequency: its size is 1/|P|, its phase is
+/// phase_margin - pi/2 + atan(w_c T) + w_c delay.
 /// @param kind       of the controller, for the message
-/// @param low, high  what its phase can be, both excluded [rad]
+/// @param low, high  limits of its phase, both excluded [rad]
 [[nodiscard]] inline ControllerValue controller_at_crossover(const JointPlant& plant,
                                                              const LoopTarget& target,
                                                              std::string_view kind, double low,
@@ -52,8 +52,8 @@ struct ControllerValue {
   const double phase = margin - alone;
   if (!(phase > low && phase < high)) {
     refuse({"loop target: a ", kind, " with its crossover at ", w,
-            " rad/s has a phase margin between ", alone + low, " and ", alone + high,
-            " rad here, not ", margin, " rad"});
+            " rad/s has a phase margin between ", alone + low, " and ", alone + high, " rad, not ",
+            margin, " rad"});
   }
   const double size = plant.inertia * w * std::hypot(w, plant.decay_rate());
   if (!is_finite(size) || !(size > 0)) {
@@ -73,27 +73,26 @@ struct ControllerValue {
 
 }  // namespace detail
 
-/// The gains of a PID for a joint, from two conditions and a third. With phi the phase that the
-/// controller has to have at the crossover frequency w and K the size,
+/// The gains of a PID for a joint. At the crossover frequency w the controller must have the phase
+/// phi and the size K,
 ///
 ///     phi = phase_margin - pi/2 + atan(w T) + w delay,   K = 1/|P(j w)| = I w sqrt(w^2 + 1/T^2),
 ///
-/// the asked crossover and phase margin mean p = K cos phi and d w - i/w = K sin phi. They leave
-/// one gain open; it is fixed by the ratio r of the integral time p/i to the derivative time d/p:
+/// so that p = K cos phi and d w - i/w = K sin phi. The third condition is the ratio r of the integral
+/// time p/i to the derivative time d/p:
 ///
 ///     d/p = x/w,   p/i = r x/w,   x = (tan phi + sqrt(tan^2 phi + 4/r))/2.
 ///
-/// r = 4 gives the controller two equal real zeros and is the ratio of Ziegler and Nichols; a
-/// larger one means less integral and less derivative action, less overshoot and slower correction
-/// of steady errors. With r >= 2 there is no second crossover, and the closed loop is stable.
-/// Source: [Åström, Murray 2021, chapter 12], for any plant; P is put in here.
+/// r = 4 gives the controller two equal real zeros and is the ratio of Ziegler and Nichols. A larger
+/// one gives less integral and derivative action, less overshoot and slower correction of steady
+/// errors. For r >= 2 there is no second crossover, and the closed loop is stable.
+/// Source: [Åström, Murray 2021, chapter 12], for this plant.
 /// @param plant       the joint
-/// @param target      what the loop shall be like
+/// @param target      crossover and phase margin
 /// @param time_ratio  r [1], >= 2
-/// @return            p, i and d; the rest is neutral, so set the integral's clamps to the drive's
-///                    limits
-/// @throws std::invalid_argument naming the parameter, its value and the limit, if one makes no
-///         sense or the phase margin cannot be reached at this crossover frequency
+/// @return            p, i and d; set the clamps of the integral to the drive's limits
+/// @throws std::invalid_argument naming the parameter, its value and the limit, if one is out of range
+///         or this phase margin is impossible at this crossover frequency
 /// Real-time: no (set-up).
 [[nodiscard]] inline PidGains design_pid(const JointPlant& plant, const LoopTarget& target,
                                          double time_ratio = 4) {
@@ -110,9 +109,9 @@ struct ControllerValue {
                                 p * derivative / target.crossover);
 }
 
-/// The gains of a PI: p = K cos phi, i = -w K sin phi with the phi and K of design_pid. An integral
-/// term only takes phase away, -pi/2 < phi < 0, so the phase margin is less than that of a
-/// proportional gain alone. The closed loop is stable.
+/// The gains of a PI: p = K cos phi, i = -w K sin phi with phi and K of design_pid. An integral term
+/// reduces the phase, -pi/2 < phi < 0, so the phase margin is less than that of a proportional gain
+/// alone. The closed loop is stable.
 /// @throws std::invalid_argument as design_pid
 /// Real-time: no (set-up).
 [[nodiscard]] inline PidGains design_pi(const JointPlant& plant, const LoopTarget& target) {
@@ -121,9 +120,9 @@ struct ControllerValue {
   return detail::designed_gains(p, -rest * target.crossover, 0);
 }
 
-/// The gains of a PD: p = K cos phi, d = K sin phi/w with the phi and K of design_pid. A derivative
-/// term only adds phase, 0 < phi < pi/2, so the phase margin is more than that of a proportional
-/// gain alone. The closed loop is stable.
+/// The gains of a PD: p = K cos phi, d = K sin phi/w with phi and K of design_pid. A derivative term
+/// adds phase, 0 < phi < pi/2, so the phase margin exceeds that of a proportional gain alone. The
+/// closed loop is stable.
 /// @throws std::invalid_argument as design_pid
 /// Real-time: no (set-up).
 [[nodiscard]] inline PidGains design_pd(const JointPlant& plant, const LoopTarget& target) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Polynomials as far as frequency responses need them.
+/// @file Polynomials and their positive roots, for frequency responses.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -49,11 +49,12 @@ struct Polynomial {
 
 /// @throws std::invalid_argument unless x is finite
 inline void require_moderate(const double& x) {
-  if (!is_finite(x)) refuse({"the figures of the control loop are too large or too small"});
+  if (!is_finite(x))
+    refuse({"the gains, plant or delay of the control loop are too large or too small"});
 }
 
-/// Where between two points a function has changed its sign, to the last bit.
-/// @param is_first  tells whether x is on the side of `low`
+/// The point between two others at which a predicate changes, to the last bit.
+/// @param is_first  whether x is on the side of `low`
 template <class IsFirst>
 [[nodiscard]] double bisect(double low, double high, const IsFirst& is_first) {
   while (true) {
@@ -63,8 +64,8 @@ template <class IsFirst>
   }
 }
 
-/// The positive numbers at which a polynomial changes its sign, in ascending order. Between two
-/// such numbers of its derivative it is monotone and has at most one, which is found by bisection.
+/// The positive numbers at which a polynomial changes its sign, in ascending order. Between two such
+/// numbers of its derivative it is monotone, so bisection finds the one that may be there.
 /// @throws std::invalid_argument if a coefficient or a root has overflowed
 [[nodiscard]] inline std::vector<double> positive_roots(Polynomial p) {
   std::vector<double>& c = p.coefficients;
@@ -76,17 +77,17 @@ template <class IsFirst>
   const auto is_positive = [&](double x) { return p(x) > 0; };
   std::vector<double> roots;
   double low = 0;
-  const auto look_until = [&](double high) {
+  const auto search_until = [&](double high) {
     const bool before = is_positive(low);
     if (before != is_positive(high)) {
       roots.push_back(bisect(low, high, [&](double x) { return is_positive(x) == before; }));
     }
     low = high;
   };
-  for (const double turn : positive_roots(p.derivative())) look_until(turn);
+  for (const double turn : positive_roots(p.derivative())) search_until(turn);
   double high = std::max(1.0, 2 * low);
   while (is_positive(high) != (c.back() > 0)) require_moderate(high *= 2);
-  look_until(high);
+  search_until(high);
   return roots;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A joint under a law that is computed once in every period.
+/// @file The stability of a joint under a law that is computed once per period.
 #pragma once
 
 #include "articula/control/laws/sampled_feedback.hpp"
 #include "articula/core/finite.hpp"
-#include "articula/tuning/joint_plant.hpp"
+#include "articula/tuning/held_effort.hpp"
 
 #include <Eigen/Core>
 #include <cmath>
@@ -12,32 +12,24 @@
 
 namespace articula {
 
-/// The spectral radius of a joint under a law that is computed at the beginning of each period dt,
-/// and whose output u is held for the length of it. The joint, I q'' + D q' = u, goes exactly, with
-/// x = dt/T = dt D/I, as
-///
-///     q <- q + f1 dt v + f2 dt^2/I u     f1 = (1 - exp(-x))/x,   1   for x = 0
-///     v <- exp(-x) v + f1 dt/I u         f2 = (1 - f1)/x,        1/2 for x = 0
-///
-/// and the law, for y = q or v, as JointPid does with a reference of 0. Together they multiply the
-/// state (q, v, D, y_last, I) by one matrix A per period. Its spectral radius r is the limit of
-/// |A^n|^(1/n), taken here by squaring A 40 times: deviations from the reference grow as r^n.
-/// Source: [Åström, Wittenmark 1997, sections 2.3 and 3.2].
+/// The spectral radius of a joint under a law that is computed at the beginning of each period dt and
+/// whose output is held until its end. The joint moves as in detail::HeldEffort, the law for y = q or
+/// v as JointPid does with a reference of 0. Together they multiply the state (q, v, D, y_last, I) by
+/// one matrix A per period. Its spectral radius r is the limit of |A^n|^(1/n), taken here by squaring
+/// A 40 times: deviations from the reference grow as r^n.
+/// Source: [Åström, Wittenmark 1997, section 3.2].
 /// @param plant     I and T
 /// @param feedback  the law
 /// @param period    dt > 0 [s]
-/// @return          r; above 1 the joint never comes to rest, below 1 it does. 1: nothing holds its
-///                  position. Infinity: beyond numbers
+/// @return          r; below 1 the joint comes to rest, above 1 it does not, at 1 nothing holds its
+///                  position. Infinity on overflow.
 /// Real-time: no (set-up).
 [[nodiscard]] inline double spectral_radius(const JointPlant& plant,
                                             const SampledFeedback& feedback, double period) {
   using Row = Eigen::Matrix<double, 1, 5>;
   enum { position, velocity, rate, last, sum };
   // The unit of time is dt and that of the output is I/dt^2.
-  const double x = period * plant.decay_rate();
-  const double f1 = x > 0 ? -std::expm1(-x) / x : 1;
-  // Below 1e-3 the difference has lost 1e-10, and what the series leaves out is less.
-  const double f2 = x > 1e-3 ? (1 - f1) / x : 1.0 / 2 - x / 6 + x * x / 24;
+  const detail::HeldEffort held(plant, period);
   const double unit = (feedback.of_velocity ? period : period * period) / plant.inertia;
   const double p = feedback.proportional * unit, d = feedback.derivative / period * unit;
   const double i = feedback.integral * period * unit;
@@ -53,11 +45,11 @@ namespace articula {
   const Row output = -p * y + used + d * filtered;
 
   Eigen::Matrix<double, 5, 5> power;
-  // A law of the velocity does not know where the joint is.
+  // A law of the velocity does not depend on the position.
   power.row(position) = feedback.of_velocity
                             ? Row(Row::Zero())
-                            : Row(only(position) + f1 * only(velocity) + f2 * output);
-  power.row(velocity) = std::exp(-x) * only(velocity) + f1 * output;
+                            : Row(only(position) + held.f1 * only(velocity) + held.f2 * output);
+  power.row(velocity) = held.decay * only(velocity) + held.f1 * output;
   power.row(rate) = filtered;
   power.row(last) = y;
   power.row(sum) = integral;

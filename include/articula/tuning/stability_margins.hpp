@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How far a control loop is from instability.
+/// @file Gain, phase and delay margins of a control loop.
 #pragma once
 
 #include "articula/tuning/loop_gain.hpp"
@@ -17,34 +17,33 @@ namespace articula {
 /// A frequency at which |L| = 1.
 struct Crossover {
   double frequency = 0;     ///< w [rad/s]
-  double phase_margin = 0;  ///< pi + phase of L(j w) [rad]; not above 0: past the point -1
+  double phase_margin = 0;  ///< pi + phase of L(j w) [rad]
 };
 
-/// How far a control loop is from instability. What is not limited is infinite.
+/// The margins of a control loop. A margin without limit is infinite.
 struct StabilityMargins {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   bool stable = false;                ///< the closed loop is asymptotically stable
-  std::vector<Crossover> crossovers;  ///< all of them, in ascending order
-  double phase_margin = infinity;     ///< the smallest of them [rad]
-  /// The loop stays stable while all gains are multiplied by a factor between these two [1]. An
-  /// unstable loop has 1 and 1.
+  std::vector<Crossover> crossovers;  ///< all, in ascending order
+  double phase_margin = infinity;     ///< that of the crossover with the smallest [rad]
+  /// A stable loop stays stable if all gains are multiplied by a factor between these two [1].
   double gain_margin = 1, gain_reduction_margin = 1;
-  /// The loop stays stable while less than this is added to its delay [s]. Unstable: 0.
+  /// A stable loop stays stable if less than this is added to its delay [s]. Unstable: 0.
   double delay_margin = 0;
 };
 
 namespace detail {
 
-/// A loop gain in units of time and gain that bring its crossovers near 1, so that polynomials of
-/// it neither overflow nor lose what is small.
+/// A loop gain in units in which its crossovers are near 1, so that its polynomials neither overflow
+/// nor underflow.
 class ScaledLoop {
  public:
   explicit ScaledLoop(const LoopGain& loop) {
     const double inertia = loop.plant().inertia, rate = loop.plant().decay_rate();
     const auto& n = loop.numerator();
     const double g0 = n[0] / inertia, g1 = n[1] / inertia, g2 = n[2] / inertia;
-    // Where |L| = 1 if one term of C had to do it alone, against the inertia or against damping.
+    // The frequency at which |L| = 1 for one term of C alone, with the inertia or the damping alone.
     unit_ = std::max({g2, std::sqrt(g1), std::cbrt(g0)});
     if (rate > unit_) unit_ = std::max(g1 / rate, std::sqrt(g0 / rate));
     if (!(unit_ > 0)) unit_ = rate;  // a derivative alone
@@ -69,9 +68,8 @@ class ScaledLoop {
     return positive_roots(x_ * x_ * a_ * b_ - n_);
   }
 
-  /// Refuses loops whose figures are so far apart that their products have lost something: |L| is
-  /// 1 at crossovers, and it crosses 1 an odd number of times on its way from infinity to 0.
-  /// @throws std::invalid_argument if that is not so
+  /// Checks the crossovers: |L| is 1 there, and their number is odd if |L| falls from infinity to 0.
+  /// @throws std::invalid_argument if not, because the gains are too far apart for the precision
   void require_found(const LoopGain& loop, const std::vector<double>& squares) const {
     const auto& n = loop.numerator();
     bool good = squares.size() % 2 == 1 || (n[0] == 0 && n[1] == 0);
@@ -81,8 +79,8 @@ class ScaledLoop {
     require_moderate(good ? 0 : StabilityMargins::infinity);
   }
 
-  /// The squares of the frequencies at which |L| or the phase turns. Between two of them both are
-  /// monotone.
+  /// The squares of the frequencies at which |L| or the phase has an extremum. Between two of them
+  /// both are monotone.
   [[nodiscard]] std::vector<double> turns() const {
     // |L|^2 = n / m
     const Polynomial m = x_ * x_ * a_ * b_;
@@ -95,9 +93,8 @@ class ScaledLoop {
     return all;
   }
 
-  /// Whether the closed loop is stable if there is no delay: the conditions of Hurwitz on
-  /// s^2 (s + rate) (1 + filter s) + n0 + n1 s + n2 s^2, without the factor s that it has if there
-  /// is no integral term.
+  /// Whether the closed loop without delay is stable: the conditions of Hurwitz for
+  /// s^2 (s + rate) (1 + filter s) + n0 + n1 s + n2 s^2, divided by s if there is no integral term.
   [[nodiscard]] bool stable_without_delay() const {
     std::vector<double> c{n0_, n1_, rate_ + n2_, 1 + rate_ * filter_, filter_};
     if (n0_ == 0) c.erase(c.begin());
@@ -108,7 +105,7 @@ class ScaledLoop {
     return c.size() == 4 ? minor > 0 : c[3] * minor > c[4] * c[1] * c[1];
   }
 
-  /// The phase of L at frequency infinity, if there is no delay.
+  /// The phase of L at frequency infinity without delay [rad].
   [[nodiscard]] double last_phase() const {
     constexpr double quarter = std::numbers::pi / 2;
     const double lead = n2_ > 0 ? 2 * quarter : n1_ > 0 ? quarter : 0;
@@ -120,8 +117,8 @@ class ScaledLoop {
   Polynomial n_, a_, b_, x_{{0, 1}};
 };
 
-/// The frequencies between two others, between which the phase is monotone, at which the phase is
-/// an odd multiple of pi: the first and the last of them. `high` may be infinite.
+/// The first and the last frequency within an interval at which the phase is an odd multiple of pi.
+/// @param low, high  the interval, in which the phase is monotone; `high` may be infinite
 [[nodiscard]] inline std::vector<double> phase_crossings(const LoopGain& loop,
                                                          const ScaledLoop& scaled, double low,
                                                          double high) {
@@ -148,21 +145,22 @@ class ScaledLoop {
 
 }  // namespace detail
 
-/// The margins of a loop, exactly: crossovers are roots of a polynomial in w^2, found by bisection;
-/// between them and the frequencies at which |L| or its phase turns back, the phase crosses odd
-/// multiples of pi at most where bisection finds it.
+/// The margins of a loop, without a grid of frequencies. Crossovers are roots of a polynomial in w^2.
+/// Between these and the extrema of |L| and of the phase, bisection finds each frequency at which the
+/// phase is an odd multiple of pi.
 ///
-/// A loop with delay counts as stable if it would be stable without and its delay is less than the
-/// first that makes it unstable. (That a longer delay makes it stable again can only be where
-/// there are three crossovers.) A phase margin below 1e-9 rad counts as none.
+/// A loop with delay counts as stable if it is stable without delay and its delay is less than the
+/// first that makes it unstable. Longer delays can make a loop with three crossovers stable again;
+/// such a loop counts as unstable. A phase margin below 1e-9 rad, the precision of the phase at a
+/// crossover, counts as 0.
 /// Source: [Åström, Murray 2021, section 10.3].
 /// @param loop  joint, gains and delay
-/// @throws std::invalid_argument if the figures are so large or small that their products overflow
+/// @throws std::invalid_argument if products of gains, inertia and delay overflow or underflow
 /// Real-time: no (set-up; allocates).
 [[nodiscard]] inline StabilityMargins stability_margins(const LoopGain& loop) {
   const detail::ScaledLoop scaled(loop);
   StabilityMargins margins;
-  double longest = StabilityMargins::infinity;  // delay with which the loop is still stable
+  double longest = StabilityMargins::infinity;  // delay at the limit of stability
   const std::vector<double> crossovers = scaled.crossovers();
   scaled.require_found(loop, crossovers);
   for (const double x : crossovers) {
@@ -200,7 +198,7 @@ class ScaledLoop {
 /// The margins of a joint under a PID.
 /// @param plant  the joint
 /// @param gains  of the PID; p, i, d >= 0, at least one of them > 0
-/// @param delay  from measuring to the effort [s], >= 0; half a period for an effort that is held
+/// @param delay  from measurement to effort [s], >= 0; half a period for an effort that is held
 /// @throws std::invalid_argument naming the parameter and its value
 /// Real-time: no (set-up; allocates).
 [[nodiscard]] inline StabilityMargins stability_margins(const JointPlant& plant,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What engineers say of a step response: rise time, overshoot, settling time, what remains.
+/// @file Metrics of a step response: rise time, overshoot, settling time, steady error.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -12,36 +12,35 @@
 
 namespace articula {
 
-/// Follows one joint from `start` to `target` and measures how it gets there:
+/// Measures the motion of one joint from `start` to `target`:
 ///
 ///     StepMetrics metrics(0, 0.5);
 ///     while (...) metrics.add(loop.time(), loop.state().position[0]);
 ///     if (metrics.overshoot() > 0.1) ...
 ///
-/// A metric is empty where it is undefined: all of them if there is no step, no sample, or a sample
-/// that is not finite or earlier than the one before. Between two samples the response is taken as
-/// a straight line.
+/// An undefined metric is empty. All are undefined without a step, without a sample, or after a sample
+/// that is not finite or earlier than the one before. Between samples the response is interpolated
+/// linearly.
 class StepMetrics {
  public:
   /// @param start   position before the step [rad or m]
-  /// @param target  position asked for from the first sample on [rad or m]
-  /// @param band    of the settling time, a share of the step in either direction [1], within 0 ..
-  ///                1
+  /// @param target  reference from the first sample on [rad or m]
+  /// @param band    of the settling time, a share of the step in either direction [1], > 0, < 1
   /// @throws std::invalid_argument naming the parameter and its value, if one is not finite, the
-  ///         step overflows, or the band is not between 0 and 1
+  ///         step overflows, or the band is out of range
   /// Real-time: no (throws).
   StepMetrics(double start, double target, double band = 0.02)
       : start_(start), height_(target - start), band_(band) {
     if (!is_finite(height_)) {
-      detail::refuse({"step metrics: from ", start, " to ", target, " is not a finite step"});
+      detail::refuse({"step metrics: from ", start, " to ", target, " is no finite step"});
     }
     if (!(band > 0 && band < 1)) {
-      detail::refuse({"step metrics: band ", band, " is not within 0 .. 1"});
+      detail::refuse({"step metrics: band ", band, " is not between 0 and 1"});
     }
   }
 
-  /// The next sample; the first one is taken at the moment of the step.
-  /// @param time      [s], growing from sample to sample
+  /// Adds a sample. The first one is at the time of the step.
+  /// @param time      [s], not less than that of the sample before
   /// @param position  [rad or m]
   /// Real-time: yes.
   void add(double time, double position) noexcept {
@@ -67,34 +66,33 @@ class StepMetrics {
     last_ = now;
   }
 
-  /// Time from first reaching 10 % of the step to first reaching 90 % [s]. Empty: never there.
+  /// Time from first reaching 10 % of the step to first reaching 90 % [s]. Empty: 90 % not reached.
   [[nodiscard]] std::optional<double> rise_time() const noexcept {
     return defined(high_time_ - low_time_, arrived());
   }
 
-  /// How far it went beyond the target at most, as a share of the step. Empty: never reached 90 %,
-  /// where an overshoot of 0 would praise a joint that does not move.
+  /// The largest distance beyond the target, as a share of the step. Empty: 90 % not reached.
   [[nodiscard]] std::optional<double> overshoot() const noexcept {
     return defined(std::max(0.0, highest_ - 1), arrived());
   }
 
-  /// The furthest position on the way of the step and beyond [rad or m].
+  /// The position farthest in the direction of the step [rad or m].
   [[nodiscard]] std::optional<double> peak() const noexcept {
     return defined(start_ + height_ * highest_, begun());
   }
 
-  /// When it was there first, counted from the step [s].
+  /// Time from the step to the peak [s].
   [[nodiscard]] std::optional<double> peak_time() const noexcept {
     return defined(highest_time_ - step_time_, highest_ > 0);
   }
 
-  /// Time from the step until the position stays within the band around the target [s]. Empty: it
-  /// is not there at the last sample.
+  /// Time from the step until the position stays within the band around the target [s]. Empty: the
+  /// last sample is outside.
   [[nodiscard]] std::optional<double> settling_time() const noexcept {
     return defined(settled_time_ - step_time_, settled_time_ != never);
   }
 
-  /// What remains of the step at the last sample, target minus position [rad or m].
+  /// Target minus position at the last sample [rad or m].
   [[nodiscard]] std::optional<double> steady_error() const noexcept {
     return defined(height_ * (1 - last_.share), begun());
   }
@@ -108,7 +106,7 @@ class StepMetrics {
     double share;  ///< of the step: 0 at its start, 1 at its target
   };
 
-  /// When the straight line from a to b reaches a level that lies between them.
+  /// The time at which the straight line from a to b reaches a level between them.
   [[nodiscard]] static double crossing(const Sample& a, const Sample& b, double level) noexcept {
     if (a.share == b.share) return b.time;
     return std::lerp(a.time, b.time, (level - a.share) / (b.share - a.share));

@@ -4,10 +4,10 @@
 #pragma once
 
 #include "articula/model/joint.hpp"
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/notices.hpp"
 #include "articula/urdf/xml/document.hpp"
 #include "articula/urdf/xml/error.hpp"
-#include "articula/urdf/xml/numbers.hpp"
 
 #include <string>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/model/validation.hpp"
-#include "articula/urdf/xml/numbers.hpp"
+#include "articula/text/numbers.hpp"
 
 #include <Eigen/Eigenvalues>
 

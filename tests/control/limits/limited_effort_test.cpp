@@ -412,7 +412,7 @@ TEST_CASE("efforts of a joint with position limits need to know how it brakes") 
   CHECK_THROWS_WITH(LimitedPid<Q2d>(command_limits(Q2d())),
                     Catch::Matchers::Contains("'shoulder_active_joint'") &&
                         Catch::Matchers::Contains("positions are limited (-1.5708 .. 1.5708)") &&
-                        Catch::Matchers::Contains("give CommandLimits::acceleration"));
+                        Catch::Matchers::Contains("set CommandLimits::acceleration"));
   CommandLimits<2> limits = command_limits(Q2d());
   limits.acceleration[0] = 20;
   CHECK_THROWS_WITH(LimitedPid<Q2d>(limits), Catch::Matchers::Contains("'elbow_active_joint'"));

@@ -349,13 +349,13 @@ TEST_CASE("SYNC may have a counter, and no more than that") {
   sync.length = 1;
   sync.data[0] = 200;
   CHECK(codec.decode(sync) == CanDecoding::accepted);
-  CHECK(codec.heard_cycles() == 2);
+  CHECK(codec.begun_cycles() == 2);
   sync.length = 2;
   CHECK(codec.decode(sync) == CanDecoding::malformed);
   sync.length = 0;
   sync.extended = true;
   CHECK(codec.decode(sync) == CanDecoding::foreign);
-  CHECK(codec.heard_cycles() == 2);
+  CHECK(codec.begun_cycles() == 2);
   const CanSubscription subscription = codec.subscription();
   CHECK(std::count(subscription.identifiers.begin(), subscription.identifiers.end(), 0x080U) == 1);
   CHECK(subscription.last_of_cycle == 0x206);

@@ -83,5 +83,5 @@ TEST_CASE("a robot on the smallest bus is never ready") {
   JointState<2> state;
   CHECK(arm.activate() == Status::ok);
   CHECK(arm.read(state) == Status::hardware_fault);
-  CHECK(arm.fault().cause == CanCause::drive_let_go);
+  CHECK(arm.fault().cause == CanCause::drive_disabled);
 }

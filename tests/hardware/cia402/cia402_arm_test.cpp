@@ -276,7 +276,8 @@ TEST_CASE("a node that is no CiA 402 drive, or refuses, is named") {
   Arm arm = make_arm(bus);
   CHECK(arm.activate() == Status::hardware_fault);
   CHECK(arm.fault().cause == CanCause::no_activation);
-  CHECK(arm.codec().set_up_of(1).object() == canopen::ObjectAddress{0x1000, 0});
+  CHECK(arm.fault().joint == 1);
+  CHECK(arm.fault().object == canopen::ObjectAddress{0x1000, 0});
   CHECK_FALSE(bus->drives.enabled(0));
 
   bus->on_feedback = [](CanFrame& frame) {
@@ -287,7 +288,8 @@ TEST_CASE("a node that is no CiA 402 drive, or refuses, is named") {
     return true;
   };
   CHECK(arm.activate() == Status::hardware_fault);
-  CHECK(arm.codec().set_up_of(0).abort_code() == 0x0609'0030);
+  CHECK(arm.fault().joint == 0);
+  CHECK(arm.fault().abort_code == 0x0609'0030);
 }
 
 TEST_CASE("a drive's fault has the code of its emergency message") {
@@ -310,7 +312,7 @@ TEST_CASE("a node that restarts is found by its boot-up message, and does not mo
   bench.bus->drives.restart(1);
   bench.cycles(2);
   CHECK(bench.reading == Status::hardware_fault);
-  CHECK(bench.arm.fault().cause == CanCause::drive_let_go);
+  CHECK(bench.arm.fault().cause == CanCause::drive_disabled);
   CHECK(bench.arm.fault().joint == 1);
   bench.cycles(2);
   CHECK(bench.bus->drives.effort() == JointVector<2>(0, 0));
@@ -380,7 +382,7 @@ TEST_CASE("drives without power get no further requests") {
                             answers);
   bench.cycles(100);
   REQUIRE(bench.reading == Status::hardware_fault);
-  REQUIRE(bench.arm.codec().let_go());
+  REQUIRE(bench.arm.codec().all_off());
   bench.bus->to_drives.clear();
   bench.cycles(1000);
   for (const CanFrame& frame : bench.bus->to_drives) {

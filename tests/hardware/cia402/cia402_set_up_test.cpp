@@ -284,7 +284,7 @@ TEST_CASE("a drive that does not follow its target any more has let go") {
     return true;
   };
   CHECK_FALSE(bench.cycles(3, {{3, 3}}));
-  CHECK(bench.arm.fault().cause == CanCause::drive_let_go);
+  CHECK(bench.arm.fault().cause == CanCause::drive_disabled);
   CHECK(bench.arm.fault().joint == 1);
   bench.bus->on_feedback = [](CanFrame&) { return true; };
 }
@@ -303,8 +303,8 @@ TEST_CASE("a counter of SYNC that is expected is cleared, and the period stays")
 }
 
 TEST_CASE("what is read need not tell its size") {
-  check_drives({.tells_size = false});
-  check_drives<PositionCommand<2>>({.tells_size = false});
+  check_drives({.indicates_size = false});
+  check_drives<PositionCommand<2>>({.indicates_size = false});
 }
 
 TEST_CASE("drives that take seconds to boot and to switch on are waited for") {

@@ -397,7 +397,7 @@ TEST_CASE("a drive that restarts does not move until activation") {
   bench.bus->drives.restart(1);
   bench.cycles(5);
   CHECK(bench.reading == Status::hardware_fault);
-  CHECK(bench.arm.fault().cause == CanCause::drive_let_go);
+  CHECK(bench.arm.fault().cause == CanCause::drive_disabled);
   CHECK(bench.arm.fault().joint == 1);
   CHECK(bench.bus->drives.effort() == JointVector<2>(0, 0));
   CHECK(bench.arm.activate() == Status::ok);

@@ -233,7 +233,7 @@ TEST_CASE("every joint and actuator is there once, or it is named") {
   Simple wrong = elbow_gear;
   wrong.actuators = {shoulder};
   CHECK_THAT(refusal(shoulder_gear, wrong),
-             Contains("actuator 'shoulder_active_joint' is there twice"));
+             Contains("actuator 'shoulder_active_joint' occurs twice"));
   wrong.actuators = {"motor"};
   CHECK_THAT(refusal(shoulder_gear, wrong),
              Contains("'motor' is to be an actuator, which is a joint of the hardware below"));

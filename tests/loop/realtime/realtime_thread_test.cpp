@@ -69,7 +69,7 @@ TEST_CASE("a refusal is a warning, or an error for those who ask") {
   CHECK(warnings[0].find("processors") != std::string::npos);
 }
 
-TEST_CASE("what a loop has to say before it runs is a warning") {
+TEST_CASE("notices of a loop are warnings before it runs") {
   JointPidGains<2> gains = Q2d::pid_gains;
   gains[1].derivative = 1e5;
   Loop<Q2dSim, Pid> loop{Pid<Q2d>(gains)};
@@ -83,7 +83,8 @@ TEST_CASE("what a loop has to say before it runs is a warning") {
   on_thread([&] { CHECK(run(loop, options).cycles == 1); });
   on_thread([&] { CHECK(run(supervised, options).cycles == 1); });
   REQUIRE(warnings.size() == 2);
-  CHECK(warnings[0].find("joint 'elbow_active_joint': the gains ") != std::string::npos);
+  CHECK(warnings[0].find("joint 'elbow_active_joint' is unstable with the gains ") !=
+        std::string::npos);
   CHECK(warnings[1] == warnings[0]);
 }
 

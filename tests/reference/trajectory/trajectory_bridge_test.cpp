@@ -144,7 +144,7 @@ TEST_CASE("a way that swings out of the joint's limits is refused, with the figu
   const Points back({{.time_from_start = 1, .position = {1, 0}, .velocity = zero}});
   JointReference<2> from{{1.5, 0}, {1.5, 0}};
   CHECK_FALSE(find_bridge(from, back, 0, limits, range, refusal));
-  CHECK_THAT(to_string(Q2d(), refusal), Contains("on the way to the last point the position") &&
+  CHECK_THAT(to_string(Q2d(), refusal), Contains("before the last point the position") &&
                                             Contains("'shoulder_active_joint'") &&
                                             Contains("above its limit 1.5708"));
   const Points forth({{.time_from_start = 1, .position = {-1, 0}, .velocity = zero}});

@@ -459,7 +459,7 @@ TEST_CASE("a refusal says which figure of which joint breaks which rule") {
   const Points near({{.time_from_start = 0.1, .position = {0, 0.9}}});
   CHECK(follower.start(near) == invalid_goal);
   CHECK(why() ==
-        "on the way to the last point the mean velocity 10 of joint 'shoulder_active_joint' is "
+        "before the last point the mean velocity 10 of joint 'shoulder_active_joint' is "
         "above its limit 2");
 
   // In motion there is a trajectory that the mean velocity lets through, but not the acceleration.
@@ -468,7 +468,7 @@ TEST_CASE("a refusal says which figure of which joint breaks which rule") {
   const Points back({{.time_from_start = 0.2, .position = {-0.5, 1}}});
   CHECK(follower.start(back) == invalid_goal);
   CHECK(follower.refusal().joint == 0);
-  CHECK_THAT(why(), Contains("on the way to the last point") && Contains("is above its limit"));
+  CHECK_THAT(why(), Contains("before the last point") && Contains("is above its limit"));
   CHECK(follower.refusal().value > follower.refusal().limit);
   follower.cancel();
   CHECK(!why().empty());  // until the next start
@@ -515,7 +515,7 @@ TEST_CASE("tolerances of a goal override those that are set, as in ROS") {
   CHECK(t.path_position == Vector(1, 0));
   CHECK(t.goal_position == Vector(4, 0));
   CHECK(t.goal_time == 3);
-  CHECK(!is_valid(overridden(set, {.path_position = {-2, 0}})));
+  CHECK(refusal_of(overridden(set, {.path_position = {-2, 0}})).what == "path_position");
 }
 
 TEST_CASE("a last point that moves is followed by a stop") {

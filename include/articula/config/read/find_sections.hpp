@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which parameters each controller of a configuration file has, wildcards included.
+/// @file The parameters of each controller in a configuration file, sections with wildcards included.
 #pragma once
 
 #include "articula/config/read/section.hpp"
@@ -8,6 +8,7 @@
 #include "articula/config/yaml/document.hpp"
 #include "articula/config/yaml/merge.hpp"
 #include "articula/config/yaml/source.hpp"
+#include "articula/text/file_error.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,18 +19,18 @@
 
 namespace articula::detail {
 
-/// Puts the parameters of controllers together as ROS 2 does: each section whose name covers a
-/// controller's counts, in the order of the file, and of two values the later one.
+/// Combines the parameters of controllers as ROS 2 does: all sections whose names match count, in
+/// the order of the file, and of two values of a key the later one.
 class SectionFinder {
  public:
-  /// @param wanted  a controller that may be there by a wildcard alone; empty: none
+  /// @param wanted  a controller for which wildcards alone may match; empty: none
   SectionFinder(const ConfigSource& source, std::string_view wanted)
       : found_{.file = source.name()} {
     const ConfigNode root = read_document(source);
     written_ = SectionSearch(root, found_.file, found_.notes).take();
-    used_.resize(written_.size(), false);
+    is_used_.resize(written_.size(), false);
     name_controllers(SectionName(wanted));
-    for (const Controller& controller : controllers_) apply(controller);
+    for (const Controller& controller : controllers_) combine(controller);
     note_unused();
     find_types();
   }
@@ -37,39 +38,37 @@ class SectionFinder {
   [[nodiscard]] ConfigSections take() { return std::move(found_); }
 
  private:
-  /// A controller that there is.
   struct Controller {
     SectionName name;
-    std::size_t own;  ///< index of the section that is its own; their number: none
+    std::size_t own;  ///< index of its own section; the number of sections: it has none
   };
 
-  [[nodiscard]] bool has_controller(const SectionName& pattern) const {
-    return std::any_of(controllers_.begin(), controllers_.end(),
-                       [&](const Controller& each) { return pattern.covers(each.name); });
-  }
-
+  /// Lists the controllers: first those with sections of their own, then those that wildcards alone
+  /// match.
   void name_controllers(const SectionName& wanted) {
     for (std::size_t k = 0; k < written_.size(); ++k) {
       if (!written_[k].name.has_wildcard()) controllers_.push_back({written_[k].name, k});
     }
-    // /**/arm is the section of any arm: of the one that is asked for, or of some one. Those for
-    // one namespace each go first, since /**/arm then means them as well.
     const bool is_known =
         std::any_of(controllers_.begin(), controllers_.end(), [&](const Controller& each) {
           return each.name == wanted || (wanted.depth() == 1 && each.name.last() == wanted.last());
         });
+    // /**/arm is the section of the wanted controller, or else of an unnamed one.
     for (std::size_t k = 0; k < written_.size() && !is_known && wanted.depth() > 0; ++k) {
-      const SectionName& name = written_[k].name;
-      if (name.last().empty() || !name.has_wildcard() || !name.covers(wanted)) continue;
+      if (written_[k].name.last().empty() || !written_[k].name.matches(wanted)) continue;
       controllers_.push_back({wanted, k});
       break;
     }
+    // Sections of one namespace come first, since /**/arm matches them, too.
     for (const bool any_depth : {false, true}) {
       for (std::size_t k = 0; k < written_.size(); ++k) {
         const SectionName& name = written_[k].name;
-        if (!name.has_wildcard() || name.last().empty()) continue;
-        if (name.has_double_wildcard() != any_depth || has_controller(name)) continue;
-        controllers_.push_back({name.example(), k});
+        const bool is_candidate =
+            name.has_wildcard() && !name.last().empty() && name.has_double_wildcard() == any_depth;
+        const bool has_match =
+            std::any_of(controllers_.begin(), controllers_.end(),
+                        [&](const Controller& each) { return name.matches(each.name); });
+        if (is_candidate && !has_match) controllers_.push_back({name.example(), k});
       }
     }
     if (std::all_of(controllers_.begin(), controllers_.end(), [](const Controller& each) {
@@ -78,7 +77,7 @@ class SectionFinder {
       name_listed_controllers();
     }
     if (!controllers_.empty() || written_.empty()) return;
-    // Nothing but wildcards: parameters of anybody, of the namespace that is the longest.
+    // There are only wildcards: the parameters are those of the longest namespace.
     const auto deepest = std::max_element(
         written_.begin(), written_.end(),
         [](const auto& a, const auto& b) { return a.name.depth() < b.name.depth(); });
@@ -86,7 +85,7 @@ class SectionFinder {
         {deepest->name.example(), static_cast<std::size_t>(deepest - written_.begin())});
   }
 
-  /// Controllers of the controller manager that have no section but those with wildcards.
+  /// Adds controllers that the controller manager lists and that only wildcards match.
   void name_listed_controllers() {
     const std::vector<Controller> managers = controllers_;
     for (const Controller& manager : managers) {
@@ -94,15 +93,17 @@ class SectionFinder {
         const ConfigNode* type = item.find("type");
         if (type == nullptr || type->text.ends_with("Broadcaster")) continue;
         const SectionName name = SectionName(manager.name.group()) / SectionName(item.key);
-        const bool covered = std::any_of(written_.begin(), written_.end(), [&](const auto& each) {
-          return each.name.has_wildcard() && each.name.covers(name);
-        });
-        if (covered) controllers_.push_back({name, written_.size()});
+        if (std::any_of(written_.begin(), written_.end(),
+                        [&](const auto& each) { return each.name.matches(name); })) {
+          controllers_.push_back({name, written_.size()});
+        }
       }
     }
   }
 
-  void apply(const Controller& controller) {
+  /// Combines the sections of a controller. Values of its own section replace those of earlier
+  /// sections. Values of later sections replace its own.
+  void combine(const Controller& controller) {
     const bool has_own = controller.own < written_.size();
     ConfigSection section{.name = controller.name.last(), .group = controller.name.group()};
     section.parameters.kind = ConfigNode::Kind::map;
@@ -111,46 +112,35 @@ class SectionFinder {
       section.path = own.path;
       section.parameters = own.parameters;
       section.fault = own.fault;
-      used_[controller.own] = true;
+      is_used_[controller.own] = true;
     }
-    // What comes later is stronger, what comes earlier weaker, the nearer the stronger.
     const std::size_t own = has_own ? controller.own : 0;
-    for (std::size_t k = own + (has_own ? 1 : 0); k < written_.size(); ++k) {
-      if (covers(k, controller)) replace(section, written_[k]);
+    for (std::size_t k = has_own ? own + 1 : 0; k < written_.size(); ++k) {
+      if (!applies(k, controller)) continue;
+      const ConfigNode parameters = inherited(written_[k]);
+      if (section.path.empty()) {  // it has no section of its own
+        section.path = written_[k].path;
+        section.parameters.mark = parameters.mark;
+        section.parameters.key_mark = parameters.key_mark;
+      }
+      replace_entries(section.parameters, parameters, found_.file, section.path, section.notes);
     }
     for (std::size_t k = own; k-- > 0;) {
-      if (covers(k, controller)) add_missing(section.parameters, inherited(written_[k]));
+      if (applies(k, controller)) add_missing(section.parameters, inherited(written_[k]));
     }
     found_.sections.push_back(std::move(section));
   }
-  [[nodiscard]] bool covers(std::size_t k, const Controller& controller) {
-    const bool does = written_[k].name.has_wildcard() && written_[k].name.covers(controller.name);
-    used_[k] = used_[k] || does;
-    return does && !written_[k].fault;
+  [[nodiscard]] bool applies(std::size_t k, const Controller& controller) {
+    const bool matches = written_[k].name.matches(controller.name);
+    is_used_[k] = is_used_[k] || matches;
+    return matches && !written_[k].fault;
   }
-
-  void replace(ConfigSection& section, const WrittenSection& later) {
-    const ConfigNode parameters = inherited(later);
-    if (section.path.empty()) {  // it has none of its own
-      section.path = later.path;
-      section.parameters.mark = parameters.mark;
-      section.parameters.key_mark = parameters.key_mark;
-    }
-    std::vector<Replacement> replaced;
-    replace_entries(section.parameters, parameters, section.path, replaced);
-    for (const Replacement& each : replaced) {
-      section.notes.push_back(found_.file + ":" + std::to_string(each.mark.line) + ": " +
-                              each.path + ": not used: " + each.by + " in line " +
-                              std::to_string(each.line) + " comes later and counts, as in ROS 2");
-    }
-  }
-
-  /// The parameters of a section for another one.
+  /// The parameters of a section, marked as inherited.
   [[nodiscard]] ConfigNode inherited(const WrittenSection& section) {
     nodes_ += node_count(section.parameters);
     if (nodes_ > ConfigBuilder::most_nodes) {
-      throw ConfigError({.file = found_.file}, "it is too large, wildcards included",
-                        "at most " + std::to_string(ConfigBuilder::most_nodes) + " values");
+      throw FileError({.file = found_.file}, "it is too large, copies for wildcards included",
+                      "at most " + std::to_string(ConfigBuilder::most_nodes) + " values");
     }
     ConfigNode parameters = section.parameters;
     mark_inherited(parameters, section.path);
@@ -160,22 +150,23 @@ class SectionFinder {
   void note_unused() {
     for (std::size_t k = 0; k < written_.size(); ++k) {
       const WrittenSection& section = written_[k];
-      const bool broken = section.name.has_wildcard() && section.fault;
-      if (broken) found_.notes.push_back(std::string(section.fault->what()) + ": not used");
-      if (used_[k] || broken) continue;
-      found_.notes.push_back(found_.file + ":" + std::to_string(section.parameters.key_mark.line) +
-                             ": " + section.path + ": not used, no section is in this namespace");
+      if (section.name.has_wildcard() && section.fault) {
+        found_.notes.push_back(std::string(section.fault->what()) + ": not used");
+      } else if (!is_used_[k]) {
+        found_.notes.push_back(section.parameters.key_place(found_.file, section.path).text() +
+                               "not used, no section is in this namespace");
+      }
     }
   }
 
-  /// A controller's type stands with its parameters in ROS 1, with the controller manager in ROS 2:
-  /// that of its namespace if there is one.
+  /// Finds the types of controllers. In ROS 1 a controller's parameters have it. In ROS 2 the
+  /// controller manager has it, preferably that of the same namespace.
   void find_types() {
     const auto manager_of = [&](const ConfigSection& section) {
       const ConfigNode* manager = nullptr;
       for (const ConfigSection& each : found_.sections) {
-        const bool own = each.group == section.group;
-        if (each.name == "controller_manager" && (own || manager == nullptr)) {
+        const bool same_group = each.group == section.group;
+        if (each.name == "controller_manager" && (same_group || manager == nullptr)) {
           manager = &each.parameters;
         }
       }
@@ -186,9 +177,9 @@ class SectionFinder {
       const ConfigNode* manager = manager_of(section);
       const ConfigNode* entry = manager != nullptr ? manager->find(section.name) : nullptr;
       const ConfigNode* listed = entry != nullptr ? entry->find("type") : nullptr;
-      // What has no place of its own is there by a wildcard, and wildcards have ros__parameters.
+      // Sections with wildcards have ros__parameters.
       section.is_declared = section.path.empty() || section.path.ends_with(ros_parameters) ||
-                            (type != nullptr && type->text.find('/') != std::string::npos);
+                            has_plugin_type(section.parameters);
       section.is_listed = listed != nullptr;
       if (type == nullptr) type = listed;
       if (type != nullptr && type->kind == ConfigNode::Kind::scalar) section.type = type->text;
@@ -197,14 +188,14 @@ class SectionFinder {
 
   ConfigSections found_;
   std::vector<WrittenSection> written_{};
-  std::vector<bool> used_{};  ///< of those: it is that of a controller
+  std::vector<bool> is_used_{};  ///< of `written_`: it has parameters of a controller
   std::vector<Controller> controllers_{};
-  std::size_t nodes_ = 0;  ///< that came from wildcards
+  std::size_t nodes_ = 0;  ///< that are inherited
 };
 
-/// All sections of a file.
-/// @param wanted  a controller that may be there by a wildcard alone; empty: none
-/// @throws ConfigError if it is no YAML, or not of the kind that has sections
+/// The sections of a file.
+/// @param wanted  a controller for which wildcards alone may match; empty: none
+/// @throws FileError if the file is not YAML, or has no sections
 [[nodiscard]] inline ConfigSections find_sections(const ConfigSource& source,
                                                   std::string_view wanted = {}) {
   return SectionFinder(source, wanted).take();

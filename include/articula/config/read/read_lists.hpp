@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Lists of joints and of coordinates in a configuration file.
+/// @file Lists of joint names and of numbers in a configuration file.
 #pragma once
 
 #include "articula/config/read/controller_config.hpp"
-#include "articula/config/yaml/reader.hpp"
+#include "articula/config/yaml/config_map.hpp"
 #include "articula/model/vector3.hpp"
+#include "articula/text/characters.hpp"
 
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace articula::detail {
 
-/// Names of joints, none of them twice.
+/// Names of joints, each of them once.
 [[nodiscard]] inline std::vector<ConfiguredJoint> read_joint_list(const ConfigValue& value) {
   constexpr std::size_t most = 1000;
   std::vector<ConfiguredJoint> joints;
@@ -21,8 +21,8 @@ namespace articula::detail {
   for (const ConfigValue& item : value.list()) {
     const std::string name = item.name();
     for (const ConfiguredJoint& joint : joints) {
-      if (joint.name == name)
-        item.refuse("'" + shown(name) + "' a second time", "every joint once");
+      if (joint.name != name) continue;
+      item.refuse("'" + shown(name) + "' a second time", "every joint once");
     }
     joints.push_back({.name = name, .place = item.place()});
   }
@@ -30,6 +30,7 @@ namespace articula::detail {
   return joints;
 }
 
+/// Three coordinates, as a list or as a map of x, y and z, in which x and y may be missing.
 [[nodiscard]] inline Vector3<double> read_vector(const ConfigValue& value,
                                                  std::vector<std::string>& notes) {
   if (value.node().is_list()) {
@@ -40,14 +41,42 @@ namespace articula::detail {
   }
   if (!value.node().is_map()) value.refuse("a map of x, y and z, or three numbers");
   ConfigMap map(value, notes);
-  const auto part = [&](std::string_view key) {
-    const auto found = map.find(key);
-    return found ? found->number() : 0;
-  };
-  static_cast<void>(map.expect("z"));
-  const double x = part("x"), y = part("y"), z = part("z");
+  static_cast<void>(map.require("z"));
+  Vector3<double> vector;
+  map.read_number("x", vector.x);
+  map.read_number("y", vector.y);
+  map.read_number("z", vector.z);
   map.finish();
-  return {x, y, z};
+  return vector;
+}
+
+/// A gain of each joint: n numbers >= 0, or a diagonal n x n matrix by rows.
+[[nodiscard]] inline std::vector<double> read_diagonal(const ConfigValue& value, std::size_t n) {
+  const auto items = value.list();
+  const std::size_t size = items.size();
+  bool has_pairs = size == 4 && n == 2;  // as in [1,0, 0,5], which may have two decimal commas
+  for (std::size_t k = 0; k < size; ++k) {
+    const ConfigNode& node = items[k].node();
+    has_pairs = has_pairs && node.text.find_first_not_of("+-0123456789") == std::string::npos;
+    if (k == 0) continue;
+    const ConfigMark last = items[k - 1].node().mark;
+    const int length = static_cast<int>(items[k - 1].node().text.size());
+    const bool has_blank = node.mark.column > last.column + length + 1;
+    has_pairs = has_pairs && node.mark.line == last.line && has_blank == (k == 2);
+  }
+  if ((size != n && size != n * n) || has_pairs) {
+    value.refuse("a number for each of " + std::to_string(n) + (n == 1 ? " joint" : " joints") +
+                 " with decimal points, or a matrix by rows with a blank behind every comma");
+  }
+  std::vector<double> numbers;
+  for (std::size_t k = 0; k < size; ++k) {
+    if (size == n || k % (n + 1) == 0) {
+      numbers.push_back(items[k].not_negative());
+    } else if (items[k].number() != 0) {
+      items[k].refuse("0 off the diagonal, since every joint has a controller of its own");
+    }
+  }
+  return numbers;
 }
 
 }  // namespace articula::detail

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a controller's parameters say about the robot and the thread.
+/// @file A controller's parameters about the robot's mechanics and the control thread.
 #pragma once
 
 #include "articula/config/read/controller_config.hpp"
 #include "articula/config/read/read_lists.hpp"
-#include "articula/config/yaml/reader.hpp"
+#include "articula/config/yaml/config_map.hpp"
 
 #include <string>
 #include <string_view>
@@ -12,16 +12,16 @@
 namespace articula::detail {
 
 /// Reads gravity, chain and priority.
-/// @throws ConfigError if one of them has the wrong type or is out of range
+/// @throws FileError if one of them has the wrong type or is out of range
 inline void read_mechanics(ConfigMap& map, ControllerConfig& config) {
   if (const auto value = map.find("gravity")) {
     config.gravity = read_vector(*value, config.notes);
     config.gravity_place = value->place();
   }
   if (auto chain = map.find_map("chain")) {
-    const auto read = [&](std::string_view key, std::string& to, ConfigPlace& place) {
+    const auto read = [&](std::string_view key, std::string& link, FilePlace& place) {
       const auto value = chain->find(key);
-      if (value) to = value->name(), place = value->place();
+      if (value) link = value->name(), place = value->place();
     };
     read("root", config.chain_root, config.chain_root_place);
     read("tip", config.chain_tip, config.chain_tip_place);

@@ -1,115 +1,77 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The shape of one waveform in a configuration file.
+/// @file One waveform in a configuration file.
 #pragma once
 
-#include "articula/config/read/robot_joints.hpp"
-#include "articula/config/yaml/reader.hpp"
+#include "articula/config/read/section.hpp"
+#include "articula/config/yaml/config_map.hpp"
 #include "articula/reference/signal.hpp"
+#include "articula/text/numbers.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace articula::detail {
 
-/// What stands below a joint of a section, where it should be the other way round: `waveforms` or
-/// what only a waveform has. nullptr if there is none.
-[[nodiscard]] inline const ConfigNode* misplaced_waveforms(const ConfigNode& section,
-                                                           const RobotJoints& robot) {
-  if (section.find("waveforms") != nullptr) return nullptr;
-  for (const ConfigNode& item : section.items) {
-    if (item.find("waveforms") != nullptr) return &item;
-    const bool is_wave = item.find("amplitude") != nullptr || item.find("height") != nullptr;
-    if (is_wave && robot.has(item.key)) return &item;
-  }
-  return nullptr;
-}
-
-/// A key of a section that was to be `waveforms`; nullptr if there is none.
-[[nodiscard]] inline const ConfigNode* misspelt_waveforms(const ConfigNode& section) {
-  constexpr std::size_t farthest = 2;
-  if (section.find("waveforms") != nullptr) return nullptr;
-  const auto found =
-      std::find_if(section.items.begin(), section.items.end(), [](const ConfigNode& item) {
-        return distance_of("waveforms", item.key).value_or(farthest + 1) <= farthest;
-      });
-  return found == section.items.end() ? nullptr : &*found;
-}
-
-[[nodiscard]] inline std::string at_most(double limit) {
-  std::ostringstream text;
-  text << "at most the drive's limit, " << limit;
-  return text.str();
+/// "at most the drive's limit, 13.62", for messages.
+[[nodiscard]] inline std::string limit_text(double limit) {
+  return "at most the drive's limit, " + rounded_text(limit);
 }
 
 /// Reads the shape of one waveform.
 class SignalShapeReader {
  public:
-  /// @param map    the waveform; what does not belong to its shape must have been asked for
-  /// @param limit  of its values
+  /// @param map    the waveform; its keys that do not belong to the shape are known already
+  /// @param limit  of its values [N m or N]
   SignalShapeReader(ConfigMap& map, double limit) : map_(map), limit_(limit) {}
 
-  /// @throws ConfigError if there is a key that the shape does not have, or a value out of range
+  /// @throws FileError if a value has the wrong type or is out of range
   [[nodiscard]] Signal read() {
-    std::size_t shape = 0;
+    std::string shape = "sine";
     if (const auto type = map_.find("type")) {
-      if (type->node().text.find('/') != std::string::npos) {
+      const std::vector<std::string> shapes = {"sine", "sin",   "sinusoid", "step",
+                                               "ramp", "chirp", "square"};
+      if (has_plugin_type(map_.value().node())) {
         static_cast<void>(type->word());
-        map_.note(*type, "not used: a plugin's name, no waveform's; this one is a sine");
+        map_.note(*type, "not used: a plugin's name; the waveform is a sine");
       } else {
-        shape = type->one_of({"sine", "sin", "sinusoid", "step", "ramp", "chirp", "square"});
+        shape = shapes[type->index_in(shapes)];
       }
     }
-    switch (shape) {
-      case 3:
-        return step();
-      case 4:
-        return ramp();
-      case 5:
-        return chirp();
-      case 6:
-        return wave<SquareSignal>("a square");
-      default:
-        return wave<SineSignal>("a sine");
-    }
+    if (shape == "step") return step();
+    if (shape == "ramp") return ramp();
+    if (shape == "chirp") return chirp();
+    if (shape == "square") return wave<SquareSignal>();
+    return wave<SineSignal>();
   }
 
  private:
   [[nodiscard]] Signal step() {
-    map_.allow_only({"height", "start"}, "the keys of a step: height, start [s]");
-    return StepSignal{.height = height("height"), .start = number("start")};
+    StepSignal step{.height = height("height")};
+    map_.read_number("start", step.start);
+    return step;
   }
   [[nodiscard]] Signal ramp() {
-    map_.allow_only({"height", "duration", "start"},
-                    "the keys of a ramp: height, duration [s], start [s]; its rate is height / "
-                    "duration");
-    return RampSignal{
-        .height = height("height"), .duration = positive("duration"), .start = number("start")};
+    RampSignal ramp{.height = height("height"), .duration = positive("duration")};
+    map_.read_number("start", ramp.start);
+    return ramp;
   }
   [[nodiscard]] Signal chirp() {
-    map_.allow_only({"amplitude", "first_frequency", "last_frequency", "duration", "start"},
-                    "the keys of a chirp: amplitude, first_frequency and last_frequency [Hz], "
-                    "duration [s], start [s]");
-    return ChirpSignal{.amplitude = height("amplitude"),
-                       .first_frequency = frequency(map_.expect("first_frequency")),
-                       .last_frequency = frequency(map_.expect("last_frequency")),
-                       .duration = positive("duration"),
-                       .start = number("start")};
+    ChirpSignal chirp{.amplitude = height("amplitude"),
+                      .first_frequency = frequency(map_.require("first_frequency")),
+                      .last_frequency = frequency(map_.require("last_frequency")),
+                      .duration = positive("duration")};
+    map_.read_number("start", chirp.start);
+    return chirp;
   }
   /// A sine or a square, which have the same keys.
   template <class Wave>
-  [[nodiscard]] Signal wave(const std::string& name) {
-    map_.allow_only({"amplitude", "frequency", "period", "angular_frequency", "phase", "offset"},
-                    "the keys of " + name +
-                        ": amplitude, frequency [Hz], period [s] or "
-                        "angular_frequency [rad/s], phase [rad], offset");
-    Wave wave{
-        .amplitude = height("amplitude"), .frequency = any_frequency(), .phase = number("phase")};
+  [[nodiscard]] Signal wave() {
+    Wave wave{.amplitude = height("amplitude"), .frequency = any_frequency()};
+    map_.read_number("phase", wave.phase);
     if (const auto offset = map_.find("offset")) {
       wave.offset = offset->number();
       static_cast<void>(limited(*offset, std::abs(wave.offset) + std::abs(wave.amplitude)));
@@ -117,43 +79,34 @@ class SignalShapeReader {
     return wave;
   }
 
-  [[nodiscard]] double number(std::string_view key) {
-    const auto value = map_.find(key);
-    return value ? value->number() : 0;
-  }
   [[nodiscard]] double positive(std::string_view key) {
-    const auto value = map_.expect(key);
+    const auto value = map_.require(key);
     return value ? value->positive() : 1;
   }
   [[nodiscard]] double height(std::string_view key) {
-    const auto value = map_.expect(key);
+    const auto value = map_.require(key);
     return value ? limited(*value, value->number()) : 0;
   }
-  /// A number that must not be beyond what the drive can give: the loop would cut it off, and the
-  /// signal would be another.
+  /// Refuses a number beyond the drive's limit, since the loop would saturate the signal.
   [[nodiscard]] double limited(const ConfigValue& value, double number) const {
     if (std::abs(number) <= limit_) return number;
-    std::ostringstream reason;
-    reason << "an effort of " << std::abs(number) << " N m or N";
-    value.refuse(reason.str(), at_most(limit_));
+    value.refuse("an effort of " + rounded_text(std::abs(number)) + " N m or N",
+                 limit_text(limit_));
   }
 
-  /// In hertz, as a period or as an angular frequency; one of them.
+  /// The frequency [Hz], given as such, as a period or as an angular frequency.
   [[nodiscard]] double any_frequency() {
-    const auto period = map_.find("period"), angular = map_.find("angular_frequency");
-    const auto hertz = period || angular ? map_.find("frequency") : map_.expect("frequency");
-    if (period && angular) angular->refuse("a period is given, too", "one of them");
-    if (hertz && (period || angular)) {
-      hertz->refuse("a period or an angular frequency is given, too", "one of them");
-    }
-    if (period) return frequency(*period, 1 / period->positive());
-    if (angular) return frequency(*angular, angular->positive() / (2 * std::numbers::pi));
-    return frequency(hertz);
+    const auto value = map_.find_one_of({"frequency", "period", "angular_frequency"});
+    if (!value) static_cast<void>(map_.require("frequency"));
+    const std::string key = value ? value->node().key : "";
+    if (key == "period") return frequency(*value, 1 / value->positive());
+    if (key != "angular_frequency") return frequency(value);
+    return frequency(*value, value->positive() / (2 * std::numbers::pi));
   }
   [[nodiscard]] static double frequency(const std::optional<ConfigValue>& value) {
     return value ? frequency(*value, value->positive()) : 1;
   }
-  /// No joint follows a megahertz: a slip of the unit.
+  /// Refuses frequencies that no joint can follow: the unit is probably wrong.
   [[nodiscard]] static double frequency(const ConfigValue& value, double hertz) {
     if (hertz > 1e6) value.refuse("at most 1e6 Hz");
     return hertz;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The joints of a robot by name, whichever type it has.
+/// @file The joints of a robot by name, for messages about files.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/scalar.hpp"
 #include "articula/model/joint.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/text/characters.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/meant_word.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -21,27 +23,26 @@ template <Robot R>
   return "robot '" + std::string(model_of(robot).name.view()) + "'";
 }
 
-/// What a file may say about a robot's joints.
+/// The joints of a robot.
 struct RobotJoints {
-  std::string robot{};                          ///< for messages
-  std::vector<std::string> names{};             ///< of joints that can be commanded, in their order
-  std::map<std::string, std::string> others{};  ///< joints that cannot, and why
+  std::string robot{};                          ///< the robot's name in messages
+  std::vector<std::string> names{};             ///< of joints that take commands, in their order
+  std::map<std::string, std::string> others{};  ///< joints that take none, and why
 
   [[nodiscard]] bool has(std::string_view name) const {
     return std::find(names.begin(), names.end(), name) != names.end();
   }
   /// The index of a joint.
-  /// @throws ConfigError if it cannot be commanded, saying why
-  [[nodiscard]] std::size_t index(const std::string& name, const ConfigPlace& place) const {
+  /// @throws FileError if there is no such joint, or if it takes no commands
+  [[nodiscard]] std::size_t index(const std::string& name, const FilePlace& place) const {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
     const auto other = others.find(name);
-    throw ConfigError(place,
-                      other == others.end()
-                          ? robot + " has no joint '" + shown(name) + "'" +
-                                (has_placeholder(name) ? ", a placeholder" : "")
-                          : "joint '" + shown(name) + "' of " + robot + " " + other->second,
-                      choice_text(names, name) + value_hint(name));
+    throw FileError(place,
+                    other == others.end()
+                        ? robot + " has no joint '" + shown(name) + "'"
+                        : "joint '" + shown(name) + "' of " + robot + " " + other->second,
+                    one_of_words(name, names) + value_hint(name));
   }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Names of sections with namespaces and wildcards, and which controllers they mean.
+/// @file Names of sections with namespaces and wildcards.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 
 namespace articula::detail {
 
-/// The name of a section as ROS 2 has it, /left/arm, from the outermost namespace on. A part * stands
-/// for one part of a controller's name and ** for any number of them [rcl_yaml_param_parser and
-/// rclcpp's parameter_map_from]: /**/arm means each arm, /left/** what is in left, /** everything.
+/// The name of a section in ROS 2, such as /left/arm. A part * matches one part of a controller's
+/// name, and ** any number of parts [rcl_yaml_param_parser and rclcpp's parameter_map_from]. So
+/// /**/arm matches each arm, /left/** everything in left, and /** everything.
 class SectionName {
  public:
   SectionName() = default;
@@ -26,18 +26,18 @@ class SectionName {
 
   [[nodiscard]] bool operator==(const SectionName&) const = default;
 
-  /// The name of something in this namespace.
+  /// A name in this namespace.
   [[nodiscard]] SectionName operator/(const SectionName& inner) const {
     SectionName name = *this;
     name.parts_.insert(name.parts_.end(), inner.parts_.begin(), inner.parts_.end());
     return name;
   }
 
-  /// The last part; empty where that is a wildcard, or nothing.
+  /// The last part; empty if it is a wildcard, or if there is none.
   [[nodiscard]] std::string last() const {
     return parts_.empty() || is_wildcard(parts_.back()) ? "" : parts_.back();
   }
-  /// All parts but the last one, with slashes between them and without **.
+  /// All parts but the last one, without **, with slashes between them.
   [[nodiscard]] std::string group() const {
     std::string text;
     for (std::size_t k = 0; k + 1 < parts_.size(); ++k) {
@@ -45,7 +45,7 @@ class SectionName {
     }
     return text;
   }
-  /// A name that this covers. Where it does not say a part, that is *.
+  /// A name that this matches, in which * stands for an unknown part.
   [[nodiscard]] SectionName example() const {
     SectionName name = *this;
     std::erase(name.parts_, "**");
@@ -53,7 +53,6 @@ class SectionName {
     return name;
   }
   [[nodiscard]] std::size_t depth() const noexcept { return parts_.size(); }
-
   [[nodiscard]] bool has_wildcard() const {
     return std::any_of(parts_.begin(), parts_.end(), is_wildcard);
   }
@@ -61,16 +60,16 @@ class SectionName {
     return std::find(parts_.begin(), parts_.end(), "**") != parts_.end();
   }
 
-  /// True if a controller's name is one of those that this means.
-  [[nodiscard]] bool covers(const SectionName& name) const {
-    // reached[k]: the parts so far can mean the first k parts of the name.
+  /// True if this matches a name.
+  [[nodiscard]] bool matches(const SectionName& name) const {
+    // reached[k]: the parts so far match the first k parts of the name.
     std::vector<bool> reached(name.parts_.size() + 1, false);
     reached[0] = true;
     for (const std::string& part : parts_) {
-      if (part == "**") {
-        for (std::size_t k = 1; k < reached.size(); ++k) reached[k] = reached[k] || reached[k - 1];
-        continue;
+      for (std::size_t k = 1; part == "**" && k < reached.size(); ++k) {
+        reached[k] = reached[k] || reached[k - 1];
       }
+      if (part == "**") continue;
       for (std::size_t k = reached.size() - 1; k > 0; --k) {
         reached[k] = reached[k - 1] && (part == "*" || part == name.parts_[k - 1]);
       }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What signals that add up can reach.
+/// @file Bounds of a sum of signals.
 #pragma once
 
 #include "articula/reference/signal.hpp"
@@ -12,14 +12,14 @@
 
 namespace articula::detail {
 
-/// What a sum of signals lies between, 0 included.
+/// The range of a sum of signals, 0 included.
 struct SignalBounds {
   double low = 0;
   double high = 0;
 };
 
-/// Steps and ramps are added up as they come one after the other, so that those that take each
-/// other back are no more than they are; waves as if their peaks met.
+/// The range of a sum of signals. Steps and ramps are added in the course of time, so that opposite
+/// ones cancel. Waves are added as if their peaks coincided.
 [[nodiscard]] inline SignalBounds bounds_of(const std::vector<Signal>& signals) {
   SignalBounds waves, lines;
   std::vector<double> corners;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Waveforms as a configuration file has them.
+/// @file Waveforms from a configuration file.
 #pragma once
 
 #include "articula/reference/joint_signals.hpp"
@@ -12,7 +12,7 @@ namespace articula {
 /// Waveforms from a file.
 struct SignalConfig {
   std::vector<JointSignal> signals{};  ///< for JointSignals
-  /// What the file says and nothing here does, one line each with file, line and key.
+  /// Parameters without effect in this library, one line each with file, line and key.
   std::vector<std::string> notes{};
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Parameters of ROS's controllers that have no effect here.
+/// @file Parameters of ROS's controllers that have no effect in this library.
 #pragma once
 
-#include "articula/config/yaml/reader.hpp"
+#include "articula/config/yaml/config_map.hpp"
 
 #include <string>
 #include <string_view>
@@ -10,92 +10,84 @@
 
 namespace articula::detail {
 
-/// A parameter that ROS's controllers have and that has no effect here.
-struct UnusedParameter {
+/// Parameters that have no effect, their type, and the reason.
+struct UnusedParameters {
   enum class Kind : unsigned char { number, truth, word, words, text, any_map };
-  std::string_view key;
   Kind kind;
-  std::string_view why;
+  std::string_view reason;
+  std::vector<std::string_view> keys;
 };
 
-/// Takes parameters that have no effect, if they are there: of the right type, and noted.
-inline void take_unused(ConfigMap& map, const std::vector<UnusedParameter>& parameters) {
-  for (const UnusedParameter& parameter : parameters) {
-    const auto value = map.find(parameter.key);
-    if (!value) continue;
-    switch (parameter.kind) {
-      case UnusedParameter::Kind::number:
-        static_cast<void>(value->not_negative());
-        break;
-      case UnusedParameter::Kind::truth:
-        static_cast<void>(value->truth());
-        break;
-      case UnusedParameter::Kind::word:
-        static_cast<void>(value->word());
-        break;
-      case UnusedParameter::Kind::words:
-        for (const ConfigValue& item : value->list()) static_cast<void>(item.word());
-        break;
-      case UnusedParameter::Kind::text:  // which may be empty, or nothing
-        if (value->node().is_map() || value->node().is_list()) value->refuse("a name");
-        break;
-      case UnusedParameter::Kind::any_map:
-        if (!value->node().is_map()) value->refuse("a map");
-        break;
+/// @throws FileError if a value has the wrong type
+inline void check_kind(const ConfigValue& value, UnusedParameters::Kind kind) {
+  using enum UnusedParameters::Kind;
+  const ConfigNode& node = value.node();
+  if (kind == number) static_cast<void>(value.not_negative());
+  if (kind == truth) static_cast<void>(value.truth());
+  if (kind == word) static_cast<void>(value.word());
+  if (kind == words) {
+    for (const ConfigValue& item : value.list()) static_cast<void>(item.word());
+  }
+  if (kind == text && (node.is_map() || node.is_list())) value.refuse("a name");
+  if (kind == any_map && !node.is_map()) value.refuse("a map");
+}
+
+/// Checks the types of parameters without effect, and adds a note on each.
+/// @throws FileError if one has the wrong type
+inline void take_unused(ConfigMap& map, const std::vector<UnusedParameters>& all) {
+  for (const UnusedParameters& parameters : all) {
+    for (const std::string_view key : parameters.keys) {
+      const auto value = map.find(key);
+      if (!value) continue;
+      check_kind(*value, parameters.kind);
+      map.note(*value, "not used: " + std::string(parameters.reason));
     }
-    map.note(*value, "not used: " + std::string(parameter.why));
   }
 }
 
+/// Those of all controllers.
 inline void take_unused_controller_parameters(ConfigMap& map) {
-  using enum UnusedParameter::Kind;
+  using enum UnusedParameters::Kind;
   constexpr std::string_view interfaces = "the types in the program decide what is commanded";
   constexpr std::string_view topics = "nothing is published or received here";
   constexpr std::string_view loop = "a loop has one period and one thread";
-  constexpr std::string_view gripper = "there is no action of a gripper here";
-  constexpr std::string_view follower = "see docs/references.md for what the follower does";
-  take_unused(map, {{"command_interfaces", words, interfaces},
-                    {"state_interfaces", words, interfaces},
-                    {"command_interface", word, interfaces},
-                    {"interface_name", word, interfaces},
-                    {"command_joints", words, interfaces},
-                    {"reference_and_state_dof_names", words, interfaces},
-                    {"use_external_measured_states", truth, topics},
-                    {"publish_rate", number, topics},
-                    {"state_publish_rate", number, topics},
-                    {"action_monitor_rate", number, topics},
-                    {"robot_description", word, topics},
-                    {"use_sim_time", truth, topics},
-                    {"qos_overrides", any_map, topics},
-                    {"start_type_description_service", truth, topics},
-                    {"update_rate", number, loop},
-                    {"is_async", truth, loop},
-                    {"async_parameters", any_map, loop},
-                    {"params_file", word, "this file is all that is read"},
-                    {"fallback_controllers", words, "see SupervisedLoop"},
-                    {"set_current_state_as_first_setpoint", truth, "it always is"},
-                    {"set_last_command_interface_value_as_state_on_activation", truth, follower},
-                    {"start_with_holding", truth, "it always does"},
-                    {"goal_tolerance", number, gripper},
-                    {"max_effort", number, gripper},
-                    {"max_effort_interface", text, gripper},
-                    {"max_velocity", number, gripper},
-                    {"max_velocity_interface", text, gripper},
-                    {"use_effort_interface", truth, gripper},
-                    {"use_speed_interface", truth, gripper},
-                    {"default", truth, gripper},
-                    {"stall_velocity_threshold", number, gripper},
-                    {"stall_timeout", number, gripper},
-                    {"allow_stalling", truth, gripper},
-                    {"interpolate_from_desired_state", truth, follower},
-                    {"open_loop_control", truth, follower},
-                    {"allow_trajectory_replacement", truth, follower},
-                    {"stop_trajectory_duration", number, follower},
-                    {"cmd_timeout", number, follower},
-                    {"speed_scaling", any_map, follower},
-                    {"speed_scaling_interface_name", text, follower},
-                    {"tf_prefix", text, topics},
-                    {"positions_upsampling", any_map, follower}});
+  constexpr std::string_view gripper = "there is no gripper action here";
+  constexpr std::string_view follower = "docs/references.md describes the follower";
+  take_unused(
+      map, {{words,
+             interfaces,
+             {"command_interfaces", "state_interfaces", "command_joints",
+              "reference_and_state_dof_names"}},
+            {word, interfaces, {"command_interface", "interface_name"}},
+            {truth,
+             topics,
+             {"use_external_measured_states", "use_sim_time", "start_type_description_service"}},
+            {number, topics, {"publish_rate", "state_publish_rate", "action_monitor_rate"}},
+            {word, topics, {"robot_description"}},
+            {any_map, topics, {"qos_overrides"}},
+            {text, topics, {"tf_prefix"}},
+            {number, loop, {"update_rate"}},
+            {truth, loop, {"is_async"}},
+            {any_map, loop, {"async_parameters"}},
+            {word, "this file is all that is read", {"params_file"}},
+            {words, "see SupervisedLoop", {"fallback_controllers"}},
+            {truth, "it always is", {"set_current_state_as_first_setpoint"}},
+            {truth, "it always does", {"start_with_holding"}},
+            {number,
+             gripper,
+             {"goal_tolerance", "max_effort", "max_velocity", "stall_velocity_threshold",
+              "stall_timeout"}},
+            {text, gripper, {"max_effort_interface", "max_velocity_interface"}},
+            {truth,
+             gripper,
+             {"use_effort_interface", "use_speed_interface", "default", "allow_stalling"}},
+            {truth,
+             follower,
+             {"interpolate_from_desired_state", "open_loop_control", "allow_trajectory_replacement",
+              "set_last_command_interface_value_as_state_on_activation"}},
+            {number, follower, {"stop_trajectory_duration", "cmd_timeout"}},
+            {any_map, follower, {"speed_scaling", "positions_upsampling"}},
+            {text, follower, {"speed_scaling_interface_name"}}});
 }
 
 }  // namespace articula::detail

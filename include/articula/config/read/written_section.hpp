@@ -1,40 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The sections of a configuration file as they are written, wildcards and all.
+/// @file The sections of a configuration file as written, before wildcards are resolved.
 #pragma once
 
 #include "articula/config/read/section.hpp"
 #include "articula/config/read/section_name.hpp"
-#include "articula/config/yaml/config_value.hpp"
-#include "articula/config/yaml/document.hpp"
 #include "articula/config/yaml/merge.hpp"
+#include "articula/config/yaml/node.hpp"
+#include "articula/config/yaml/scalar.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/meant_word.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace articula::detail {
 
-/// A section as it is written, in the layouts of ROS 1 and ROS 2.
+/// A section as written, in the layouts of ROS 1 and ROS 2.
 struct WrittenSection {
   SectionName name{};
-  std::string path{};  ///< the keys from the top
+  std::string path{};  ///< keys from the top
   ConfigNode parameters{};
-  std::optional<ConfigError> fault{};  ///< why it cannot be used
+  std::optional<FileError> fault{};  ///< why it cannot be used
 };
 
-/// Finds the sections of a file, in the order in which ROS 2 takes them: that of their parameters.
+/// Finds the sections of a file, in the order of their parameters, which is ROS 2's order.
 class SectionSearch {
  public:
-  /// @param notes  receives what belongs to no section
+  /// @param notes  receives a line on each value that belongs to no section
   SectionSearch(const ConfigNode& root, const std::string& file, std::vector<std::string>& notes)
       : file_(file), notes_(&notes) {
     check_spelling(root, "");
-    if (is_namespace(root) || is_of_maps(root)) {
+    if (is_namespace(root) || has_only_sections(root)) {
       search(root, {}, "");
     } else {
       add({}, "", root);
@@ -44,47 +44,38 @@ class SectionSearch {
   [[nodiscard]] std::vector<WrittenSection> take() { return std::move(found_); }
 
  private:
-  /// Plugins' names have a slash: this tells the type of a controller from that of a signal.
-  [[nodiscard]] static bool has_type(const ConfigNode& node) {
-    const ConfigNode* type = node.find("type");
-    return type != nullptr && type->text.find('/') != std::string::npos;
-  }
-  /// A slip here would make other parameters of a file, and no message would name the reason.
+  /// Refuses misspelt ros__parameters. They would change the layout, and no other message would
+  /// name the reason.
   void check_spelling(const ConfigNode& map, const std::string& path) const {
     for (const ConfigNode& item : map.items) {
       const std::string here = joined(path, shown(item.key));
-      const std::size_t apart = distance_of(ros_parameters, item.key).value_or(3);
-      const ConfigPlace place{file_, item.key_mark.line, item.key_mark.column, here};
       const std::string expected = "'" + std::string(ros_parameters) + "'";
-      if (apart <= 2 && item.key != ros_parameters) {
-        throw ConfigError(place, "unknown key '" + shown(item.key) + "'", expected);
+      if (item.key != ros_parameters && is_near(ros_parameters, item.key)) {
+        throw FileError(item.key_place(file_, here), "unknown key '" + shown(item.key) + "'",
+                        expected);
       }
-      if (apart == 0 && path.empty()) {
-        throw ConfigError(place, expected + " at the top", "it below a controller's name, or /**");
+      if (item.key == ros_parameters && path.empty()) {
+        throw FileError(item.key_place(file_, here), expected + " at the top",
+                        "it below a controller's name, or /**");
       }
       check_spelling(item, here);
     }
   }
   [[nodiscard]] static bool is_namespace(const ConfigNode& map) {
-    // Beside a controller's own parameters, a map with joints is one of them.
+    // In a controller's own parameters, a map with joints is one of them.
     const bool has_parameters = std::any_of(map.items.begin(), map.items.end(), is_parameter);
     return std::any_of(map.items.begin(), map.items.end(), [&](const ConfigNode& item) {
-      return item.is_map() && (item.find(ros_parameters) != nullptr || has_type(item) ||
+      return item.is_map() && (item.find(ros_parameters) != nullptr || has_plugin_type(item) ||
                                (lists_joints(item) && !has_parameters) ||
                                item.key == "controller_manager" || is_namespace(item));
     });
   }
-  [[nodiscard]] static bool lists_joints(const ConfigNode& node) {
-    return node.find("joints") != nullptr || node.find("dof_names") != nullptr ||
-           node.find("joint_names") != nullptr;
-  }
-  /// A parameter of a controller that is a map, so no section.
+  /// True if an entry is a map that is a parameter of a controller.
   [[nodiscard]] static bool is_parameter(const ConfigNode& item) {
-    static constexpr std::array<std::string_view, 6> parameters = {
-        "pid", "gains", "constraints", "chain", "gravity", "waveforms"};
-    return std::find(parameters.begin(), parameters.end(), item.key) != parameters.end();
+    return item.key == "pid" || item.key == "gains" || item.key == "constraints" ||
+           item.key == "chain" || item.key == "gravity" || item.key == "waveforms";
   }
-  [[nodiscard]] static bool is_of_maps(const ConfigNode& map) {
+  [[nodiscard]] static bool has_only_sections(const ConfigNode& map) {
     return std::all_of(map.items.begin(), map.items.end(),
                        [](const ConfigNode& item) { return item.is_map() && !is_parameter(item); });
   }
@@ -97,14 +88,13 @@ class SectionSearch {
       const std::string here = joined(path, shown(item.key));
       const SectionName name = group / SectionName(item.key);
       if (item.key == ros_parameters) {
-        const bool says_nothing = item.kind == ConfigNode::Kind::nothing && map.items.size() == 1;
-        add(group, here, item, says_nothing);
+        add(group, here, item, item.kind == ConfigNode::Kind::nothing && map.items.size() == 1);
       } else if (!item.is_map()) {
-        notes_->push_back(file_ + ":" + std::to_string(item.key_mark.line) + ": " + here +
-                          ": not used, it belongs to no controller");
+        notes_->push_back(item.key_place(file_, here).text() +
+                          "not used, it belongs to no controller");
       } else if (item.find(ros_parameters) != nullptr ||
-                 (item.key != "controller_manager" && !has_type(item) && !lists_joints(item) &&
-                  (is_namespace(item) || is_of_maps(item)))) {
+                 (item.key != "controller_manager" && !has_plugin_type(item) &&
+                  !lists_joints(item) && (is_namespace(item) || has_only_sections(item)))) {
         search(item, name, here);
       } else {
         add(name, here, item);
@@ -112,34 +102,34 @@ class SectionSearch {
     }
   }
 
-  /// @param says_nothing  there is nothing, and nothing that was to be in it
+  /// @param is_empty  the section has no parameters, and no others were meant to be in it
   void add(const SectionName& name, const std::string& path, const ConfigNode& parameters,
-           bool says_nothing = false) {
+           bool is_empty = false) {
     WrittenSection section{name, path, parameters, {}};
     section.parameters.kind = ConfigNode::Kind::map;
     section.parameters.items.clear();
-    const ConfigPlace place{file_, parameters.mark.line, parameters.mark.column, path};
-    if (!parameters.is_map() && !says_nothing) {
-      section.fault =
-          ConfigError(place, what_is(parameters), "a map of parameters, further to the right");
-    }
+    const FilePlace place{file_, parameters.mark.line, parameters.mark.column, path};
     try {
-      for (const ConfigNode& item : parameters.items) {
-        if (parameters.is_map()) insert_dotted(place, section.parameters, item.key, item);
+      if (!parameters.is_map() && !is_empty) {
+        throw FileError(place, node_text(parameters), "a map of parameters, further to the right");
       }
-    } catch (const ConfigError& error) {
+      for (const ConfigNode& item : parameters.items) {
+        insert_dotted(place, section.parameters, item.key, item);
+      }
+    } catch (const FileError& error) {
       section.fault = error;
     }
     const auto same = std::find_if(found_.begin(), found_.end(),
                                    [&](const auto& each) { return each.name == name; });
     if (same == found_.end()) {
       found_.push_back(std::move(section));
-    } else {  // the same section, written in two ways: /arm and arm
-      mark_inherited(section.parameters, path);
-      std::vector<Replacement> ignored;
-      replace_entries(same->parameters, section.parameters, same->path, ignored);
-      if (!same->fault) same->fault = section.fault;
+      return;
     }
+    // The same name, written in two ways: /arm and arm.
+    mark_inherited(section.parameters, path);
+    std::vector<std::string> ignored;
+    replace_entries(same->parameters, section.parameters, file_, same->path, ignored);
+    if (!same->fault) same->fault = section.fault;
   }
 
   std::string file_;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A text whose placeholders have been given their values.
+/// @file A text with values in place of placeholders, and where its characters are in the file.
 #pragma once
 
-#include "articula/config/yaml/error.hpp"
 #include "articula/config/yaml/node.hpp"
-#include "articula/config/yaml/placeholder.hpp"
 #include "articula/config/yaml/source.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/placeholder.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,81 +17,77 @@
 
 namespace articula::detail {
 
-/// What became of a text, and where in the file its characters stand.
+/// A text in which values have replaced placeholders.
 class FilledText {
  public:
   /// @param text    with a line feed behind each line
-  /// @param values  of placeholders; others are left as they are
-  /// @throws ConfigError if a value is more than a line, or the result larger than a source may be
+  /// @param values  of placeholders; placeholders without a value remain
+  /// @throws FileError if a value has control characters, or the result is larger than a source may
+  ///         be
   FilledText(const std::string& file, std::string text, const ConfigValues& values) {
     for (const auto& [name, value] : values) {
-      const bool one_line = std::none_of(
+      const bool is_line = std::none_of(
           value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-      if (one_line) continue;
-      throw ConfigError({.file = file},
-                        "the value given for '" + name + "' has a line break or tab",
-                        "a line of text");
+      if (is_line) continue;
+      throw FileError({.file = file}, "the value of '" + name + "' has a line break or tab",
+                      "a line of text");
     }
-    if (values.empty()) {
-      text_ = std::move(text);
-      return;
-    }
-    fill(text, values);
+    values.empty() ? text_.swap(text) : fill(text, values);
     if (text_.size() > ConfigSource::capacity) {
-      throw ConfigError({.file = file}, "it is larger than 1 MiB, values included",
-                        "a configuration file");
+      throw FileError({.file = file}, "it is larger than 1 MiB, values included",
+                      "a configuration file");
     }
   }
 
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
-  /// Where in the file stands what stands here in the text. Line and column count from 1.
+  /// The place in the file of a place in this text. All characters of a value are at its
+  /// placeholder.
   [[nodiscard]] ConfigMark in_file(ConfigMark mark) const noexcept {
-    // What begins with a value begins where its placeholder does.
     const auto next = std::lower_bound(
         changes_.begin(), changes_.end(), mark, [](const Change& change, const ConfigMark& at) {
           return std::pair(change.line, change.column) < std::pair(at.line, at.column);
         });
     if (next == changes_.begin() || std::prev(next)->line != mark.line) return mark;
     const Change& last = *std::prev(next);
-    // A value has no characters of its own in the file: all of it stands at the placeholder.
-    const int in = mark.column - last.column;
-    return {mark.line,
-            in < last.now ? last.file_column : last.file_column + last.before + in - last.now};
+    const int behind = mark.column - last.column - last.new_length;
+    return {mark.line, last.file_column + (behind < 0 ? 0 : last.old_length + behind)};
   }
 
  private:
-  /// A placeholder that was filled in.
+  /// A placeholder that has been replaced.
   struct Change {
     int line = 1;
     int column = 1;       ///< in the new text
     int file_column = 1;  ///< in the file
-    int before = 0;       ///< length of the placeholder
-    int now = 0;          ///< length of the value
+    int old_length = 0;   ///< of the placeholder
+    int new_length = 0;   ///< of the value
   };
 
-  /// The placeholder at which a text begins; $kp ends where the name does.
+  /// The placeholder at the beginning of a text, within its first line; $kp ends with its name.
   [[nodiscard]] static std::string_view any_placeholder_at(std::string_view text) {
+    if (std::string_view("{<$@%").find(text[0]) == std::string_view::npos) return {};
+    text = text.substr(0, text.find('\n'));
     const std::string_view found = placeholder_at(text);
     if (!found.empty() || !text.starts_with('$')) return found;
-    const std::size_t end = text.find_first_not_of(
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_", 1);
-    return text.substr(0, end);
+    return text.substr(
+        0, text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_",
+                                  1));
   }
 
   void fill(std::string_view text, const ConfigValues& values) {
     Change here;
     while (!text.empty()) {
-      const std::string_view found = any_placeholder_at(text.substr(0, text.find('\n')));
+      const std::string_view found = any_placeholder_at(text);
       const auto value = found.empty() ? values.end() : values.find(placeholder_name(found));
       if (value != values.end()) {
-        here.before = static_cast<int>(found.size());
-        here.now = static_cast<int>(value->second.size());
+        here.old_length = static_cast<int>(found.size());
+        here.new_length = static_cast<int>(value->second.size());
         changes_.push_back(here);
         text_ += value->second;
         text.remove_prefix(found.size());
-        here.column += here.now;
-        here.file_column += here.before;
+        here.column += here.new_length;
+        here.file_column += here.old_length;
         continue;
       }
       const bool ends_line = text[0] == '\n';

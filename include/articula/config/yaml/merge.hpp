@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Puts maps of a configuration together.
+/// @file Merges maps of a configuration.
 #pragma once
 
 #include "articula/config/yaml/document.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -12,82 +11,76 @@
 
 namespace articula::detail {
 
-/// Says of a map's entries, and of all below them, that they come from another section.
+/// Marks the entries of a map, and all below them, as inherited from another section.
+/// @param path  of the map, keys from the top
 inline void mark_inherited(ConfigNode& map, const std::string& path) {
   for (ConfigNode& item : map.items) {
-    item.from = path + "." + shown(item.key);
-    item.inherited = true;
-    mark_inherited(item, item.from);
+    item.origin = path + "." + shown(item.key);
+    mark_inherited(item, item.origin);
   }
 }
 
-/// Entries of `weak` that `strong` does not have are added to it; maps are merged. Both are maps.
-inline void add_missing(ConfigNode& strong, const ConfigNode& weak) {
-  for (const ConfigNode& item : weak.items) {
-    const auto same = std::find_if(strong.items.begin(), strong.items.end(),
-                                   [&](const ConfigNode& mine) { return mine.key == item.key; });
-    if (same == strong.items.end()) {
-      strong.items.push_back(item);
+/// Adds entries of one map that another one lacks. Maps in both are merged.
+inline void add_missing(ConfigNode& map, const ConfigNode& additions) {
+  for (const ConfigNode& item : additions.items) {
+    ConfigNode* same = map.find(item.key);
+    if (same == nullptr) {
+      map.items.push_back(item);
     } else if (same->is_map() && item.is_map()) {
       add_missing(*same, item);
     }
   }
 }
 
-/// An entry that has become another one.
-struct Replacement {
-  std::string path;  ///< of what it was
-  ConfigMark mark;   ///< likewise, of its key
-  std::string by;    ///< the path of what it is
-  int line;          ///< likewise
-};
-
-/// Entries of `strong`, which are inherited, take the place of those of `weak`; maps are merged.
-/// Both are maps.
-/// @param path      of `weak`
-/// @param replaced  receives the entries that are others now
-inline void replace_entries(ConfigNode& weak, const ConfigNode& strong, const std::string& path,
-                            std::vector<Replacement>& replaced) {
-  for (const ConfigNode& item : strong.items) {
-    const auto same = std::find_if(weak.items.begin(), weak.items.end(),
-                                   [&](const ConfigNode& mine) { return mine.key == item.key; });
-    if (same == weak.items.end()) {
-      weak.items.push_back(item);
+/// Replaces entries of a map by inherited ones, and adds those that it lacks. Maps in both are
+/// merged.
+/// @param file   name of the file
+/// @param path   of the map, keys from the top
+/// @param notes  receives a line on each value that has changed
+inline void replace_entries(ConfigNode& map, const ConfigNode& replacements,
+                            const std::string& file, const std::string& path,
+                            std::vector<std::string>& notes) {
+  for (const ConfigNode& item : replacements.items) {
+    ConfigNode* same = map.find(item.key);
+    if (same == nullptr) {
+      map.items.push_back(item);
       continue;
     }
-    const std::string here = same->from.empty() ? path + "." + shown(item.key) : same->from;
+    const std::string here = same->origin.empty() ? path + "." + shown(item.key) : same->origin;
     if (same->is_map() && item.is_map()) {
-      replace_entries(*same, item, here, replaced);
+      replace_entries(*same, item, file, here, notes);
       continue;
     }
     if (!same_value(*same, item)) {
-      replaced.push_back({here, same->key_mark, item.from, item.key_mark.line});
+      notes.push_back(same->key_place(file, here).text() + "not used: " + item.origin +
+                      " in line " + std::to_string(item.key_mark.line) +
+                      " comes later and counts, as in ROS 2");
     }
     *same = item;
   }
 }
 
-/// Puts a value into a map under a key, in which dots go down: ROS 2 takes the key `gravity.z` for
-/// `z` in the map `gravity`.
-/// @throws ConfigError if a value is given both ways
-inline void insert_dotted(const ConfigPlace& place, ConfigNode& map, std::string_view key,
+/// Inserts a value into a map. Dots in the key are levels: ROS 2 reads the key `gravity.z` as `z` in
+/// the map `gravity`.
+/// @param place  of the map
+/// @throws FileError if the map already has a value there
+inline void insert_dotted(const FilePlace& place, ConfigNode& map, std::string_view key,
                           const ConfigNode& item, std::size_t depth = 0) {
   if (depth > ConfigBuilder::deepest) {
-    throw ConfigError(place, "the key '" + shown(item.key) + "' has too many dots", "fewer");
+    throw FileError(place, "the key '" + shown(item.key) + "' has too many dots", "fewer");
   }
   const std::size_t dot = key.find('.');
   const bool inner = dot != std::string_view::npos;
   const std::string_view first = key.substr(0, dot);
-  auto same = std::find_if(map.items.begin(), map.items.end(),
-                           [&](const ConfigNode& node) { return node.key == first; });
-  const bool is_new = same == map.items.end();
+  ConfigNode* same = map.find(first);
+  const bool is_new = same == nullptr;
   if (is_new) {
     map.items.push_back({.kind = ConfigNode::Kind::map,
                          .key = std::string(first),
                          .mark = item.mark,
                          .key_mark = item.key_mark,
-                         .given = item.given});
-    same = map.items.end() - 1;
+                         .value_names = item.value_names});
+    same = &map.items.back();
   }
   if (same->is_map() && inner) {
     insert_dotted(place, *same, key.substr(dot + 1), item, depth + 1);
@@ -99,8 +92,8 @@ inline void insert_dotted(const ConfigPlace& place, ConfigNode& map, std::string
     *same = item;
     same->key = first;
   } else {
-    throw ConfigError(
-        {place.file, item.key_mark.line, item.key_mark.column, place.key},
+    throw FileError(
+        item.key_place(place.file, place.key),
         "'" + shown(item.key) + "' is also in line " + std::to_string(same->key_mark.line),
         "every key once");
   }

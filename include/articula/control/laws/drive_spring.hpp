@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The total of springs and dampers in drives.
+/// @file The effort of springs and dampers in drives.
 #pragma once
 
+#include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace articula {
 
-/// What the springs and dampers of drives pull at a measured state: K (q_ref - q) + D (v_ref - v),
-/// without the effort [N m or N], N x 1. Real-time: yes.
+/// The effort of springs and dampers at a measured state: K (q_ref - q) + D (v_ref - v), without the
+/// commanded effort [N m or N], N x 1. Real-time: yes.
 template <int N>
 [[nodiscard]] JointVector<N> spring_pull(const MultiModeCommand<N>& command,
                                          const JointState<N>& state) noexcept {
@@ -18,12 +20,12 @@ template <int N>
          command.damping.cwiseProduct(command.velocity - state.velocity);
 }
 
-/// Changes what one drive is asked for so that spring, damper and effort make a given total at the
-/// measured state. The references are drawn towards the state until they pull no more than is left
-/// for them beside the effort; the rest is in the effort, which thereby keeps its limit.
+/// Changes one drive's command so that spring, damper and effort have a given total at the measured
+/// state. It moves the references towards the state until they exert no more than total minus
+/// effort. The rest is in the effort, which keeps its limit.
 /// @param command  its stiffness and damping stay
-/// @param state    what is measured, finite
-/// @param joint    which drive
+/// @param state    measured, finite
+/// @param joint    index of the drive
 /// @param total    [N m or N], within the limit
 /// @param limit    of total and effort, >= 0 [N m or N]
 /// Real-time: yes.
@@ -37,6 +39,17 @@ void set_total(MultiModeCommand<N>& command, const JointState<N>& state, int joi
   command.position[j] = state.position[j] + share * (command.position[j] - state.position[j]);
   command.velocity[j] = state.velocity[j] + share * (command.velocity[j] - state.velocity[j]);
   command.effort[j] = total - share * pull;
+}
+
+/// Limits the total of one drive's spring, damper and effort, and its effort, by set_total. A total
+/// that is not finite stays. Parameters as those of set_total. Real-time: yes.
+template <int N>
+void limit_total(MultiModeCommand<N>& command, const JointState<N>& state, int joint,
+                 double limit) noexcept {
+  const double total = spring_pull(command, state)[joint] + command.effort[joint];
+  const double most = std::max(std::abs(total), std::abs(command.effort[joint]));
+  if (!is_finite(total) || most <= limit) return;
+  set_total(command, state, joint, std::clamp(total, -limit, limit), limit);
 }
 
 }  // namespace articula

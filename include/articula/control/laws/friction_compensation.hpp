@@ -17,7 +17,7 @@ class FrictionCompensation {
 
   FrictionCompensation()
     requires DescribedRobot<R>
-  {}
+  = default;
   explicit FrictionCompensation(const R& robot) : robot_(robot) {}
 
   /// D v + f sign(v) [N m or N], N x 1. Real-time: yes.

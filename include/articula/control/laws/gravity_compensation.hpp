@@ -20,7 +20,7 @@ class GravityCompensation {
 
   GravityCompensation()
     requires DescribedRobot<R>
-  {}
+  = default;
   explicit GravityCompensation(const R& robot) : robot_(robot) {}
 
   /// g(q) [N m or N], N x 1. Real-time: yes.

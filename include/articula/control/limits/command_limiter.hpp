@@ -4,8 +4,8 @@
 
 #include "articula/control/laws/drive_spring.hpp"
 #include "articula/control/limits/effort_limiter.hpp"
-#include "articula/control/limits/joint_limiter.hpp"
-#include "articula/control/limits/position_limiter.hpp"
+#include "articula/control/limits/limit_motion.hpp"
+#include "articula/control/limits/limit_position.hpp"
 #include "articula/core/control_input.hpp"
 #include "articula/core/joint_array.hpp"
 #include "articula/core/joint_command.hpp"
@@ -15,156 +15,143 @@
 
 namespace articula::detail {
 
-/// What Limited needs for one kind of command. Its numbers are those of numbers_of.
+/// The limits of one kind of command. The numbers are those of numbers_of.
 ///
-/// - `start(in)` begins at the measured state. It returns the numbers that the first command goes on
-///   from, N x 1.
-/// - `limit(in, last, command, report)` keeps a command within the limits, after one with the
-///   numbers `last`. It returns the numbers of the result, N x 1.
-/// - `brake(in, last, command, report)` replaces the command by one that brakes all joints.
+/// - `start(in)` begins at the measured state.
+/// - `limit(in, command, report)` keeps a command within the limits. It returns the numbers of the
+///   result, N x 1.
+/// - `brake(in, command, report)` replaces the command by one that brakes all joints.
 template <Robot R, class Command>
 class CommandLimiter;
 
-/// The limiters of all joints, for commands that say where the joints go.
-template <class OfJoint, int N>
-class LimitersOfJoints {
+/// The request at which the steps of single joints and of efforts brake.
+inline constexpr double no_request = std::numeric_limits<double>::quiet_NaN();
+
+template <Robot R>
+class CommandLimiter<R, PositionCommand<joint_count<R>>> {
+  static constexpr int N = joint_count<R>;
+  using Vector = JointVector<N>;
+
  public:
-  explicit LimitersOfJoints(const CommandLimits<N>& limits) {
-    for (int j = 0; j < N; ++j) limiters_[j] = OfJoint(limits, j);
-  }
+  CommandLimiter(const R&, const CommandLimits<N>& kept) : limits(kept) {}
 
- protected:
-  void start_all(const ControlInput<N>& in) noexcept {
-    period_ = in.period;
+  void start(const ControlInput<N>& in) noexcept {
     for (int j = 0; j < N; ++j) {
-      limiters_[j].start({in.state.position[j], in.state.velocity[j], 0}, period_);
+      states_[j] = {stop_from({in.state.position[j], in.state.velocity[j], 0}, limits.of_joint(j),
+                              in.period)};
     }
+  }
+  Vector limit(const ControlInput<N>& in, PositionCommand<N>& command,
+               LimitReport<N>& report) noexcept {
+    for (int j = 0; j < N; ++j) {
+      const PositionStep step =
+          limit_position(states_[j], command.position[j], limits.of_joint(j), in.period);
+      states_[j] = step.next;
+      report[j] = step.report;
+      command.position[j] = step.next.stop.motion().position;
+    }
+    return command.position;
+  }
+  Vector brake(const ControlInput<N>& in, PositionCommand<N>& command,
+               LimitReport<N>& report) noexcept {
+    command.position.setConstant(no_request);
+    return limit(in, command, report);
   }
 
-  /// The limiters, for cycles of this length [s].
-  [[nodiscard]] JointArray<OfJoint, N>& limiters(double period) noexcept {
-    if (period != period_) {
-      for (OfJoint& limiter : limiters_) limiter.set_period(period);
-    }
-    period_ = period;
-    return limiters_;
-  }
+  CommandLimits<N> limits;
 
  private:
-  JointArray<OfJoint, N> limiters_{};
-  double period_ = 1e-3;  ///< [s]
+  JointArray<PositionLimitState, N> states_{};
 };
 
 template <Robot R>
-class CommandLimiter<R, PositionCommand<joint_count<R>>>
-    : LimitersOfJoints<PositionLimiter, joint_count<R>> {
+class CommandLimiter<R, VelocityCommand<joint_count<R>>> {
   static constexpr int N = joint_count<R>;
   using Vector = JointVector<N>;
 
  public:
-  CommandLimiter(const R&, const CommandLimits<N>& limits)
-      : CommandLimiter::LimitersOfJoints(limits) {}
+  CommandLimiter(const R&, const CommandLimits<N>& kept) : limits(kept) {}
 
-  Vector start(const ControlInput<N>& in) noexcept {
-    this->start_all(in);
-    return in.state.position;
-  }
-  Vector limit(const ControlInput<N>& in, const Vector&, PositionCommand<N>& command,
-               LimitReport<N>& report) noexcept {
-    auto& limiters = this->limiters(in.period);
+  void start(const ControlInput<N>& in) noexcept {
     for (int j = 0; j < N; ++j) {
-      command.position[j] = limiters[j].limit(command.position[j], report[j]);
+      states_[j] =
+          stop_from({in.state.position[j], in.state.velocity[j], 0}, limits.of_joint(j), in.period);
     }
-    return command.position;
   }
-  Vector brake(const ControlInput<N>& in, const Vector&, PositionCommand<N>& command,
+  Vector limit(const ControlInput<N>& in, VelocityCommand<N>& command,
                LimitReport<N>& report) noexcept {
-    auto& limiters = this->limiters(in.period);
-    for (int j = 0; j < N; ++j) command.position[j] = limiters[j].brake(report[j]);
-    return command.position;
-  }
-};
-
-template <Robot R>
-class CommandLimiter<R, VelocityCommand<joint_count<R>>>
-    : LimitersOfJoints<JointLimiter, joint_count<R>> {
-  static constexpr int N = joint_count<R>;
-  using Vector = JointVector<N>;
-
- public:
-  CommandLimiter(const R&, const CommandLimits<N>& limits)
-      : CommandLimiter::LimitersOfJoints(limits) {}
-
-  Vector start(const ControlInput<N>& in) noexcept {
-    this->start_all(in);
-    return in.state.velocity;
-  }
-  Vector limit(const ControlInput<N>& in, const Vector&, VelocityCommand<N>& command,
-               LimitReport<N>& report) noexcept {
-    auto& limiters = this->limiters(in.period);
     for (int j = 0; j < N; ++j) {
-      limiters[j].measured(in.state.position[j]);
-      static_cast<void>(limiters[j].move(command.velocity[j], report[j]));
-      command.velocity[j] = limiters[j].motion().velocity;
+      const MotionStep step = limit_velocity(states_[j], in.state.position[j], command.velocity[j],
+                                             limits.of_joint(j), in.period);
+      states_[j] = step.next;
+      report[j] = step.report;
+      command.velocity[j] = step.next.motion().velocity;
     }
     return command.velocity;
   }
-  Vector brake(const ControlInput<N>& in, const Vector& last, VelocityCommand<N>& command,
+  Vector brake(const ControlInput<N>& in, VelocityCommand<N>& command,
                LimitReport<N>& report) noexcept {
-    command.velocity.setConstant(std::numeric_limits<double>::quiet_NaN());  // JointLimiter brakes
-    return limit(in, last, command, report);
+    command.velocity.setConstant(no_request);
+    return limit(in, command, report);
   }
+
+  CommandLimits<N> limits;
+
+ private:
+  JointArray<StoppingMotion, N> states_{};
 };
 
-/// The limiter of efforts, for commands that contain some.
+/// For commands that contain efforts.
 template <Robot R>
 class LimiterOfEfforts {
+ protected:
   static constexpr int N = joint_count<R>;
+  using Vector = JointVector<N>;
 
  public:
-  LimiterOfEfforts(const R& robot, const CommandLimits<N>& limits) : limiter_(robot, limits) {}
+  LimiterOfEfforts(const R& robot, const CommandLimits<N>& kept)
+      : limits(kept), limiter_(robot, kept) {}
 
-  JointVector<N> start(const ControlInput<N>& in) noexcept {
-    period_ = in.period;
-    limiter_.start(in.state, period_);
+  void start(const ControlInput<N>& in) noexcept {
     // Drives that measure no effort would have limits of `effort_rate` begin at 0.
-    return in.applied.held == Held::nothing ? in.state.effort : in.applied.numbers;
+    state_ = {.effort = in.applied.held == Held::nothing ? in.state.effort : in.applied.numbers};
   }
+
+  CommandLimits<N> limits;
 
  protected:
-  /// The limiter, for a cycle of this length [s] after one with the efforts `last`, N x 1.
-  [[nodiscard]] EffortLimiter<R>& limiter(double period, const JointVector<N>& last) noexcept {
-    if (period != period_) limiter_.set_period(period);
-    period_ = period;
-    limiter_.given(last);
-    return limiter_;
-  }
-  [[nodiscard]] JointVector<N> braking_effort(const ControlInput<N>& in, const JointVector<N>& last,
-                                              LimitReport<N>& report) noexcept {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();  // EffortLimiter brakes
-    return limiter(in.period, last).limit(in.state, JointVector<N>::Constant(none), report);
+  /// The efforts within the limits, after the last ones less their cut, N x 1.
+  [[nodiscard]] Vector limited(const ControlInput<N>& in, const Vector& asked,
+                               LimitReport<N>& report, const Vector& stiffness = Vector::Zero(),
+                               const Vector& damping = Vector::Zero()) noexcept {
+    state_.effort -= in.cut;
+    const EffortStep<N> step =
+        limiter_.limit(state_, in.state, asked, in.period, stiffness, damping);
+    state_ = step.next;
+    report = step.report;
+    return step.next.effort;
   }
 
  private:
   EffortLimiter<R> limiter_;
-  double period_ = 1e-3;  ///< [s]
+  EffortLimitState<N> state_{};
 };
 
 template <Robot R>
 class CommandLimiter<R, EffortCommand<joint_count<R>>> : public LimiterOfEfforts<R> {
-  static constexpr int N = joint_count<R>;
-  using Vector = JointVector<N>;
+  using typename LimiterOfEfforts<R>::Vector;
+  using LimiterOfEfforts<R>::N;
 
  public:
   using LimiterOfEfforts<R>::LimiterOfEfforts;
 
-  Vector limit(const ControlInput<N>& in, const Vector& last, EffortCommand<N>& command,
+  Vector limit(const ControlInput<N>& in, EffortCommand<N>& command,
                LimitReport<N>& report) noexcept {
-    return command.effort = this->limiter(in.period, last).limit(in.state, command.effort, report);
+    return command.effort = this->limited(in, command.effort, report);
   }
-  Vector brake(const ControlInput<N>& in, const Vector& last, EffortCommand<N>& command,
+  Vector brake(const ControlInput<N>& in, EffortCommand<N>& command,
                LimitReport<N>& report) noexcept {
-    return command.effort = this->braking_effort(in, last, report);
+    return command.effort = this->limited(in, Vector::Constant(no_request), report);
   }
 };
 
@@ -172,43 +159,38 @@ class CommandLimiter<R, EffortCommand<joint_count<R>>> : public LimiterOfEfforts
 /// the state.
 template <Robot R>
 class CommandLimiter<R, MultiModeCommand<joint_count<R>>> : public LimiterOfEfforts<R> {
-  static constexpr int N = joint_count<R>;
-  using Vector = JointVector<N>;
+  using typename LimiterOfEfforts<R>::Vector;
+  using LimiterOfEfforts<R>::N;
 
  public:
-  CommandLimiter(const R& robot, const CommandLimits<N>& limits)
-      : LimiterOfEfforts<R>(robot, limits), limits_(limits) {}
+  using LimiterOfEfforts<R>::LimiterOfEfforts;
 
-  Vector limit(const ControlInput<N>& in, const Vector& last, MultiModeCommand<N>& command,
+  Vector limit(const ControlInput<N>& in, MultiModeCommand<N>& command,
                LimitReport<N>& report) noexcept {
+    const CommandLimits<N>& limits = this->limits;
     const MultiModeCommand<N> asked = command;
-    command.position = asked.position.cwiseMax(limits_.lower).cwiseMin(limits_.upper);
-    command.velocity = asked.velocity.cwiseMax(-limits_.velocity).cwiseMin(limits_.velocity);
+    command.position = asked.position.cwiseMax(limits.lower).cwiseMin(limits.upper);
+    command.velocity = asked.velocity.cwiseMax(-limits.velocity).cwiseMin(limits.velocity);
     command.stiffness = asked.stiffness.cwiseMax(0);
     command.damping = asked.damping.cwiseMax(0);
     const Vector total = spring_pull(command, in.state) + asked.effort;
-    const Vector effort = this->limiter(in.period, last)
-                              .limit(in.state, total, report, command.stiffness, command.damping);
+    const Vector effort = this->limited(in, total, report, command.stiffness, command.damping);
     for (int j = 0; j < N; ++j) {
-      JointLimitReport& of_joint = report[j];
-      of_joint.position = of_joint.position || command.position[j] != asked.position[j];
-      of_joint.velocity = of_joint.velocity || command.velocity[j] != asked.velocity[j];
-      of_joint.stiffness = command.stiffness[j] != asked.stiffness[j];
-      of_joint.damping = command.damping[j] != asked.damping[j];
-      if (effort[j] == total[j] && std::abs(asked.effort[j]) <= limits_.effort[j]) continue;
-      set_total(command, in.state, j, effort[j], limits_.effort[j]);
+      report[j].position = report[j].position || command.position[j] != asked.position[j];
+      report[j].velocity = report[j].velocity || command.velocity[j] != asked.velocity[j];
+      report[j].stiffness = command.stiffness[j] != asked.stiffness[j];
+      report[j].damping = command.damping[j] != asked.damping[j];
+      if (effort[j] == total[j] && std::abs(asked.effort[j]) <= limits.effort[j]) continue;
+      set_total(command, in.state, j, effort[j], limits.effort[j]);
     }
     return effort;
   }
   /// By the effort alone, without springs.
-  Vector brake(const ControlInput<N>& in, const Vector& last, MultiModeCommand<N>& command,
+  Vector brake(const ControlInput<N>& in, MultiModeCommand<N>& command,
                LimitReport<N>& report) noexcept {
     command = {};
-    return command.effort = this->braking_effort(in, last, report);
+    return command.effort = this->limited(in, Vector::Constant(no_request), report);
   }
-
- private:
-  CommandLimits<N> limits_;
 };
 
 }  // namespace articula::detail

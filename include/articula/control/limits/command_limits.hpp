@@ -1,18 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the joints may be commanded to do.
+/// @file Limits of the commands to the joints.
 #pragma once
 
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string_view>
 
 namespace articula {
 
-/// What N joints may be commanded to do. What is not given is unlimited; `command_limits(robot)`
-/// gives what the robot's description says.
+/// The limits of one joint's motion (CommandLimits::of_joint). Unlimited acceleration and jerk are
+/// so large that they never limit, and their powers do not overflow.
+struct JointCommandLimits {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  double lower = -infinity, upper = infinity;            ///< [rad or m]
+  double soft_lower = -infinity, soft_upper = infinity;  ///< [rad or m]
+  double soft_rate = infinity;                           ///< k [1/s]
+  double velocity = infinity;                            ///< V [rad/s or m/s]
+  double acceleration = 1e15;                            ///< A [rad/s^2 or m/s^2]
+  double deceleration = 1e15;                            ///< B <= A [rad/s^2 or m/s^2]
+  double jerk = 1e30;                                    ///< J [rad/s^3 or m/s^3]
+};
+
+/// The limits of the commands to N joints, unlimited by default. `command_limits(robot)` returns
+/// those of the robot's description.
 /// @tparam N  number of joints
 template <int N>
 struct CommandLimits {
@@ -22,49 +37,61 @@ struct CommandLimits {
 
   Vector lower = Vector::Constant(-infinity);        ///< lowest position [rad or m], N x 1
   Vector upper = Vector::Constant(infinity);         ///< highest position [rad or m], N x 1
-  Vector velocity = Vector::Constant(infinity);      ///< V, either way [rad/s or m/s], N x 1
-  Vector acceleration = Vector::Constant(infinity);  ///< A, either way [rad/s^2 or m/s^2], N x 1
-  /// B, what braking counts on where a joint must stop before a position limit, at most A; what is
-  /// between B and A is in reserve [rad/s^2 or m/s^2], N x 1; infinite: A, for efforts 0.8 A
+  Vector velocity = Vector::Constant(infinity);      ///< V, absolute value [rad/s or m/s], N x 1
+  Vector acceleration = Vector::Constant(infinity);  ///< A, absolute [rad/s^2 or m/s^2], N x 1
+  /// B <= A, the deceleration of planned stops before a position limit; the rest up to A is a
+  /// reserve [rad/s^2 or m/s^2], N x 1; infinite: B = A, for efforts 0.8 A
   Vector deceleration = Vector::Constant(infinity);
-  Vector jerk = Vector::Constant(infinity);         ///< J, either way [rad/s^3 or m/s^3], N x 1
-  Vector effort = Vector::Constant(infinity);       ///< of the total, either way [N m or N], N x 1
-  Vector effort_rate = Vector::Constant(infinity);  ///< either way [N m/s or N/s], N x 1
+  Vector jerk = Vector::Constant(infinity);         ///< J, absolute value [rad/s^3 or m/s^3], N x 1
+  Vector effort = Vector::Constant(infinity);       ///< of the total, absolute [N m or N], N x 1
+  Vector effort_rate = Vector::Constant(infinity);  ///< absolute value [N m/s or N/s], N x 1
 
   Vector soft_lower = Vector::Constant(-infinity);  ///< soft limit of position [rad or m], N x 1
   Vector soft_upper = Vector::Constant(infinity);   ///< likewise
-  /// k: towards a soft limit at a distance x, the speed is at most k x; beyond it, 0 [1/s], N x 1;
-  /// infinite: as fast as the joint can still brake before it
+  /// k: the highest velocity towards a soft limit at the distance x is k x, and 0 beyond the limit
+  /// [1/s], N x 1; infinite: limited by braking alone
   Vector soft_rate = Vector::Constant(infinity);
+
+  /// The limits of one joint's motion. Real-time: yes.
+  [[nodiscard]] JointCommandLimits of_joint(int joint) const noexcept {
+    const double A = std::min(acceleration[joint], 1e15);
+    return {lower[joint],
+            upper[joint],
+            soft_lower[joint],
+            soft_upper[joint],
+            soft_rate[joint],
+            velocity[joint],
+            A,
+            std::min(deceleration[joint], A),
+            std::min(jerk[joint], 1e30)};
+  }
 };
 
-/// The limits in a robot's description: position, velocity, effort, and where they are given
-/// acceleration, jerk and soft limits. Real-time: yes.
+/// The limits in a robot's description: position, velocity, effort, and optionally acceleration, jerk
+/// and soft limits. Real-time: yes.
 template <Robot R>
 [[nodiscard]] CommandLimits<joint_count<R>> command_limits(const R& robot) noexcept {
   const auto of = [&](double JointLimits::* limit) {
     return joint_values(robot, [&](const JointProperties& joint) { return joint.limits.*limit; });
   };
-  CommandLimits<joint_count<R>> limits;
-  limits.lower = of(&JointLimits::lower);
-  limits.upper = of(&JointLimits::upper);
-  limits.velocity = of(&JointLimits::velocity);
-  limits.acceleration = of(&JointLimits::acceleration);
-  limits.jerk = of(&JointLimits::jerk);
-  limits.effort = of(&JointLimits::effort);
-  limits.soft_lower = of(&JointLimits::soft_lower);
-  limits.soft_upper = of(&JointLimits::soft_upper);
-  limits.soft_rate = of(&JointLimits::soft_rate);
-  return limits;
+  return {.lower = of(&JointLimits::lower),
+          .upper = of(&JointLimits::upper),
+          .velocity = of(&JointLimits::velocity),
+          .acceleration = of(&JointLimits::acceleration),
+          .jerk = of(&JointLimits::jerk),
+          .effort = of(&JointLimits::effort),
+          .soft_lower = of(&JointLimits::soft_lower),
+          .soft_upper = of(&JointLimits::soft_upper),
+          .soft_rate = of(&JointLimits::soft_rate)};
 }
 
-/// Refuses limits that cannot be kept or go beyond what the robot's description says.
-/// @throws std::invalid_argument naming limit, joint, value and what it was compared with
+/// Checks that limits can be kept and do not exceed those of the robot's description.
+/// @throws std::invalid_argument naming limit, joint, value and bound
 /// Real-time: no (throws).
 template <Robot R>
 void validate(const R& robot, const CommandLimits<joint_count<R>>& limits) {
   for (int j = 0; j < joint_count<R>; ++j) {
-    const JointProperties& joint = model_of(robot).joints[static_cast<std::size_t>(j)];
+    const JointProperties& joint = model_of(robot).joints[j];
     const auto refuse = [&](detail::MessageParts parts) {
       detail::refuse(
           {"command limits of joint '", joint.name.view(), "': ", detail::message_of(parts)});
@@ -92,8 +119,9 @@ void validate(const R& robot, const CommandLimits<joint_count<R>>& limits) {
     check("soft_rate", limits.soft_rate[j], infinity);
     if (limits.velocity[j] != 0) check("velocity", limits.velocity[j], joint.limits.velocity);
     check("acceleration", limits.acceleration[j], joint.limits.acceleration);
-    const bool reckons = is_finite(limits.deceleration[j]);
-    check("deceleration", limits.deceleration[j], reckons ? limits.acceleration[j] : infinity);
+    const bool has_deceleration = is_finite(limits.deceleration[j]);
+    check("deceleration", limits.deceleration[j],
+          has_deceleration ? limits.acceleration[j] : infinity);
     check("jerk", limits.jerk[j], joint.limits.jerk);
     if (limits.effort[j] != 0) check("effort", limits.effort[j], joint.limits.effort);
     check("effort_rate", limits.effort_rate[j], infinity);

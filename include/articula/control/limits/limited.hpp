@@ -16,7 +16,7 @@
 namespace articula {
 
 /// A controller whose commands keep limits of position, velocity, acceleration, jerk and effort. So
-/// every joint can always stop before its position limit (see JointLimiter):
+/// every joint can always stop before its position limit (see limit_motion):
 ///
 ///     CommandLimits<2> limits = command_limits(Q2d());
 ///     limits.acceleration = {20, 40};  // what the drives can do in every posture
@@ -56,9 +56,7 @@ class Limited {
   /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is
   ///         beyond what the description says, or is missing (see EffortLimiter)
   Limited(const R& robot, const CommandLimits<articula::joint_count<R>>& limits, C controller)
-      : controller_(std::move(controller)),
-        limits_((validate(robot, limits), limits)),
-        limiter_(robot, limits) {}
+      : controller_(std::move(controller)), limiter_((validate(robot, limits), robot), limits) {}
   /// With a controller that is made from the robot, or by default where none can be.
   Limited(const R& robot, const CommandLimits<articula::joint_count<R>>& limits)
       : Limited(robot, limits, controller_of(robot)) {}
@@ -75,7 +73,7 @@ class Limited {
   /// effort that was applied last. Real-time: yes, if the controller's is.
   void start(const Input& in) noexcept {
     start_controller(controller_, in);
-    given_ = limiter_.start(in);
+    limiter_.start(in);
     clip_.setZero();
     passes_cut_ = false;
     braked_cycles_ = 0;
@@ -93,14 +91,13 @@ class Limited {
     braked_cycles_ = 0;
     const Outcome<Command> own = update_controller(controller_, inner);
     const Vector asked = numbers_of(own.command, in.state);
-    report_ = {};
     passes_cut_ = own.verdict != Verdict::failed && is_finite(asked);
     if (!passes_cut_) {
       clip_.setZero();
       return {braked(in, asked), Verdict::degraded};
     }
     Command command = own.command;
-    note(asked, limiter_.limit(in, given_ - in.cut, command, report_));
+    note(asked, limiter_.limit(in, command, report_));
     clip_ = asked - given_;
     return {command, own.verdict};
   }
@@ -110,13 +107,14 @@ class Limited {
     if (passes_cut_) clip_ += in.cut;  // of the controller's last command, for its next call
     passes_cut_ = false;
     if (braked_cycles_ <= detail::borne_cycles) ++braked_cycles_;
-    report_ = {};
     return braked(in, Vector::Constant(std::numeric_limits<double>::quiet_NaN()));
   }
 
   /// What the last update changed. Real-time: yes.
   [[nodiscard]] const LimitReport<joint_count>& report() const noexcept { return report_; }
-  [[nodiscard]] const CommandLimits<joint_count>& limits() const noexcept { return limits_; }
+  [[nodiscard]] const CommandLimits<joint_count>& limits() const noexcept {
+    return limiter_.limits;
+  }
   [[nodiscard]] C& controller() noexcept { return controller_; }
   [[nodiscard]] const C& controller() const noexcept { return controller_; }
 
@@ -148,7 +146,7 @@ class Limited {
 
   [[nodiscard]] Command braked(const Input& in, const Vector& asked) noexcept {
     Command command;
-    note(asked, limiter_.brake(in, given_ - in.cut, command, report_));
+    note(asked, limiter_.brake(in, command, report_));
     return command;
   }
 
@@ -170,10 +168,9 @@ class Limited {
   }
 
   C controller_;
-  CommandLimits<joint_count> limits_;
   detail::CommandLimiter<R, Command> limiter_;
   LimitReport<joint_count> report_{};
-  Vector given_ = Vector::Zero();  ///< numbers of the last command
+  Vector given_ = Vector::Zero();  ///< numbers of the last command, at which the joints are held
   Vector clip_ = Vector::Zero();   ///< of the controller's last command, by these limits
   bool passes_cut_ = false;        ///< the last command was the controller's, within limits
   int braked_cycles_ = 0;          ///< without a reference, counted to one more than are borne

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Where the bodies of a mechanism stand in the base frame.
+/// @file The placements of a mechanism's bodies in the base frame.
 #pragma once
 
 #include "articula/dynamics/engine/configuration.hpp"
 
 namespace articula {
 
-/// Where every body stands in the base frame: X_0i = X_0p X_pi, from the base outwards.
+/// The placement of every body in the base frame: X_0i = X_0p X_pi, from the base outwards.
 struct BodyPlacements {
   static constexpr bool needs_own_frames = true;
   static constexpr bool needs_no_masses = true;

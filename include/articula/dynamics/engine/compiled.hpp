@@ -20,18 +20,18 @@
 
 namespace articula::compiled {
 
-/// True for algorithms whose result depends on the frames of the bodies or on how the inertia is
-/// shared among them. They are run on the mechanism as it is described and say so by a member
-/// `needs_own_frames`; the others on its canonical form.
+/// True for algorithms whose result depends on the frames of the bodies or on the distribution of
+/// inertia among them. Such an algorithm has a member `needs_own_frames` and runs on the mechanism
+/// as described; the others run on its canonical form.
 template <class Algorithm>
 inline constexpr bool needs_own_frames = requires { requires Algorithm::needs_own_frames; };
 
-/// True for algorithms of kinematics: robots have them whose masses are not known, too. They say so
-/// by a member `needs_no_masses`.
+/// True for algorithms of kinematics, which also run for robots without masses. Such an algorithm
+/// has a member `needs_no_masses`.
 template <class Algorithm>
 inline constexpr bool needs_no_masses = requires { requires Algorithm::needs_no_masses; };
 
-/// Refuses, in the compiler, an algorithm of dynamics for a robot whose masses are not known.
+/// Rejects an algorithm of dynamics for a robot without masses, at compile time.
 template <class Algorithm, Robot R>
 consteval void check_masses() {
   if constexpr (!needs_no_masses<Algorithm>) {
@@ -39,12 +39,12 @@ consteval void check_masses() {
   }
 }
 
-/// True for algorithms about one link, named at compile time. They take the robot's model and the
-/// joint positions: `evaluate<frames, S>(model, q)`.
+/// An algorithm about one link, named at compile time. It takes the robot's model and the joint
+/// positions: `evaluate<frames, S>(model, q)`.
 template <class Algorithm>
-concept OfALink = requires { Algorithm::link; };
+concept LinkAlgorithm = requires { Algorithm::link; };
 
-/// The mechanism of a robot on which an algorithm is run. Real-time: yes.
+/// The mechanism of a robot on which an algorithm runs. Real-time: yes.
 template <class Algorithm, Robot R>
 [[nodiscard]] constexpr const auto& mechanism_for(const R& robot) noexcept {
   if constexpr (needs_own_frames<Algorithm>) {
@@ -59,7 +59,7 @@ namespace detail {
 template <DescribedRobot R>
 using ModelOf = std::remove_cvref_t<decltype(model_of(R{}))>;
 
-/// The inputs of an algorithm after the configuration: how many arrays of N numbers it takes.
+/// The number of an algorithm's inputs after the configuration, arrays of N numbers.
 template <class Algorithm, class S, int N, int B, std::size_t Arrays = 0>
 consteval std::size_t input_arrays() {
   constexpr bool fits = []<std::size_t... I>(std::index_sequence<I...>) {
@@ -68,7 +68,7 @@ consteval std::size_t input_arrays() {
       Algorithm::template evaluate<S, N, B>(mechanism, configuration, inputs[I]...);
     };
   }(std::make_index_sequence<Arrays>{});
-  if constexpr (fits || OfALink<Algorithm>) {
+  if constexpr (fits || LinkAlgorithm<Algorithm>) {
     return Arrays;
   } else {
     static_assert(Arrays < 8, "articula: this is not an algorithm of a configuration and arrays");
@@ -76,11 +76,11 @@ consteval std::size_t input_arrays() {
   }
 }
 
-/// Runs an algorithm on symbols and assembles what it leaves in the graph. Inputs are numbered
-/// through the positions, then through the algorithm's other arrays: see OneAfterTheOther.
-/// @tparam Room  for how long a program
-template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSize Room>
-[[nodiscard]] constexpr symbolic::Program<Room> trace() {
+/// Runs an algorithm on symbols and assembles a program from the resulting graph. Inputs are
+/// numbered through the positions, then through the algorithm's other arrays, see Concatenated.
+/// @tparam Capacity  the largest program
+template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSize Capacity>
+[[nodiscard]] constexpr symbolic::Program<Capacity> trace() {
   using symbolic::Symbol;
   constexpr int n = ModelOf<R>::joint_count, b = ModelOf<R>::body_count;
   constexpr std::size_t arrays = input_arrays<Algorithm, Symbol, n, b>();
@@ -91,7 +91,7 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
   symbolic::for_each_scalar<Symbol>(
       inputs, [&](Symbol& symbol) { symbol = Symbol(graph, graph.input(next++)); });
   auto result = [&]<std::size_t... I>(std::index_sequence<I...>) {
-    if constexpr (OfALink<Algorithm>) {
+    if constexpr (LinkAlgorithm<Algorithm>) {
       return Algorithm::template evaluate<frames, Symbol>(model_of(R{}), inputs[0]);
     } else {
       const auto& mechanism = mechanism_for<Algorithm>(R{});
@@ -102,49 +102,50 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
 
   symbolic::GrowingArray<symbolic::Term> outputs(128);
   symbolic::for_each_scalar<Symbol>(result, [&](Symbol& symbol) { outputs.append(symbol.term()); });
-  return symbolic::Assembler<Room>::assemble(graph, outputs);
+  return symbolic::Assembler<Capacity>::assemble(graph, outputs);
 }
 
-/// Room for the programs of most algorithms: at least twice what those of this library take.
+/// A capacity for the programs of most algorithms: at least twice the size of those of this
+/// library.
 template <DescribedRobot R>
-[[nodiscard]] consteval symbolic::ProgramSize usual_room() {
+[[nodiscard]] consteval symbolic::ProgramSize usual_capacity() {
   constexpr auto bodies = static_cast<std::size_t>(ModelOf<R>::body_count);
   return {
       .instructions = 384 * bodies, .constants = 32 * bodies, .outputs = (12 + bodies) * bodies};
 }
 
-/// The algorithm is run a second time only if there was not room enough.
+/// The program of an algorithm. The algorithm runs a second time only if the capacity was too
+/// small.
 template <class Algorithm, DescribedRobot R, Frames frames>
 [[nodiscard]] consteval auto compile() {
-  constexpr auto program = trace<Algorithm, R, frames, usual_room<R>()>();
-  if constexpr (program.is_whole()) {
+  constexpr auto program = trace<Algorithm, R, frames, usual_capacity<R>()>();
+  if constexpr (program.is_complete()) {
     return program;
   } else {
     return trace<Algorithm, R, frames, program.size>();
   }
 }
 
-/// The program of an algorithm in given frames.
+/// The program of an algorithm in the stated frames.
 template <class Algorithm, DescribedRobot R, Frames frames>
 inline constexpr auto program_in = compile<Algorithm, R, frames>();
 
-/// By how many operations an algorithm's program is cheaper in resting frames.
+/// The cost that resting frames save in an algorithm's program.
 template <class Algorithm, DescribedRobot R>
 inline constexpr int gain_of_resting =
     program_in<Algorithm, R, Frames::moving>.operations().cost() -
     program_in<Algorithm, R, Frames::resting>.operations().cost();
 
-/// The frames that make the cheaper program. Trying them on each algorithm would take the compiler
-/// longer than all the rest. The gravity efforts are tried, for all algorithms: their program is
-/// short and consists of what the frames make cheaper or dearer, the way of vectors to the leaves
-/// and back. Only where they make no difference, as where axes are vertical or nothing falls, the
-/// algorithm itself is tried. So are algorithms of a link: what gravity costs says nothing about
-/// them.
+/// The frames that give the cheaper program. To compile each algorithm in both would take longer
+/// than everything else. So the gravity efforts decide for all algorithms: their program is short
+/// and consists of the operations on which the frames have an effect. Where gravity costs the same
+/// in both, as with vertical axes, the algorithm itself decides. It also decides for a link's
+/// algorithm, which has other operations.
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval Frames frames_for() {
   if constexpr (needs_own_frames<Algorithm>) {
     return Frames::moving;
-  } else if constexpr (OfALink<Algorithm>) {
+  } else if constexpr (LinkAlgorithm<Algorithm>) {
     return gain_of_resting<Algorithm, R> > 0 ? Frames::resting : Frames::moving;
   } else if constexpr (gain_of_resting<Gravity, R> != 0) {
     return gain_of_resting<Gravity, R> > 0 ? Frames::resting : Frames::moving;
@@ -158,7 +159,7 @@ template <class Algorithm, DescribedRobot R>
 inline constexpr const auto& best_program = program_in<Algorithm, R, frames_for<Algorithm, R>()>;
 
 /// Whether an algorithm has an `Alternative`, another one with the same inputs and results, that
-/// makes the cheaper program. It is tried only where it says that it `may_pay`.
+/// gives a cheaper program. It is compiled only where its `may_pay` is true.
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval bool has_cheaper_alternative() {
   if constexpr (requires { typename Algorithm::Alternative; }) {
@@ -181,9 +182,9 @@ template <class Algorithm, DescribedRobot R>
   }
 }
 
-/// Arrays of N numbers as one, in which inputs are numbered as in `trace`.
+/// Arrays of N numbers as one array, in which inputs are numbered as in `trace`.
 template <class Array, std::size_t N, std::size_t Arrays>
-struct OneAfterTheOther {
+struct Concatenated {
   const Array* arrays[Arrays];  // NOLINT
 
   [[gnu::always_inline]] auto operator[](std::size_t i) const noexcept {
@@ -191,19 +192,15 @@ struct OneAfterTheOther {
   }
 };
 
-/// An array of S for each of the inputs, whatever type they have: an algorithm takes arrays.
-template <class S, int N, class Input>
-using ArrayOf = JointArray<S, N>;
-
-/// What an algorithm returns for the scalar S.
+/// The result type of an algorithm for the scalar S.
 template <class Algorithm, DescribedRobot R, class S, class... Inputs>
 struct Result {
   static constexpr int n = ModelOf<R>::joint_count, b = ModelOf<R>::body_count;
   using Type = decltype(Algorithm::template evaluate<S, n, b>(
       std::declval<Mechanism<n, b>>(), std::declval<Configuration<S, b>>(),
-      std::declval<ArrayOf<S, n, Inputs>>()...));
+      std::declval<std::conditional_t<true, JointArray<S, n>, Inputs>>()...));
 };
-template <OfALink Algorithm, DescribedRobot R, class S>
+template <LinkAlgorithm Algorithm, DescribedRobot R, class S>
 struct Result<Algorithm, R, S> {
   using Type = decltype(Algorithm::template evaluate<Frames::moving, S>(
       model_of(R{}), std::declval<JointArray<S, ModelOf<R>::joint_count>>()));
@@ -211,16 +208,16 @@ struct Result<Algorithm, R, S> {
 
 }  // namespace detail
 
-/// The program that an algorithm becomes for a robot.
+/// The program of an algorithm for a robot.
 template <class Algorithm, DescribedRobot R>
 inline constexpr const auto& program = detail::cheapest_program<Algorithm, R>();
 
-/// Runs an algorithm's program: the same result as Algorithm::evaluate for the robot's mechanism,
-/// but for rounding. Where angles of parallel axes are added, that is as if one of them were off by
-/// some units in its last place (2e-9 rad each at 1e7 rad). What the result does not depend on is
-/// not read: a NaN there leaves no trace.
-/// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack; an
-///                array, or what else can be read so, as a pointer to N numbers
+/// Runs an algorithm's program. The result is that of Algorithm::evaluate for the robot's mechanism
+/// up to rounding. Adding angles of parallel axes has the effect of an error of some units in the
+/// last place of an angle (2e-9 rad each at 1e7 rad). Inputs on which the result does not depend
+/// are not read, so a NaN there has no effect.
+/// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack. An array
+///                or a pointer to N numbers
 /// @param inputs  the algorithm's other inputs, of the same type
 /// Real-time: yes.
 template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>... Inputs>
@@ -231,8 +228,7 @@ template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>...
   if constexpr (requires { std::tuple_size<Input>::value; }) {
     static_assert(std::tuple_size_v<Input> == n, "articula: there are as many numbers as joints");
   }
-  const detail::OneAfterTheOther<Input, std::size_t{n}, 1 + sizeof...(Inputs)> input{
-      {&q, &inputs...}};
+  const detail::Concatenated<Input, std::size_t{n}, 1 + sizeof...(Inputs)> input{{&q, &inputs...}};
   const auto output = symbolic::run_program<program<Algorithm, R>>(input);
 
   typename detail::Result<Algorithm, R, S, Inputs...>::Type result;
@@ -246,8 +242,8 @@ template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>...
 
 namespace articula {
 
-/// How many operations the program of an algorithm takes, once per call; sines counts pairs of sine
-/// and cosine. For example `operations<InverseDynamics, Q2d>().multiplications`.
+/// The number of operations in the program of an algorithm; `sines` counts pairs of sine and
+/// cosine. For example `operations<InverseDynamics, Q2d>().multiplications`.
 template <class Algorithm, DescribedRobot R>
 [[nodiscard]] consteval symbolic::OperationCounts operations() {
   return compiled::program<Algorithm, R>.operations();

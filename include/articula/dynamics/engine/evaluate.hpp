@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The way from Eigen vectors to an algorithm's text and back.
+/// @file Execution of algorithms on Eigen's vectors, for described robots and for models.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"
 #include "articula/dynamics/engine/compiled.hpp"
 #include "articula/dynamics/engine/configuration.hpp"
+#include "articula/dynamics/engine/joint_vector_pack.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/symbolic/pack.hpp"
 
@@ -26,10 +27,10 @@ template <int N>
   }(std::make_integer_sequence<int, N>{});
 }
 
-template <int N>
-[[nodiscard, gnu::always_inline]] inline JointVector<N> to_vector(
-    const JointArray<double, N>& array) noexcept {
-  return for_each_joint<N>([&](int j) __attribute__((always_inline)) { return array[j]; });
+template <class S, int N>
+[[nodiscard, gnu::always_inline]] inline JointVector<N, S> to_vector(
+    const JointArray<S, N>& array) noexcept {
+  return for_each_joint<N, S>([&](int j) __attribute__((always_inline)) { return array[j]; });
 }
 
 template <int N>
@@ -55,8 +56,7 @@ template <int N>
   return matrix;
 }
 
-/// Whether an algorithm has an `Alternative` that can pay for models of this size. The model itself
-/// says whether it does.
+/// Whether an algorithm has an `Alternative` that can be faster for models of this size.
 template <class Algorithm, int N, int B>
 inline constexpr bool has_alternative_for_numbers = [] {
   if constexpr (requires { Algorithm::Alternative::smallest_model; }) {
@@ -66,11 +66,11 @@ inline constexpr bool has_alternative_for_numbers = [] {
   }
 }();
 
-/// Runs an algorithm on a robot at positions q: the one place that knows how. For a described robot
-/// that is the program which the compiler made of `Algorithm::evaluate`; for a model the function
-/// itself is called with the mechanism, the configuration at q and the other inputs as arrays, or
-/// that of the algorithm's alternative where it takes less time.
-/// @param inputs  input[i] is a number, or a pack of those of several robots
+/// Runs an algorithm on a robot at positions q. A described robot runs the program which the
+/// compiler has made of `Algorithm::evaluate`. A model runs this function itself, with the
+/// mechanism, the configuration at q and the other inputs as arrays, or that of the algorithm's
+/// alternative where it is faster.
+/// @param inputs  input[i] is a number, or a pack with the numbers of several robots
 template <class Algorithm, Robot R, class Input, class... Inputs>
 [[nodiscard, gnu::always_inline]] inline auto evaluate_numbers(const R& robot, const Input& q,
                                                                const Inputs&... inputs) noexcept {
@@ -105,7 +105,7 @@ template <class Algorithm, Robot R, std::same_as<JointVector<joint_count<R>>>...
   return evaluate_numbers<Algorithm>(robot, q.data(), inputs.data()...);
 }
 
-/// Numbers of as many robots as a pack has lanes, out of rows of K.
+/// A pack for each row of a matrix with K columns, one for each robot.
 template <int Lanes, int K>
 struct Columns {
   const double* first;
@@ -115,30 +115,32 @@ struct Columns {
   }
 };
 
-/// The same for K robots at once, as many as fit into a register at a time. If K is no multiple of
-/// that, the last ones are those that end at column K: some are computed twice.
-template <class Algorithm, Robot R, int K, std::same_as<JointVectors<joint_count<R>, K>>... Inputs>
-[[nodiscard]] JointVectors<joint_count<R>, K> evaluate_columns(
-    const R& robot, const JointVectors<joint_count<R>, K>& q, const Inputs&... inputs) noexcept {
-  static_assert(K >= 2, "articula: a single robot has a JointVector");
-  constexpr int n = joint_count<R>;
-  constexpr int lanes = K < 4   ? 2
-                        : K < 8 ? std::min(4, symbolic::lanes_of_a_register)
-                                : symbolic::lanes_of_a_register;
-  using Pack = symbolic::Pack<lanes>;
-  JointVectors<n, K> result;
-  for (int column = 0; column < K; column += lanes) {
-    const int first = std::min(column, K - lanes);
-    const auto columns = [&](const JointVectors<n, K>& vectors) __attribute__((always_inline)) {
-      return Columns<lanes, K>{vectors.data() + first};
-    };
-    const JointArray<Pack, n> packed =
-        evaluate_numbers<Algorithm>(robot, columns(q), columns(inputs)...);
-    symbolic::detail::for_each_index<std::size_t{n}>(
-        [&](std::size_t i)
-            __attribute__((always_inline)) { packed[i].store(result.data() + i * K + first); });
+/// The same for several robots at once. Of the columns of JointVectors it takes as many at a time
+/// as fit into a register. If K is no multiple of that, the last group ends at column K and
+/// overlaps the one before.
+template <class Algorithm, Robot R, JointVectorPack<R> Q, std::same_as<Q>... Inputs>
+[[nodiscard]] Q evaluate_pack(const R& robot, const Q& q, const Inputs&... inputs) noexcept {
+  constexpr int n = joint_count<R>, K = Q::ColsAtCompileTime;
+  if constexpr (K == 1) {
+    return to_vector(evaluate_numbers<Algorithm>(robot, q.data(), inputs.data()...));
+  } else {
+    constexpr int lanes = K < 4   ? 2
+                          : K < 8 ? std::min(4, symbolic::lanes_of_a_register)
+                                  : symbolic::lanes_of_a_register;
+    Q result;
+    for (int column = 0; column < K; column += lanes) {
+      const int first = std::min(column, K - lanes);
+      const auto columns = [&](const Q& vectors) __attribute__((always_inline)) {
+        return Columns<lanes, K>{vectors.data() + first};
+      };
+      const JointArray<symbolic::Pack<lanes>, n> packed =
+          evaluate_numbers<Algorithm>(robot, columns(q), columns(inputs)...);
+      symbolic::detail::for_each_index<std::size_t{n}>(
+          [&](std::size_t i)
+              __attribute__((always_inline)) { packed[i].store(result.data() + i * K + first); });
+    }
+    return result;
   }
-  return result;
 }
 
 }  // namespace articula::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The algorithm behind gravity. It stands apart because the frames in which a robot's
-/// programs calculate are chosen by it, see compiled.hpp.
+/// @file The algorithm of gravity. It is a header of its own because it decides in which frames a
+/// robot's programs compute, see compiled.hpp.
 #pragma once
 
 #include "articula/dynamics/engine/unset_array.hpp"
@@ -8,7 +8,7 @@
 
 namespace articula {
 
-/// Newton-Euler for a robot at rest, where only weights are left.
+/// The Newton-Euler algorithm for a robot at rest: weights only.
 struct Gravity {
   template <class S, int N, int B>
   [[nodiscard]] static constexpr JointArray<S, N> evaluate(

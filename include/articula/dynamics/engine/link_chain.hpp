@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The way from the base to one link, joint by joint.
+/// @file The chain of bodies from the base to one link.
 #pragma once
 
 #include "articula/dynamics/engine/body_placements.hpp"
@@ -15,7 +15,7 @@
 
 namespace articula::detail {
 
-/// The bodies that move a link, from the base outwards.
+/// The bodies on the path from the base to a link.
 template <int B>
 struct LinkPath {
   JointArray<int, B> bodies{};
@@ -30,15 +30,16 @@ struct LinkPath {
   }
 };
 
-/// How a link hangs on the base: an axis and a step for each joint that moves it. All vectors are
-/// in the frame of the base.
+/// The position of a link relative to the base: an axis and a step for each body on its path. All
+/// vectors are in the base frame.
 /// @tparam B  number of bodies of the robot
 template <class S, int B>
 struct LinkChain {
-  UnsetArray<Vector3<S>, B> axes;   ///< z of each body on the way
-  UnsetArray<Vector3<S>, B> steps;  ///< from the origin of the body before, or the base, to its own
-  Vector3<S> last_step{};           ///< from the last body's origin to the link's
-  Matrix3<S> rotation{};            ///< of the link's frame
+  LinkPath<B> path;                   ///< bodies between the base and the link
+  UnsetArray<Vector3<S>, B> axes{};   ///< z of each body on the path
+  UnsetArray<Vector3<S>, B> steps{};  ///< to each body's origin from that of its predecessor
+  Vector3<S> last_step{};             ///< from the last body's origin to the link's
+  Matrix3<S> rotation{};              ///< of the link's frame
 };
 
 /// True if a body's axis is parallel to that of the body that carries it.
@@ -47,8 +48,8 @@ struct LinkChain {
   return body.parent >= 0 && axis.x == 0 && axis.y == 0;
 }
 
-/// How far each body on the way has turned about its axis. In moving frames that is the joint's own
-/// turn. In resting frames it is the sum of those of the parallel axes that follow each other.
+/// The turn of each body on the path about its axis. In moving frames it is the joint's own turn,
+/// in resting frames the sum over consecutive parallel axes.
 template <Frames frames, class S, int N, int B>
 [[nodiscard]] constexpr JointArray<AxialTurn<S>, B> turns_along(
     const Mechanism<N, B>& mechanism, const LinkPath<B>& path,
@@ -71,58 +72,58 @@ template <Frames frames, class S, int N, int B>
   S angle(0.0);
   for (int k = 0; k < B && k < path.count; ++k) {
     const Body& body = mechanism.bodies[path.bodies[k]];
-    const bool goes_on = frames == Frames::resting && is_parallel_to_parent(body);
-    angle = !goes_on ? S(0.0) : body.placement.rotation.rows[2].z > 0 ? angle : -angle;
+    const bool same_axis = frames == Frames::resting && is_parallel_to_parent(body);
+    angle = !same_axis ? S(0.0) : body.placement.rotation.rows[2].z > 0 ? angle : -angle;
     if (!body.prismatic) angle = angle + position[path.bodies[k]];
     turns[k] = turn_by(angle);
   }
   return turns;
 }
 
-/// Walks from the base to a link. (Loops say twice where they end: compilers unroll those of small
-/// robots.)
-/// @tparam frames    resting ones add the angles of parallel axes that follow each other
+/// The chain from the base to a link. (Each loop has a second, constant bound, so that compilers
+/// unroll the loops of small robots.)
+/// @tparam frames    resting frames add the angles of consecutive parallel axes
 /// @param mechanism  the robot's bodies, to which link frames refer
-/// @param path       the bodies that move the link
 /// @param link       the link
 /// @param q          joint positions [rad or m]
 template <Frames frames, class S, int N, int B>
 [[nodiscard]] constexpr LinkChain<S, B> link_chain(const Mechanism<N, B>& mechanism,
-                                                   const LinkPath<B>& path, const LinkFrame& link,
+                                                   const LinkFrame& link,
                                                    const JointArray<S, N>& q) noexcept {
   const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
+  LinkChain<S, B> chain{.path = LinkPath<B>(mechanism, link)};
+  const LinkPath<B>& path = chain.path;
   const JointArray<AxialTurn<S>, B> turns = turns_along<frames, S, N, B>(mechanism, path, position);
-  LinkChain<S, B> chain;
   Matrix3<S> rotation = constant<S>(Matrix3<double>::identity());
-  AxialTurn<S> turn{S(0.0), S(1.0)};  // of the body before in the frame that `rotation` belongs to
-  bool turns_before = false;
+  AxialTurn<S> turn{S(0.0), S(1.0)};  // of the predecessor, after `rotation`
+  bool has_turn = false;
   for (int k = 0; k < B && k < path.count; ++k) {
     const Body& body = mechanism.bodies[path.bodies[k]];
-    const Vector3<S> place = constant<S>(body.placement.translation);
-    const bool goes_on = frames == Frames::resting && is_parallel_to_parent(body);
+    const Vector3<S> offset = constant<S>(body.placement.translation);
+    const bool same_axis = frames == Frames::resting && is_parallel_to_parent(body);
     Vector3<S> step;
-    if (goes_on) {
-      step = rotation * turn(place);
+    if (same_axis) {
+      step = rotation * turn(offset);
     } else {
-      if (turns_before) rotation = turned(rotation, turn);
-      step = rotation * place;
+      if (has_turn) rotation = turned(rotation, turn);
+      step = rotation * offset;
     }
     rotation = k == 0 ? constant<S>(body.placement.rotation)
                       : rotation * constant<S>(body.placement.rotation);
     turn = turns[k];
-    turns_before = goes_on || !body.prismatic;
+    has_turn = same_axis || !body.prismatic;
     chain.axes.set(k, rotation.column(2));
     if (body.prismatic) step = step + position[path.bodies[k]] * chain.axes[k];
     chain.steps.set(k, step);
   }
-  if (turns_before) rotation = turned(rotation, turn);
+  if (has_turn) rotation = turned(rotation, turn);
   chain.last_step = rotation * constant<S>(link.placement.translation);
   chain.rotation = rotation * constant<S>(link.placement.rotation);
   return chain;
 }
 
-/// For each body of a robot known at compile time whether the program of all bodies, which knows
-/// zeros, takes no longer than the walk to this one alone.
+/// For each body of a robot known at compile time: whether the program of all bodies, which omits
+/// zeros, costs no more than the chain to this body alone.
 template <DescribedRobot R>
 inline constexpr auto program_is_cheaper = [] {
   constexpr const auto& mechanism = model_of(R{}).mechanism;
@@ -137,10 +138,10 @@ inline constexpr auto program_is_cheaper = [] {
   return cheaper;
 }();
 
-/// Whether a link named at run time is placed sooner by placing all bodies: by a program that knows
-/// zeros, or because there are so few that finding the way takes longer.
+/// Whether the placements of all bodies are faster than the chain to a link named at run time: by a
+/// program that omits zeros, or because the bodies are few.
 template <Robot R>
-[[nodiscard]] constexpr bool takes_all_bodies(const LinkFrame& link) noexcept {
+[[nodiscard]] constexpr bool all_bodies_are_faster(const LinkFrame& link) noexcept {
   constexpr int b = std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::body_count;
   if constexpr (DescribedRobot<R>) {
     return link.body >= 0 && program_is_cheaper<R>[link.body];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How the compiler says that a robot has no link of a name.
+/// @file The compiler's error message for a link that a robot does not have.
 #pragma once
 
 #include "articula/model/physical_check.hpp"
@@ -10,16 +10,16 @@
 
 namespace articula::detail {
 
-/// Its instantiation is the error message where a link is asked for that the robot does not have.
+/// Its instantiation is the error message for a link that the robot does not have.
 /// @tparam R      the robot
-/// @tparam Asked  the name that was asked for
+/// @tparam Asked  the requested name
 /// @tparam Links  the names of its links
 template <class R, class Asked, class... Links>
 struct RobotHasNoLink {
   static_assert(!Robot<R>,
                 "articula: the robot has no link of that name. The first template argument of "
-                "RobotHasNoLink is the robot, the second is the name that was asked for, the "
-                "others are the names of its links.");
+                "RobotHasNoLink is the robot, the second is the requested name, the others are the "
+                "names of its links.");
 };
 
 /// Whether a robot has a link of a name.
@@ -37,7 +37,7 @@ constexpr void print_names(Asked, Links...) {
   static_cast<void>(RobotHasNoLink<R, Asked, Links...>());
 }
 
-/// An error of the compiler's: the robot has no link of that name, but others.
+/// Causes the compiler's error message, with the names of the robot's links.
 template <Name Link, DescribedRobot R>
 constexpr void reject_link() {
   constexpr const auto& links = model_of(R{}).links;

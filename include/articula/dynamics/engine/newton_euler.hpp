@@ -11,8 +11,8 @@ namespace articula {
 
 namespace detail {
 
-/// How a body moves, in its own frame. The base is held still and accelerates against gravity
-/// instead, so that every body's weight comes with its acceleration.
+/// The motion of a body, in its own frame. Gravity acts as an upward acceleration of the base, so
+/// that every acceleration includes the weight.
 template <class S>
 struct BodyMotion {
   Vector3<S> angular_velocity{};      ///< w [rad/s], 3 x 1
@@ -20,7 +20,7 @@ struct BodyMotion {
   Vector3<S> acceleration{};          ///< of the frame's origin, minus gravity [m/s^2], 3 x 1
 };
 
-/// The products of the components of an angular velocity, each of which is needed several times.
+/// The products of the components of an angular velocity, each of which occurs several times.
 template <class S>
 struct VelocityProducts {
   S xx, yy, zz, xy, xz, yz;
@@ -39,9 +39,9 @@ constexpr Matrix3<S> acceleration_gradient(const VelocityProducts<S>& w,
             {w.xz - dw.y, w.yz + dw.x, -(w.xx + w.yy)}}}};
 }
 
-/// Force and moment that give a body its motion: f = m a + U h and n = h x a + the vector r with
-/// [r]x = U J - (U J)^T, J being the second moments of mass. In r.z the terms with dw.z are put
-/// together, as (Jxx + Jyy) dw.z: one multiplication, by a constant.
+/// Force and moment of a body's motion: f = m a + U h and n = h x a + r with
+/// [r]x = U J - (U J)^T, J the second moments of mass. In r.z the terms with dw.z are collected as
+/// (Jxx + Jyy) dw.z: one multiplication, by a constant.
 template <class S>
 [[gnu::always_inline]] constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion,
                                                       const VelocityProducts<S>& w,
@@ -61,18 +61,18 @@ template <class S>
 
 }  // namespace detail
 
-/// The joint efforts that give a mechanism its motion: effort = M(q) a + h(q, v) with gravity in h.
-/// Velocities and accelerations run from the base to the leaves, forces back from the leaves to the
-/// base. Source: [Luh, Walker, Paul 1980]; with the matrix U of [Balafoutis, Patel, Misra 1988]; in
-/// link frames as [Khalil, Dombre 2002, section 9.5].
+/// The joint efforts of a motion: effort = M(q) a + h(q, v) with gravity in h. Velocities and
+/// accelerations propagate from the base to the leaves, forces from the leaves to the base.
+/// Source: [Luh, Walker, Paul 1980]; with the matrix U of [Balafoutis, Patel, Misra 1988]; in link
+/// frames as [Khalil, Dombre 2002, section 9.5].
 ///
-/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M, and what two
-/// joints share of them beside it. That takes a rotor to have no more than its own spin, n v, about
-/// its axis: what it feels of the motion of the link that carries it, gyroscopic moments included,
-/// is smaller by a factor n and left out [Spong 1987]; [Featherstone 2008, section 9.6]. The
-/// rotor's mass is part of that link.
+/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M, and rotors
+/// that two joints share add to the element of both. A rotor has only its own spin, n v, about its
+/// axis. The effects of its link's motion, gyroscopic moments included, are smaller by a factor n
+/// and omitted [Spong 1987]; [Featherstone 2008, section 9.6]. The rotor's mass belongs to the
+/// link.
 /// @param mechanism      the robot's bodies
-/// @param configuration  where they stand
+/// @param configuration  at the joint positions
 /// @param v              joint velocities [rad/s or m/s]
 /// @param a              joint accelerations [rad/s^2 or m/s^2]
 /// @return               joint efforts [N m or N]

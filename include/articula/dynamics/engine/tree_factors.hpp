@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Factors of a mass matrix along the elimination tree, and the solution of equations by them.
+/// @file Factors of a mass matrix along the elimination tree, and the solution of equations by
+/// them.
 #pragma once
 
 #include "articula/dynamics/engine/coupling.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Forces and moments, and the way they take through a mechanism.
+/// @file Forces and moments, and their propagation to the base.
 #pragma once
 
 #include "articula/dynamics/engine/configuration.hpp"
@@ -17,18 +17,18 @@ struct Wrench {
 
 namespace detail {
 
-/// What the joints feel of the wrenches that the bodies need: each passes on to its parent what it
-/// needs itself and for those that it carries. Source: [Luh, Walker, Paul 1980].
-/// @param wrenches  of each body alone, in its frame; of no meaning afterwards
-/// @return          the parts along the joints' axes [N m or N]
+/// The joint efforts of the wrenches on the bodies. Each body's parent bears its own wrench and
+/// those of all bodies that it carries. Source: [Luh, Walker, Paul 1980].
+/// @param wrenches  of each body alone, in its frame; overwritten
+/// @return          the components along the joints' axes [N m or N]
 template <class S, int N, int B>
 [[nodiscard]] constexpr JointArray<S, B> efforts_for(const Mechanism<N, B>& mechanism,
                                                      const Configuration<S, B>& configuration,
                                                      UnsetArray<Wrench<S>, B>& wrenches) noexcept {
   static_assert(B > 0, "articula: a mechanism without bodies moves nothing");
   JointArray<S, B> effort;
-  // Most parents are the body before: what is handed on to that one stays in registers, because the
-  // next step waits for it.
+  // Most parents are the preceding body: its wrench stays in registers, because the next step needs
+  // it at once.
   Wrench<S> wrench = wrenches[B - 1];
   for (int i = B; i-- > 0;) {
     const Body& body = mechanism.bodies[i];

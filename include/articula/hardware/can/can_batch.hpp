@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Frames that are sent together, held in place.
+/// @file The frames of one cycle's output, without heap memory.
 #pragma once
 
 #include "articula/hardware/can/can_frame.hpp"
@@ -9,19 +9,19 @@
 
 namespace articula {
 
-/// Frames in the order in which they are to be sent, without heap memory.
+/// Frames in the order of their sending, without heap memory.
 class CanBatch {
  public:
-  static constexpr std::size_t capacity = 64;  ///< frames at most
+  static constexpr std::size_t capacity = 64;  ///< the most frames
 
   /// Adds a frame at the end. Real-time: yes.
-  /// @return false if there is no room left, and the frame is not added
+  /// @return false if the batch is full; the frame is not added then
   constexpr bool push_back(const CanFrame& frame) noexcept {
     if (size_ == capacity) return false;
     frames_[size_++] = frame;
     return true;
   }
-  /// The last frame, to write into it. empty() has to be false. Real-time: yes.
+  /// The last frame. The batch must not be empty. Real-time: yes.
   [[nodiscard]] constexpr CanFrame& back() noexcept { return frames_[size_ - 1]; }
   constexpr void clear() noexcept { size_ = 0; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a CAN controller reports of itself, as Linux passes it on.
+/// @file The error frames of SocketCAN: reports of a CAN controller about itself.
 #pragma once
 
 #include <array>
@@ -7,19 +7,19 @@
 
 namespace articula {
 
-/// What a controller reports of itself in an error frame.
+/// A controller's report about itself in an error frame.
 struct CanErrorReport {
-  bool bus_off = false;    ///< it has left the bus
-  bool restarted = false;  ///< it is back after bus-off
-  bool passive = false;    ///< it is error-passive: its error counters are above 127
+  bool bus_off = false;    ///< the controller has left the bus
+  bool restarted = false;  ///< the controller is back after bus-off
+  bool passive = false;    ///< its error counters are above 127
   bool recovered = false;  ///< its error counters are low again
-  bool overflow = false;   ///< its receive or transmit buffer has run over
-  bool no_answer = false;  ///< nobody acknowledges what it sends, or it could not send in time
+  bool overflow = false;   ///< its receive or transmit buffer has overflowed
+  bool no_answer = false;  ///< no node acknowledges its frames, or sending timed out
 };
 
-/// Reads an error frame of SocketCAN [Linux, include/uapi/linux/can/error.h]. Total: bits that are
-/// not known are ignored.
-/// @param classes  identifier of the frame without its flags: the classes of errors
+/// Decodes an error frame of SocketCAN [Linux, include/uapi/linux/can/error.h]. Unknown bits are
+/// ignored.
+/// @param classes  identifier of the frame without its flags, which has a bit per class of errors
 /// @param data     payload
 /// Real-time: yes.
 [[nodiscard]] constexpr CanErrorReport decode_error_frame(

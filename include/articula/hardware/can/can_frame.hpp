@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A CAN frame as a value, without any bus.
+/// @file A CAN frame as a value, and integers in its payload.
 #pragma once
 
 #include <algorithm>
@@ -13,23 +13,30 @@ namespace articula {
 
 /// A classical CAN data frame [ISO 11898-1]. Remote frames and CAN FD are not used.
 struct CanFrame {
-  std::uint32_t identifier = 0;        ///< 11 bits, or 29 if extended; the lower one wins the bus
-  bool extended = false;               ///< has a 29 bit identifier
+  std::uint32_t identifier = 0;        ///< 11 bits, or 29 if extended; a lower one has priority
+  bool extended = false;               ///< the identifier has 29 bits
   std::uint8_t length = 0;             ///< bytes of data, 0 .. 8
   std::array<std::uint8_t, 8> data{};  ///< payload; bytes beyond `length` are 0
 
   friend constexpr bool operator==(const CanFrame&, const CanFrame&) = default;
 };
 
-/// True for a frame that can be on a bus: identifier and length within their ranges.
-/// Real-time: yes.
+/// Whether identifier and length are within their ranges. Real-time: yes.
 [[nodiscard]] constexpr bool is_valid(const CanFrame& frame) noexcept {
   return frame.identifier < (frame.extended ? 1U << 29 : 1U << 11) && frame.length <= 8;
 }
 
-/// The most bits that a frame can take on the bus, stuff bits and interframe space included:
-/// g + 8 n + 13 + floor((g + 8 n - 1) / 4), n bytes of data, g = 34 or, extended, 54
-/// [Davis et al. 2007, eq. 1]. Divided by the bit rate this is its longest time on the bus.
+/// The node number of a frame whose identifier is a base plus a node number of 1 .. `last`; 0 for
+/// another frame. Real-time: yes.
+[[nodiscard]] constexpr std::uint8_t node_after(std::uint32_t base, std::uint8_t last,
+                                                const CanFrame& frame) noexcept {
+  const bool is = !frame.extended && frame.identifier > base && frame.identifier <= base + last;
+  return is ? static_cast<std::uint8_t>(frame.identifier - base) : std::uint8_t{0};
+}
+
+/// The longest length of a frame on the bus [bit], with stuff bits and interframe space:
+/// g + 8 n + 13 + floor((g + 8 n - 1) / 4), where n is `length` and g is 34, or 54 if extended
+/// [Davis et al. 2007, eq. 1]. Divided by the bit rate, it is the longest time on the bus.
 /// Real-time: yes.
 [[nodiscard]] constexpr int worst_case_bits(const CanFrame& frame) noexcept {
   const int stuffed = (frame.extended ? 54 : 34) + 8 * frame.length;
@@ -48,7 +55,7 @@ template <class T, std::size_t Offset, std::size_t Bytes = sizeof(T)>
   for (std::size_t i = 0; i < Bytes; ++i) bits |= std::uint32_t{data[Offset + i]} << (8 * i);
   constexpr std::uint32_t sign = std::uint32_t{1} << (8 * Bytes - 1);
   if constexpr (T(-1) < T(0)) {
-    // Subtracting twice the sign bit's weight extends it; in unsigned arithmetic nothing overflows.
+    // Unsigned arithmetic does not overflow.
     const std::uint32_t extended = (bits ^ sign) - sign;
     return static_cast<T>(static_cast<std::int32_t>(extended));
   } else {
@@ -56,7 +63,7 @@ template <class T, std::size_t Offset, std::size_t Bytes = sizeof(T)>
   }
 }
 
-/// Reads an integer of as many bytes as its type has, where the first byte is known at run time.
+/// Reads an integer with the size of its type from a byte that is known at run time.
 /// @param offset  first byte; the integer must end within the payload
 /// Real-time: yes.
 template <class T>
@@ -68,7 +75,7 @@ template <class T>
   return std::bit_cast<T>(bytes);
 }
 
-/// Writes an integer where the first byte is known at run time.
+/// Writes an integer with the size of its type from a byte that is known at run time on.
 /// @param offset  first byte; the integer must end within the payload
 /// Real-time: yes.
 template <class T>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How patient the CAN driver is, and what it counts.
+/// @file Options and counters of the CAN driver.
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -10,24 +10,24 @@
 
 namespace articula {
 
-/// How patient the CAN driver is.
+/// Ages and times from which the CAN driver treats something as a fault.
 struct CanHardwareOptions {
-  /// Age from which a joint's figures are not used: in cycles since the one they belong to. The
-  /// feedback of the last cycle has age 0. Likewise, how many cycles in a row the bus may be too
-  /// busy to take before writing is no longer ok.
+  /// Age from which a joint's figures are not used, in cycles since the cycle that they belong to.
+  /// Feedback of the last cycle has age 0. Also the number of consecutive cycles that the bus does
+  /// not take from which `write` fails.
   std::uint32_t stale_after = 3;
   /// Age from which the drive counts as silent, which is a fault [cycles].
   std::uint32_t silent_after = 20;
-  /// Cycles in a row whose frames did not, or not surely, get onto the bus, from which that is a
-  /// fault.
+  /// Number of consecutive cycles without a sign that their frames were on the bus, from which that
+  /// is a fault.
   std::uint32_t not_sent_after = 10;
-  /// Where another node begins the bus's cycles: how long after that a cycle of the loop waits for
-  /// the drives' feedback, at most; about half the period.
+  /// Longest wait for feedback after another node has begun a cycle of the bus; about half the
+  /// period.
   std::chrono::nanoseconds feedback_time = std::chrono::microseconds(500);
-  /// Time between two steps of the drives' set-up, about the period of the loop.
+  /// Time between two steps of the set-up, about the period of the loop.
   std::chrono::nanoseconds set_up_period = std::chrono::milliseconds(1);
-  /// Longest time that the set-up may take. Some drives take many seconds to boot, to charge their
-  /// capacitors, or to find how motor and encoder stand to each other.
+  /// Longest time of the set-up. Some drives take many seconds to boot, to charge their capacitors
+  /// or to align motor and encoder.
   std::chrono::nanoseconds set_up_time = std::chrono::seconds(20);
 };
 
@@ -60,35 +60,24 @@ inline void validate(const CanHardwareOptions& options) {
   }
 }
 
-/// What the CAN driver has counted since it was made.
+/// Counters of the CAN driver since its construction.
 struct CanStatistics {
   std::uint64_t cycles = 0;       ///< commands written
-  std::uint64_t not_sent = 0;     ///< of these, not or not wholly taken by the bus
-  std::uint64_t unconfirmed = 0;  ///< of these, sent without a sign of life of the one before
-  std::uint64_t partial = 0;      ///< readings in which some joint's feedback was missing
-  std::uint64_t unpaced = 0;      ///< readings before which no cycle of the bus had begun, where
-                                  ///< another node begins them
-  std::uint64_t accepted = 0;     ///< frames that were taken in
-  std::uint64_t outdated = 0;     ///< frames of the drives that were too old
-  std::uint64_t foreign = 0;      ///< frames of nobody we know
-  std::uint64_t malformed = 0;    ///< frames with a drive's identifier that make no sense
+  std::uint64_t not_sent = 0;     ///< of these, not or not completely taken by the bus
+  std::uint64_t unconfirmed = 0;  ///< of these, sent without a sign of the one before
+  std::uint64_t partial = 0;      ///< readings with missing feedback of some joint
+  std::uint64_t unpaced = 0;      ///< readings before which another node should have begun a cycle
+  std::uint64_t accepted = 0;     ///< frames that the codec has accepted
+  std::uint64_t outdated = 0;     ///< drives' frames that were too old
+  std::uint64_t foreign = 0;      ///< frames with unknown identifiers
+  std::uint64_t malformed = 0;    ///< drives' frames with invalid content
 
-  /// Counts a frame by what the codec made of it. Real-time: yes.
+  /// Counts a frame by the result of decoding. Real-time: yes.
   constexpr void count(CanDecoding decoding) noexcept {
-    switch (decoding) {
-      case CanDecoding::accepted:
-        ++accepted;
-        return;
-      case CanDecoding::outdated:
-        ++outdated;
-        return;
-      case CanDecoding::foreign:
-        ++foreign;
-        return;
-      case CanDecoding::malformed:
-        ++malformed;
-        return;
-    }
+    accepted += decoding == CanDecoding::accepted;
+    outdated += decoding == CanDecoding::outdated;
+    foreign += decoding == CanDecoding::foreign;
+    malformed += decoding == CanDecoding::malformed;
   }
 };
 

@@ -30,21 +30,20 @@
 
 namespace articula::detail {
 
-/// What a raw CAN socket gives: a frame or a report of the controller, and what the kernel adds.
+/// A message of a raw CAN socket: a frame or an error frame, and what the kernel adds to it.
 struct RawCanMessage {
   can_frame frame{};
-  std::chrono::nanoseconds time{};  ///< when it arrived, by the system's clock
-  std::uint32_t lost =
-      0;  ///< frames without room in the queue since the socket exists, modulo 2^32
-  bool tells_lost = false;  ///< whether `lost` was there
-  bool own = false;         ///< sent by this socket, and on the bus now
-  bool whole = false;       ///< as long as a frame is
+  std::chrono::nanoseconds time{};  ///< of arrival, by the system's clock
+  std::uint32_t lost = 0;  ///< frames dropped by a full queue since the socket exists, modulo 2^32
+  bool has_lost = false;   ///< `lost` is valid
+  bool own = false;        ///< sent by this socket, and on the bus now
+  bool whole = false;      ///< has the length of a frame
 };
 
-/// A raw CAN socket: its system calls, without judgement.
+/// The system calls of a raw CAN socket.
 class CanSocket {
  public:
-  static constexpr std::size_t most = 32;  ///< messages that one call of `receive` fetches
+  static constexpr std::size_t most = 32;  ///< the most messages of one call of `receive`
 
   CanSocket() = default;
   CanSocket(CanSocket&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
@@ -60,9 +59,9 @@ class CanSocket {
     if (socket_ >= 0) ::close(std::exchange(socket_, -1));
   }
 
-  /// Opens the socket anew: binds it to the interface as it is now and asks the kernel for the
-  /// subscribed frames, the end of each own cycle, and reports of errors.
-  /// @return what failed; nullptr if nothing did
+  /// Opens a new socket and binds it to the interface. It receives the subscribed frames, the end of
+  /// each own cycle, and error frames.
+  /// @return what has failed; nullptr on success
   /// @throws std::bad_alloc if there is no memory
   /// Real-time: no (system calls, allocates).
   [[nodiscard]] const char* open(const std::string& interface,
@@ -90,8 +89,8 @@ class CanSocket {
     }
     const can_err_mask_t errors = CAN_ERR_MASK;
     const int on = 1;
-    // What is queued is charged to the socket, about 1 KiB a frame: little more than one cycle
-    // fits. The kernel doubles the number and does not go below some five frames.
+    // The kernel charges about 1 KiB per queued frame to the socket. Little more than one cycle
+    // fits: the kernel doubles this number, and allows at least some five frames.
     const int queue =
         static_cast<int>(std::max<std::size_t>(subscription.frames_per_cycle, 4) * 512);
     if (!set(SOL_CAN_RAW, CAN_RAW_ERR_FILTER, errors)) return "CAN_RAW_ERR_FILTER";
@@ -108,8 +107,8 @@ class CanSocket {
     return bound ? nullptr : "bind";
   }
 
-  /// Fetches messages that have arrived, by one system call, and never waits.
-  /// @return how many; -1 with errno if there are none
+  /// Returns messages that have arrived, by one system call, and never waits.
+  /// @return their number; -1 with errno if there are none
   /// Real-time: yes, but for the kernel.
   [[nodiscard]] int receive(std::span<RawCanMessage> received) const noexcept {
     constexpr std::size_t control_size =
@@ -131,13 +130,13 @@ class CanSocket {
     for (int i = 0; i < got; ++i) {
       const auto k = static_cast<std::size_t>(i);
       received[k].whole = messages[k].msg_len == sizeof(can_frame);
-      take_notes(messages[k].msg_hdr, received[k]);
+      copy_additions(messages[k].msg_hdr, received[k]);
     }
     return got;
   }
 
-  /// Offers frames to the kernel, by one system call, and never waits.
-  /// @return how many it has taken; -1 with errno if none
+  /// Sends frames by one system call, and never waits.
+  /// @return number of frames that the kernel has taken; -1 with errno if none
   /// Real-time: yes, but for the kernel.
   [[nodiscard]] int send(const CanBatch& batch) const noexcept {
     std::array<can_frame, CanBatch::capacity> raw{};
@@ -163,7 +162,7 @@ class CanSocket {
     pollfd entry{socket_, POLLIN, 0};
     const int ready = ::ppoll(&entry, 1, &limit, nullptr);
     if (ready < 0 && errno == EINTR) return;
-    // On a broken interface poll returns at once; the caller's loop must not become a busy one.
+    // On a broken interface ppoll returns at once. Sleeping keeps the caller's loop from spinning.
     if (ready != 0 && (entry.revents & POLLIN) == 0) ::nanosleep(&limit, nullptr);
   }
 
@@ -173,10 +172,10 @@ class CanSocket {
     return ::setsockopt(socket_, level, option, &value, sizeof(value)) == 0;
   }
 
-  /// Takes in what the kernel has added to a message.
-  static void take_notes(const msghdr& header, RawCanMessage& message) noexcept {
+  /// Copies the kernel's additions into a message.
+  static void copy_additions(const msghdr& header, RawCanMessage& message) noexcept {
     message.time = {};
-    message.tells_lost = false;
+    message.has_lost = false;
     message.own = (header.msg_flags & MSG_CONFIRM) != 0;
     for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr;
          part = CMSG_NXTHDR(const_cast<msghdr*>(&header), part)) {
@@ -187,7 +186,7 @@ class CanSocket {
         message.time = std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec);
       } else if (part->cmsg_type == SO_RXQ_OVFL) {
         std::memcpy(&message.lost, CMSG_DATA(part), sizeof(message.lost));
-        message.tells_lost = true;
+        message.has_lost = true;
       }
     }
   }

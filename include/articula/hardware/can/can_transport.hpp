@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a transport is: the way to a CAN bus.
+/// @file The concept of a transport: access to a CAN bus.
 #pragma once
 
 #include "articula/core/status.hpp"
@@ -14,58 +14,49 @@
 
 namespace articula {
 
-/// A frame from the bus.
+/// A frame with the time of its arrival.
 struct ReceivedCanFrame {
   CanFrame frame{};
-  std::chrono::nanoseconds time{};  ///< when it arrived, by the transport's time stamps
+  std::chrono::nanoseconds time{};  ///< of arrival, by the transport's time stamps
 };
 
-/// How the way to the bus is, as far as was seen at the last access. `bus_off` and `gone` last until
-/// `open`, so that a controller that comes back at once does not hide that it was away.
+/// The state of the link to the bus at the last access. `bus_off` and `gone` last until `open`, so
+/// that a controller that returns at once does not hide the fault.
 enum class CanLink : unsigned char {
   up,       ///< Frames can pass.
   down,     ///< The interface is switched off.
   bus_off,  ///< The controller has left the bus after too many errors.
-  gone,     ///< The interface does not exist any more; only `open` may bring it back.
+  gone,     ///< The interface does not exist any more; only `open` may restore it.
 };
 
-/// Why nothing passes over a link; CanCause::none if something can. Real-time: yes.
+/// The fault of a link; CanCause::none if it is up. Real-time: yes.
 [[nodiscard]] constexpr CanCause cause_of(CanLink link) noexcept {
-  switch (link) {
-    case CanLink::up:
-      return CanCause::none;
-    case CanLink::down:
-      return CanCause::link_down;
-    case CanLink::bus_off:
-      return CanCause::bus_off;
-    case CanLink::gone:
-      return CanCause::link_gone;
-  }
-  return CanCause::link_gone;
+  if (link == CanLink::up) return CanCause::none;
+  if (link == CanLink::down) return CanCause::link_down;
+  return link == CanLink::bus_off ? CanCause::bus_off : CanCause::link_gone;
 }
 
-/// What became of a cycle's frames. What was not taken is dropped, never sent later.
+/// The result of sending a cycle's frames. Frames that were not taken are dropped, never sent later.
 enum class [[nodiscard]] CanSending : unsigned char {
-  sent,         ///< All taken, and those of the cycle before have been on the bus.
-  unconfirmed,  ///< All taken, but there is no sign that those before ever got onto the bus.
-  backlog,      ///< None taken: there is no sign yet that those of an earlier cycle have been on
-                ///< the bus. `receive` takes that sign in.
+  sent,         ///< All taken, and the frames of the cycle before have been on the bus.
+  unconfirmed,  ///< All taken, but there is no sign that the frames before were on the bus.
+  backlog,      ///< None taken: there is no sign yet that the frames of an earlier cycle have been
+                ///< on the bus. `receive` processes that sign.
   congested,    ///< Not all taken: the queue is full.
   failed,       ///< Not all taken: the link is not up.
 };
 
-/// The way to a CAN bus.
+/// Access to a CAN bus. Example: SocketCan.
 ///
-/// - `open(subscription)` makes it ready to receive these frames; called again, it starts anew,
-///   also after the interface was gone. Belongs to set-up and may take its time.
-/// - `receive(frames)` fetches frames that have arrived, and never waits. Fewer than asked for
-///   means that there are no more.
-/// - `send(batch)` hands over the frames of a cycle, and never waits. A frame that is not taken is
-///   dropped.
-/// - `wait(time)` waits until a frame arrives, at most that long. For set-up, and for loops that
-///   the bus paces.
-/// - `now()` is the time since an arbitrary beginning, which never goes back.
-/// - `link()` tells how the way is.
+/// - `open(subscription)` makes it ready to receive these frames. A second call opens it again, also
+///   after the interface was gone. It belongs to set-up and may wait.
+/// - `receive(frames)` returns frames that have arrived, and never waits. Fewer frames than the span
+///   holds mean that there are no more.
+/// - `send(batch)` sends the frames of a cycle, and never waits. It drops frames that are not taken.
+/// - `wait(time)` waits until a frame arrives, at most that long. For set-up, and for loops that the
+///   bus paces.
+/// - `now()` is the time of a monotonic clock.
+/// - `link()` is the state of the link.
 /// @tparam T  the transport
 template <class T>
 concept CanTransport = requires(T transport, const T& constant, const CanSubscription& subscription,

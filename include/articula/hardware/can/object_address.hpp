@@ -9,7 +9,7 @@
 
 namespace articula::canopen {
 
-/// Where a value stands in a node's object dictionary.
+/// The address of a value in a node's object dictionary [CiA 301, 7.4].
 struct ObjectAddress {
   std::uint16_t index = 0;
   std::uint8_t subindex = 0;
@@ -17,7 +17,7 @@ struct ObjectAddress {
   friend constexpr bool operator==(const ObjectAddress&, const ObjectAddress&) = default;
 };
 
-/// An address as manuals write it, such as "6072h,0". Real-time: no (allocates).
+/// An address in the notation of manuals, such as "6072h,0". Real-time: no (allocates).
 [[nodiscard]] inline std::string to_string(const ObjectAddress& address) {
   return articula::detail::hexadecimal(address.index, 4) + "," + std::to_string(address.subindex);
 }

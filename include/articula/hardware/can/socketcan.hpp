@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The way to a CAN bus through Linux. CMake target: articula::socketcan.
+/// @file The transport over SocketCAN of Linux. CMake target: articula::socketcan.
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -24,23 +24,21 @@ namespace articula {
 
 /// A raw CAN socket of Linux that never waits and never sends late.
 ///
-/// The kernel's queue may hold frames back for long: behind other traffic, or on a bus where nobody
-/// answers. So `receive` gets the frame that ends a cycle's output back when it has been on the
-/// bus, and until then nothing new is sent: `send` answers CanSending::backlog. If there is no such
-/// sign for the confirmation time, the frame counts as lost and the next cycle is sent, with
-/// CanSending::unconfirmed as answer. So at most one cycle per confirmation time waits in a queue.
+/// The kernel's queue may delay frames: behind other traffic, or on a bus without other nodes. The
+/// kernel therefore returns the last frame of a cycle's output to `receive` once it was on the bus.
+/// Until then `send` returns CanSending::backlog and sends nothing. Without that sign for the
+/// confirmation time, the frame counts as lost; the next `send` returns CanSending::unconfirmed. At
+/// most one cycle per confirmation time waits in the queue.
 ///
-/// Errors show in the answers and in `link()`. After the interface has been down, sending works
-/// again by itself. After bus-off, or when the interface was deleted and made again, it takes
-/// `open`.
+/// Errors show in the results and in `link()`. After the interface was down, sending works again by
+/// itself. After bus-off, or if the interface was deleted and created again, call `open`.
 class SocketCan {
  public:
   /// @param interface          name of the interface, such as "can0"
-  /// @param confirmation_time  longest time that a cycle may take to get onto the bus before it
-  ///                           counts as lost; a few periods of the loop
-  /// @throws std::invalid_argument if there can be no interface of that name, or the time is not
-  ///         positive
-  /// @throws std::runtime_error if there is none now, or the kernel has no CAN
+  /// @param confirmation_time  time after which a cycle that was not on the bus counts as lost; a
+  ///                           few periods of the loop
+  /// @throws std::invalid_argument if the name is invalid or the time is not positive
+  /// @throws std::runtime_error if the interface does not exist, or the kernel has no CAN
   /// Real-time: no (system calls, allocates).
   explicit SocketCan(std::string interface,
                      std::chrono::nanoseconds confirmation_time = std::chrono::milliseconds(3))
@@ -50,23 +48,23 @@ class SocketCan {
           {"socketcan: confirmation_time ", confirmation_time.count(), " ns is not positive"});
     }
     if (interface_.empty() || interface_.size() >= IF_NAMESIZE) {
-      detail::refuse({"socketcan: '", interface_, "' is no name of an interface"});
+      detail::refuse({"socketcan: '", interface_, "' is not a valid name of an interface"});
     }
     if (open({}) != Status::ok) {
       throw std::runtime_error("socketcan: interface '" + interface_ + "': " + error_);
     }
   }
 
-  /// Opens the socket anew, so that nothing of the past is left in it: binds it to the interface as
-  /// it is now and asks the kernel for the subscribed frames, the end of each own cycle, and
-  /// reports of errors.
-  /// @return Status::hardware_fault if that fails, and error() tells what
+  /// Opens a new socket, without frames of the past, and binds it to the interface. It receives the
+  /// subscribed frames, the end of each own cycle, and error frames.
+  /// @return Status::ok, or Status::hardware_fault; error() has the reason then
   /// Real-time: no (system calls, allocates).
   [[nodiscard]] Status open(const CanSubscription& subscription) noexcept {
-    const char* failure = "out of memory";
+    const char* failure = nullptr;
     try {
       failure = socket_.open(interface_, subscription);
-    } catch (...) {  // which is that
+    } catch (...) {
+      failure = "out of memory";
     }
     if (failure != nullptr) {
       error_ = failure;
@@ -82,18 +80,18 @@ class SocketCan {
     return Status::ok;
   }
 
-  /// Fetches frames that have arrived, by one system call, or a few where there are many. Reports
-  /// of the controller and own frames are dealt with here. Real-time: yes, but for the bus.
+  /// Returns frames that have arrived, by one system call, or a few where there are many. It
+  /// processes error frames and own frames itself. Real-time: yes, but for the bus.
   [[nodiscard]] std::size_t receive(std::span<ReceivedCanFrame> frames) noexcept {
     std::array<detail::RawCanMessage, detail::CanSocket::most> messages;
     std::size_t count = 0;
-    constexpr int most_calls = 4;  // own frames and reports do not count, and may be many
+    constexpr int most_calls = 4;  // own and error frames do not count, and may be many
     for (int call = 0; call < most_calls && count < frames.size(); ++call) {
       const std::size_t wanted = std::min(messages.size(), frames.size() - count);
       const int got = socket_.receive(std::span(messages).first(wanted));
       if (got < 0) {
         note_error(errno);
-        // An error of the interface is told once, before the frames that came earlier.
+        // The kernel reports an error of the interface once, before frames that arrived earlier.
         if (errno == ENETDOWN) continue;
         return count;
       }
@@ -124,7 +122,7 @@ class SocketCan {
       sent_at_ = now;
       return late ? CanSending::unconfirmed : CanSending::sent;
     }
-    // Once a frame is taken, the kernel does not tell why the next one was not.
+    // If the kernel has taken a frame, it gives no reason for not taking the next one.
     if (taken > 0 || errno == ENOBUFS || errno == EAGAIN) return CanSending::congested;
     note_error(errno);
     return CanSending::failed;
@@ -139,7 +137,7 @@ class SocketCan {
   }
   /// Real-time: yes.
   [[nodiscard]] CanLink link() const noexcept { return link_; }
-  /// What `open` failed at. Real-time: yes.
+  /// The reason why `open` has failed. Real-time: yes.
   [[nodiscard]] const char* error() const noexcept { return error_; }
   [[nodiscard]] const std::string& interface() const noexcept { return interface_; }
   [[nodiscard]] const SocketCanStatistics& statistics() const noexcept { return statistics_; }
@@ -150,13 +148,13 @@ class SocketCan {
     if (error == ENODEV || error == ENXIO || error == EBADF) link_ = CanLink::gone;
   }
 
-  /// Takes in a message of the kernel.
-  /// @return true if it is a frame of another participant, which is in `received` then
+  /// Processes a message of the kernel.
+  /// @return true if it is a frame of another node, which `received` holds then
   [[nodiscard]] bool take(const detail::RawCanMessage& message,
                           ReceivedCanFrame& received) noexcept {
     const can_frame& raw = message.frame;
     if (!message.whole) return false;
-    if (message.tells_lost) {
+    if (message.has_lost) {
       statistics_.lost += message.lost - lost_before_;
       lost_before_ = message.lost;
     }
@@ -190,7 +188,7 @@ class SocketCan {
     if (report.restarted) ++statistics_.restarts;
     if (report.bus_off) {
       ++statistics_.bus_offs;
-      link_ = CanLink::bus_off;  // until `open`: a restart may come before anybody looks
+      link_ = CanLink::bus_off;  // until `open`: a restart may follow before the next access
     }
   }
 
@@ -199,9 +197,9 @@ class SocketCan {
   const char* error_ = "";
   detail::CanSocket socket_{};
   CanLink link_ = CanLink::gone;
-  bool tracked_ = false;  ///< own cycles are followed
+  bool tracked_ = false;  ///< the last frame of each own cycle is awaited
   std::uint32_t last_of_cycle_ = 0;
-  bool awaiting_ = false;  ///< the end of the last cycle sent has not been on the bus yet
+  bool awaiting_ = false;  ///< the last frame of the last cycle was not on the bus yet
   std::chrono::nanoseconds sent_at_{};
   std::uint32_t lost_before_ = 0;
   SocketCanStatistics statistics_{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Values for objects of a CANopen node, as its configuration lists them.
+/// @file Configured values for objects of a CANopen node.
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -15,23 +15,23 @@ namespace articula::canopen {
 /// A value for an object: `{{0x6072, 0}, 1500, 2}` sets object 6072h,0, of two bytes, to 1500.
 struct ObjectValue {
   ObjectAddress address{};
-  std::uint32_t value = 0;  ///< of negative numbers, the bits of two's complement
-  std::uint8_t size = 0;    ///< [bytes], 1 .. 4, as the node's manual has it
+  std::uint32_t value = 0;  ///< negative numbers as two's complement
+  std::uint8_t size = 0;    ///< [bytes], 1 .. 4, from the node's manual
 };
 
-/// Up to 24 values, in the order in which they are to be written.
+/// At most 24 values, in the order of writing.
 class ObjectValues {
  public:
   static constexpr std::size_t capacity = 24;
 
   constexpr ObjectValues() = default;
-  /// @throws std::invalid_argument if there are more than 24, or a size is not 1 .. 4; in a constant
-  ///         expression that does not compile
+  /// @throws std::invalid_argument if there are more than 24, or a size is not 1 .. 4; a constant
+  ///         expression does not compile then
   /// Real-time: no (throws).
   constexpr ObjectValues(std::initializer_list<ObjectValue> values) {
     if (values.size() > capacity) {
-      articula::detail::refuse({"CANopen: ", values.size(), " objects are more than the ", capacity,
-                                " that a node can be given"});
+      articula::detail::refuse(
+          {"CANopen: ", values.size(), " objects are more than ", capacity, ", the most per node"});
     }
     for (const ObjectValue& value : values) {
       if (value.size < 1 || value.size > 4) {

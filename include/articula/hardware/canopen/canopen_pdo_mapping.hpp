@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which objects a process data object is made of.
+/// @file The mapping of a process data object: its objects and their places in the frame.
 #pragma once
 
 #include "articula/hardware/canopen/canopen.hpp"
@@ -15,7 +15,7 @@ struct MappedObject {
   ObjectAddress address{};
   std::uint8_t bits = 0;
 
-  /// As in a mapping object: index, subindex, bits. [CiA 301, 7.5.2.36]
+  /// The entry of a mapping object: index, subindex, bits [CiA 301, 7.5.2.36].
   [[nodiscard]] constexpr std::uint32_t entry() const noexcept {
     return std::uint32_t{address.index} << 16 | std::uint32_t{address.subindex} << 8 | bits;
   }
@@ -26,14 +26,14 @@ struct MappedObject {
   friend constexpr bool operator==(const MappedObject&, const MappedObject&) = default;
 };
 
-/// The objects of a process data object, in their order: up to eight of whole bytes.
+/// The objects of a process data object, in their order: at most eight, of whole bytes.
 class PdoMapping {
  public:
   static constexpr std::size_t capacity = 8;
   static constexpr std::uint8_t absent = 0xff;
 
   /// Adds an object at the end. Real-time: yes.
-  /// @return false if there is no room for it, or its bits are not whole bytes
+  /// @return false if the frame is full or the bits are not whole bytes
   constexpr bool push_back(const MappedObject& object) noexcept {
     const bool fits = object.bits != 0 && object.bits % 8 == 0 && length() + object.bits / 8U <= 8;
     if (size_ == capacity || !fits) return false;
@@ -42,14 +42,13 @@ class PdoMapping {
   }
   constexpr void clear() noexcept { size_ = 0; }
 
-  /// Bytes of its frame. Real-time: yes.
+  /// Length of the frame [bytes]. Real-time: yes.
   [[nodiscard]] constexpr std::uint8_t length() const noexcept {
     unsigned bits = 0;
     for (const MappedObject& object : *this) bits += object.bits;
     return static_cast<std::uint8_t>(bits / 8);
   }
-  /// First byte of an object in the frame; `absent` if it is not there with that size. Real-time:
-  /// yes.
+  /// First byte of an object in the frame; `absent` without that object. Real-time: yes.
   [[nodiscard]] constexpr std::uint8_t offset_of(const MappedObject& wanted) const noexcept {
     unsigned bits = 0;
     for (const MappedObject& object : *this) {

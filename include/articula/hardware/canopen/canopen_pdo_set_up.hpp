@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How one process data object of a CANopen node is set up.
+/// @file The set-up of one process data object of a CANopen node.
 #pragma once
 
 #include "articula/hardware/canopen/canopen_pdo_task.hpp"
@@ -11,117 +11,91 @@
 
 namespace articula::canopen {
 
-/// Sets up one PDO by requests, one after the other: switches it off, makes it synchronous, maps
-/// the objects that are wished for, and switches it on [CiA 301, 7.5.2.35 to 38].
+/// Configures one PDO by requests, one after the other: switches it off, makes it synchronous, maps
+/// the objects, and switches it on [CiA 301, 7.5.2.35 to 38]. All functions are real-time.
 ///
-/// - Identifiers are read, then modified: bit 30 (no remote requests) stays as the node has it.
-/// - A mapping that the node does not let change is used as it is, if it has what is wished for.
-/// - What cannot be written is right if it has the value already.
+/// - Identifiers are read, then modified. Bit 30 (no remote requests) keeps the node's value.
+/// - A mapping that the node does not let change is used as it is, if it has the objects.
+/// - A value that the node does not let change is accepted if it is right.
 class PdoSetUp {
  public:
-  /// Begins with a PDO. Real-time: yes.
+  /// Begins with a PDO.
   constexpr void begin(const PdoTask& task) noexcept {
+    *this = {};
     task_ = task;
-    mapping_.clear();
-    optional_ = true;
     fixed_ = !task.may_map;
-    ready_ = lacks_deadline_ = false;
-    refusal_ = {};
-    stage_ = fixed_ ? Stage::read_count : Stage::read_identifier;
+    if (fixed_) {
+      read(Stage::read_count, task_.mapping(0));
+    } else {
+      read(Stage::read_identifier, task_.parameter(1));
+    }
   }
 
   [[nodiscard]] constexpr bool done() const noexcept { return stage_ == Stage::done; }
-  /// The node refuses what is necessary. Real-time: yes.
+  /// The node has refused something necessary.
   [[nodiscard]] constexpr bool failed() const noexcept { return stage_ == Stage::failed; }
-  /// It was the deadline that the node refuses. Real-time: yes.
+  /// The node has refused the deadline.
   [[nodiscard]] constexpr bool lacks_deadline() const noexcept { return lacks_deadline_; }
-  /// The object that the node has refused, and its abort code. Real-time: yes.
+  /// The object that the node has refused, with its abort code.
   [[nodiscard]] constexpr const Sdo& refusal() const noexcept { return refusal_; }
-  /// The node does not let the mapping change. Real-time: yes.
+  /// The node does not let the mapping change.
   [[nodiscard]] constexpr bool fixed() const noexcept { return fixed_; }
-  /// What the PDO is made of; empty if it is not used. Real-time: yes.
+  /// The objects of the PDO; empty if the PDO is not used.
   [[nodiscard]] constexpr const PdoMapping& mapping() const noexcept { return mapping_; }
 
-  /// The next request. Real-time: yes.
-  [[nodiscard]] constexpr Sdo request() const noexcept {
-    constexpr std::uint32_t synchronous = 1;
-    switch (stage_) {
-      case Stage::read_identifier:
-        return read(parameter(1));
-      case Stage::switch_off:
-        return write(parameter(1), off | identifier(), 4);
-      case Stage::make_synchronous:
-        return write(parameter(2), synchronous, 1);
-      case Stage::check_synchronous:
-        return read(parameter(2));
-      case Stage::set_deadline:
-        return write(parameter(5), task_.deadline, 2);
-      case Stage::clear:
-        return write(entry(0), 0, 1);
-      case Stage::map:
-        return write(entry(mapping_.size() + 1), task_.wishes[wish_].object.entry(), 4);
-      case Stage::count:
-        return write(entry(0), static_cast<std::uint32_t>(mapping_.size()), 1);
-      case Stage::read_count:
-        return read(entry(0));
-      case Stage::read_entry:
-        return read(entry(entries_read_ + 1));
-      case Stage::switch_on:
-        return write(parameter(1), identifier(), 4);
-      case Stage::done:
-      case Stage::failed:
-        break;
-    }
-    return {};
-  }
+  [[nodiscard]] constexpr const Sdo& request() const noexcept { return request_; }
 
-  /// Takes in the answer to the request. Real-time: yes.
+  /// Processes the answer to the request.
   constexpr void take(const Sdo& answer) noexcept {
-    if (answer.kind == SdoKind::abort) return take_abort(answer);
+    const bool ok = answer.kind != SdoKind::abort;
+    if (!ok) note_refusal(answer);
     switch (stage_) {
       case Stage::read_identifier:
+        if (!ok) return end(false);  // there is no such PDO
         identifier_ = answer.value;
-        stage_ = Stage::switch_off;
-        return;
+        return write(Stage::switch_off, task_.parameter(1), off | identifier(), 4);
       case Stage::switch_off:
-        stage_ = Stage::make_synchronous;
-        return;
-      case Stage::check_synchronous:
-        if (!is_synchronous(answer.value & 0xff)) return fail();
-        [[fallthrough]];
+        return ok || is_on() ? write(Stage::make_synchronous, task_.parameter(2), 1, 1) : fail();
       case Stage::make_synchronous:
-        stage_ = is_receive() ? Stage::set_deadline : after_parameters();
-        return;
+        return ok ? set_deadline() : read(Stage::check_synchronous, task_.parameter(2));
+      case Stage::check_synchronous:
+        return ok && task_.is_synchronous(answer.value & 0xff) ? set_deadline() : fail();
       case Stage::set_deadline:
-        stage_ = after_parameters();
-        return;
+        lacks_deadline_ = !ok && task_.deadline > 0;
+        return lacks_deadline_ ? fail() : end_parameters();
       case Stage::clear:
+        next_ = 0;
         mapping_.clear();
-        wish_ = 0;
-        return next_wish();
+        if (ok) return map_next();
+        fixed_ = true;
+        return read(Stage::read_count, task_.mapping(0));
       case Stage::map:
-        if (!mapping_.push_back(task_.wishes[wish_].object)) return fail();
-        ++wish_;
-        return next_wish();
-      case Stage::count:
-        stage_ = mapping_.empty() ? Stage::done : Stage::switch_on;
-        return;
-      case Stage::read_count:
-        count_ = std::min(answer.value & 0xff, std::uint32_t{PdoMapping::capacity});
-        entries_read_ = 0;
-        mapping_.clear();
-        return next_entry();
-      case Stage::read_entry:
-        if (!mapping_.push_back(MappedObject::of_entry(answer.value))) {
-          mapping_.clear();  // parts of bytes, or groups of PDOs
-          entries_read_ = count_;
-          return next_entry();
+        if (ok ? !mapping_.push_back(task_.entries[next_].object) : task_.entries[next_].required) {
+          return fail();
         }
-        ++entries_read_;
-        return next_entry();
+        ++next_;
+        return map_next();
+      case Stage::count:
+        if (ok) return mapping_.empty() ? end(true) : switch_on();
+        if (!maps_optional_) return fail();
+        maps_optional_ = false;  // some nodes check the entries only here
+        return write(Stage::clear, task_.mapping(0), 0, 1);
+      case Stage::read_count:
+        if (!ok) return end(false);
+        count_ = std::min(answer.value & 0xff, std::uint32_t{PdoMapping::capacity});
+        next_ = 0;
+        mapping_.clear();
+        return read_next();
+      case Stage::read_entry:
+        if (!ok) return end(false);
+        ++next_;
+        if (!mapping_.push_back(MappedObject::of_entry(answer.value))) {
+          mapping_.clear();  // parts of bytes, or groups of PDOs, are not supported
+          next_ = count_;
+        }
+        return read_next();
       case Stage::switch_on:
-        stage_ = Stage::done;
-        return;
+        return ok || is_on() ? end(true) : fail();
       case Stage::done:
       case Stage::failed:
         return;
@@ -147,112 +121,77 @@ class PdoSetUp {
   static constexpr std::uint32_t off = 0x8000'0000U;
   static constexpr std::uint32_t no_remote_requests = 0x4000'0000U;
 
-  [[nodiscard]] static constexpr Sdo read(const ObjectAddress& address) noexcept {
-    return {SdoKind::upload, address, 0, 0};
-  }
-  [[nodiscard]] static constexpr Sdo write(const ObjectAddress& address, std::uint32_t value,
-                                           std::uint8_t size) noexcept {
-    return {SdoKind::download, address, value, size};
-  }
-  [[nodiscard]] constexpr bool is_receive() const noexcept {
-    return task_.direction == PdoTask::Direction::receive;
-  }
-  [[nodiscard]] constexpr ObjectAddress parameter(std::uint8_t subindex) const noexcept {
-    const int base = is_receive() ? 0x1400 : 0x1800;
-    return {static_cast<std::uint16_t>(base + task_.number), subindex};
-  }
-  [[nodiscard]] constexpr ObjectAddress entry(std::size_t subindex) const noexcept {
-    return {static_cast<std::uint16_t>(parameter(0).index + 0x200),
-            static_cast<std::uint8_t>(subindex)};
-  }
   [[nodiscard]] constexpr std::uint32_t identifier() const noexcept {
-    const std::uint32_t base = is_receive() ? receive_pdo_1_base : transmit_pdo_1_base;
-    return (identifier_ & no_remote_requests) | (base + pdo_spacing * task_.number + task_.node);
-  }
-  /// An RPDO is put into force at SYNC by each of the types 0 .. 240, a TPDO sent at each by 1.
-  [[nodiscard]] constexpr bool is_synchronous(std::uint32_t type) const noexcept {
-    return is_receive() ? type <= 240 : type == 1;
+    return (identifier_ & no_remote_requests) | task_.identifier();
   }
 
-  constexpr Stage after_parameters() noexcept {
-    ready_ = true;
-    return fixed_ ? Stage::switch_on : Stage::clear;
+  /// Whether the PDO is right as it is: it has the identifier and is on.
+  [[nodiscard]] constexpr bool is_on() const noexcept {
+    return (identifier_ & (off | 0x7ff)) == (identifier() & 0x7ff);
   }
-  [[nodiscard]] constexpr bool is_left_out(const PdoTask::Wish& wish) const noexcept {
-    return !wish.required && (!optional_ || mapping_.length() + wish.object.bits / 8U > 8);
+
+  constexpr void read(Stage stage, const ObjectAddress& address) noexcept {
+    stage_ = stage;
+    request_ = read_request(address);
   }
-  constexpr void next_wish() noexcept {
-    while (wish_ < task_.wish_count && is_left_out(task_.wishes[wish_])) ++wish_;
-    stage_ = wish_ < task_.wish_count ? Stage::map : Stage::count;
+  constexpr void write(Stage stage, const ObjectAddress& address, std::uint32_t value,
+                       std::uint8_t size) noexcept {
+    stage_ = stage;
+    request_ = write_request(address, value, size);
   }
-  constexpr void next_entry() noexcept {
-    if (entries_read_ < count_) {
-      stage_ = Stage::read_entry;
-      return;
-    }
-    const auto has = [&](const PdoTask::Wish& wish) { return mapping_.contains(wish.object); };
-    const auto wishes = std::span(task_.wishes).first(task_.wish_count);
-    const bool of_use =
-        is_receive() ? std::ranges::all_of(wishes, has) : std::ranges::any_of(wishes, has);
-    if (!of_use) mapping_.clear();
+  constexpr void set_deadline() noexcept {
+    if (!task_.is_receive()) return end_parameters();
+    write(Stage::set_deadline, task_.parameter(5), task_.deadline, 2);
+  }
+  constexpr void end_parameters() noexcept {
+    has_parameters_ = true;
+    fixed_ ? switch_on() : write(Stage::clear, task_.mapping(0), 0, 1);
+  }
+  constexpr void switch_on() noexcept {
+    write(Stage::switch_on, task_.parameter(1), identifier(), 4);
+  }
+  constexpr void end(bool is_used) noexcept {
+    if (!is_used) mapping_.clear();
     stage_ = Stage::done;
-    if (of_use) stage_ = ready_ ? Stage::switch_on : Stage::read_identifier;
   }
   constexpr void fail() noexcept { stage_ = Stage::failed; }
 
-  constexpr void take_abort(const Sdo& answer) noexcept {
+  [[nodiscard]] constexpr bool is_left_out(const PdoTask::Entry& entry) const noexcept {
+    return !entry.required && (!maps_optional_ || mapping_.length() + entry.object.bits / 8U > 8);
+  }
+  constexpr void map_next() noexcept {
+    while (next_ < task_.entry_count && is_left_out(task_.entries[next_])) ++next_;
+    const auto mapped = static_cast<std::uint32_t>(mapping_.size());
+    if (next_ == task_.entry_count) return write(Stage::count, task_.mapping(0), mapped, 1);
+    write(Stage::map, task_.mapping(mapped + 1), task_.entries[next_].object.entry(), 4);
+  }
+  constexpr void read_next() noexcept {
+    if (next_ < count_) return read(Stage::read_entry, task_.mapping(next_ + 1));
+    const auto has = [&](const PdoTask::Entry& entry) { return mapping_.contains(entry.object); };
+    const auto entries = std::span(task_.entries).first(task_.entry_count);
+    const bool of_use =
+        task_.is_receive() ? std::ranges::all_of(entries, has) : std::ranges::any_of(entries, has);
+    if (!of_use) return end(false);
+    has_parameters_ ? switch_on() : read(Stage::read_identifier, task_.parameter(1));
+  }
+
+  constexpr void note_refusal(const Sdo& answer) noexcept {
     const bool tolerated = stage_ == Stage::set_deadline && task_.deadline == 0;
     const bool first = refusal_.kind != SdoKind::abort;
     if (!tolerated && (first || !fixed_)) refusal_ = answer;
-    const bool is_on = (identifier_ & (off | 0x7ff)) == (identifier() & 0x7ff);
-    switch (stage_) {
-      case Stage::switch_off:  // right as it is, if it has the identifier and is on
-        return is_on ? void(stage_ = Stage::make_synchronous) : fail();
-      case Stage::make_synchronous:
-        stage_ = Stage::check_synchronous;
-        return;
-      case Stage::set_deadline:
-        lacks_deadline_ = task_.deadline > 0;
-        return lacks_deadline_ ? fail() : void(stage_ = after_parameters());
-      case Stage::clear:
-        fixed_ = true;
-        stage_ = Stage::read_count;
-        return;
-      case Stage::map:
-        if (task_.wishes[wish_].required) return fail();
-        ++wish_;
-        return next_wish();
-      case Stage::count:  // some nodes look at the entries only then
-        if (!optional_) return fail();
-        optional_ = false;
-        stage_ = Stage::clear;
-        return;
-      case Stage::read_identifier:  // no such PDO
-      case Stage::read_count:
-      case Stage::read_entry:
-        mapping_.clear();
-        stage_ = Stage::done;
-        return;
-      case Stage::switch_on:
-        return is_on ? void(stage_ = Stage::done) : fail();
-      case Stage::check_synchronous:
-      case Stage::done:
-      case Stage::failed:
-        return fail();
-    }
   }
 
   PdoTask task_{};
   Stage stage_ = Stage::done;
+  Sdo request_{};
   PdoMapping mapping_{};
   Sdo refusal_{};
   std::uint32_t identifier_ = 0;
-  std::size_t wish_ = 0;
-  std::uint32_t count_ = 0;
-  std::uint32_t entries_read_ = 0;
-  bool optional_ = true;  ///< The optional wishes are mapped, too.
+  std::size_t next_ = 0;   ///< entry of the task to be mapped, or of the node to be read
+  std::size_t count_ = 0;  ///< entries that the node has
+  bool maps_optional_ = true;
   bool fixed_ = false;
-  bool ready_ = false;  ///< The parameters are set.
+  bool has_parameters_ = false;  ///< the communication parameters are set
   bool lacks_deadline_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include "articula/core/joint_command.hpp"
 #include "articula/hardware/canopen/canopen.hpp"
 
+#include <array>
 #include <concepts>
 #include <cstdint>
 #include <optional>
@@ -36,7 +37,7 @@ enum class Mode : std::uint8_t {
   cyclic_synchronous_torque = 10,
 };
 
-/// The mode that follows a kind of command.
+/// The mode for a type of command.
 template <class Command>
 inline constexpr Mode mode_of =
     std::same_as<Command, PositionCommand<Command::joint_count>> ? Mode::cyclic_synchronous_position
@@ -44,7 +45,7 @@ inline constexpr Mode mode_of =
         ? Mode::cyclic_synchronous_velocity
         : Mode::cyclic_synchronous_torque;
 
-/// The object that the commands of a mode go to.
+/// The target object of a mode.
 struct Target {
   canopen::ObjectAddress address{};
   std::uint8_t size = 0;  ///< [bytes]
@@ -67,49 +68,40 @@ enum class State : std::uint8_t {
   fault,
 };
 
-/// The state that a statusword tells; nothing if its bits are none of the profile's.
+/// The state in a statusword; nothing if its bits are no state of the profile.
 /// @param bits  of the statusword
 /// Real-time: yes.
 [[nodiscard]] constexpr std::optional<State> state_of(std::uint16_t bits) noexcept {
-  switch (bits & 0x4f) {
-    case 0x00:
-      return State::not_ready_to_switch_on;
-    case 0x40:
-      return State::switch_on_disabled;
-    case 0x0f:
-      return State::fault_reaction_active;
-    case 0x08:
-      return State::fault;
-    default:
-      break;
+  struct Pattern {
+    unsigned mask, bits;
+    State state;
+  };
+  constexpr std::array<Pattern, 8> patterns{{{0x4f, 0x00, State::not_ready_to_switch_on},
+                                             {0x4f, 0x40, State::switch_on_disabled},
+                                             {0x4f, 0x0f, State::fault_reaction_active},
+                                             {0x4f, 0x08, State::fault},
+                                             {0x6f, 0x21, State::ready_to_switch_on},
+                                             {0x6f, 0x23, State::switched_on},
+                                             {0x6f, 0x27, State::operation_enabled},
+                                             {0x6f, 0x07, State::quick_stop_active}}};
+  for (const Pattern& pattern : patterns) {
+    if ((bits & pattern.mask) == pattern.bits) return pattern.state;
   }
-  switch (bits & 0x6f) {
-    case 0x21:
-      return State::ready_to_switch_on;
-    case 0x23:
-      return State::switched_on;
-    case 0x27:
-      return State::operation_enabled;
-    case 0x07:
-      return State::quick_stop_active;
-    default:
-      return {};
-  }
+  return {};
 }
 
-/// Whether a statusword tells State::operation_enabled. Real-time: yes.
+/// Whether the state in a statusword is State::operation_enabled. Real-time: yes.
 [[nodiscard]] constexpr bool in_operation(std::uint16_t bits) noexcept {
   return (bits & 0x6f) == 0x27;
 }
 
-/// Whether a drive may exert effort in a state: it follows commands, or brakes by its own.
-/// Real-time: yes.
+/// Whether a drive may exert effort in a state: it follows commands, or brakes. Real-time: yes.
 [[nodiscard]] constexpr bool may_exert(State state) noexcept {
   return state == State::operation_enabled || state == State::quick_stop_active ||
          state == State::fault_reaction_active;
 }
 
-/// In the cyclic modes this bit of the statusword says that the drive follows the target
+/// Bit of the statusword: in the cyclic modes the drive follows the target
 /// [CiA 402-2, cyclic synchronous modes]. Some drives never set it.
 inline constexpr std::uint16_t follows_target = 0x1000;
 
@@ -120,26 +112,14 @@ inline constexpr std::uint16_t switch_on = 0x07;
 inline constexpr std::uint16_t enable_operation = 0x0f;
 inline constexpr std::uint16_t fault_reset = 0x80;
 
-/// The controlword that leads from a state towards operation enabled; from a state that the drive
-/// leaves by itself it is the one that asks for nothing.
-/// Real-time: yes.
+/// The controlword for the next transition towards operation enabled; disable_voltage in states that
+/// the drive leaves by itself. Real-time: yes.
 [[nodiscard]] constexpr std::uint16_t towards_operation(State state) noexcept {
-  switch (state) {
-    case State::switch_on_disabled:
-      return shutdown;
-    case State::ready_to_switch_on:
-      return switch_on;
-    case State::switched_on:
-    case State::operation_enabled:
-      return enable_operation;
-    case State::fault:
-      return fault_reset;
-    case State::not_ready_to_switch_on:
-    case State::quick_stop_active:
-    case State::fault_reaction_active:
-      break;
-  }
-  return disable_voltage;
+  if (state == State::switch_on_disabled) return shutdown;
+  if (state == State::ready_to_switch_on) return switch_on;
+  if (state == State::fault) return fault_reset;
+  const bool is_on = state == State::switched_on || state == State::operation_enabled;
+  return is_on ? enable_operation : disable_voltage;
 }
 
 }  // namespace articula::cia402

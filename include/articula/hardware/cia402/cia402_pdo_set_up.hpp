@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How the process data of one CiA 402 drive are set up.
+/// @file The set-up of one CiA 402 drive's process data.
 #pragma once
 
 #include "articula/hardware/canopen/canopen_pdo_set_up.hpp"
@@ -13,19 +13,20 @@
 
 namespace articula {
 
-/// Sets up the process data of one CiA 402 drive by requests, one after the other: RPDO 1 with
+/// Configures the process data of one CiA 402 drive by requests, one after the other: RPDO 1 with
 /// controlword and target, TPDO 1 with statusword, position and torque, TPDO 2 with velocity and
-/// error code. Torque, velocity and error code are left out where the drive does not have them.
+/// error code. Torque, velocity and error code are left out if the drive lacks them.
 ///
-/// Where the drive does not let its mappings change, they are used as they are: the first of its
-/// RPDOs 1 to 4 with controlword and target, and of its TPDOs 1 to 4 those that have something
-/// which is not in one before.
+/// Mappings that the drive does not let change are used as they are: the first of RPDO 1 to 4 with
+/// controlword and target, and each of TPDO 1 to 4 with an object that is not in one before.
+/// All functions are real-time.
 class Cia402PdoSetUp {
  public:
+  Cia402PdoSetUp() = default;
   /// @param drive     its node and watchdog
   /// @param mode      of operation
   /// @param period    of SYNC [ms]
-  /// @param deadline  longest time without commands, if that is the watchdog [ms]
+  /// @param deadline  of the watchdog [ms]
   Cia402PdoSetUp(const Cia402Drive& drive, cia402::Mode mode, std::uint8_t period,
                  std::uint16_t deadline)
       : node_(drive.node),
@@ -41,11 +42,11 @@ class Cia402PdoSetUp {
     restart();
   }
 
-  /// Begins anew. What is known of the process data is kept until it is done. Real-time: yes.
+  /// Starts again. The known process data stay until it is done.
   void restart() noexcept {
     next_ = {};
     next_.sync_period = process_data_.sync_period;
-    missing_ = wanted;
+    missing_ = all_parts;
     any_fixed_ = done_ = failed_ = false;
     refusal_ = {};
     begin_receive(0);
@@ -54,14 +55,12 @@ class Cia402PdoSetUp {
   [[nodiscard]] bool done() const noexcept { return done_; }
   [[nodiscard]] bool failed() const noexcept { return failed_; }
   [[nodiscard]] bool lacks_deadline() const noexcept { return pdo_.lacks_deadline(); }
-  /// What the drive has refused although it is needed. Real-time: yes.
+  /// A refusal of something necessary.
   [[nodiscard]] const canopen::Sdo& refusal() const noexcept { return refusal_; }
   [[nodiscard]] const cia402::ProcessData& process_data() const noexcept { return process_data_; }
-
-  /// The next request. Real-time: yes.
   [[nodiscard]] canopen::Sdo request() const noexcept { return pdo_.request(); }
 
-  /// Takes in the answer to the request. Real-time: yes.
+  /// Processes the answer to the request.
   void take(const canopen::Sdo& answer) noexcept {
     pdo_.take(answer);
     if (!pdo_.done() && !pdo_.failed()) return;
@@ -80,7 +79,7 @@ class Cia402PdoSetUp {
   struct Part {
     canopen::MappedObject object{};
     bool required = false;
-    std::uint8_t usual_number = 0;  ///< of the TPDO
+    std::uint8_t usual_number = 0;  ///< of the first TPDO that may have it
   };
   static constexpr std::size_t part_count = 5;
   static constexpr std::array<Part, part_count> parts{{
@@ -90,8 +89,9 @@ class Cia402PdoSetUp {
       {cia402::mapped_velocity, false, 1},
       {cia402::mapped_error_code, false, 1},
   }};
-  static constexpr unsigned wanted = (1U << part_count) - 1;  ///< a bit for each part
-  static constexpr unsigned needed = 0b11;
+  // A bit for each part.
+  static constexpr unsigned all_parts = (1U << part_count) - 1;
+  static constexpr unsigned required_parts = 0b11;
   static constexpr unsigned velocity = 0b1000;
 
   void begin_receive(std::uint8_t number) noexcept {
@@ -102,8 +102,8 @@ class Cia402PdoSetUp {
                           .node = node_,
                           .may_map = number == 0,
                           .deadline = deadline_};
-    task.wish(cia402::mapped_controlword, true);
-    task.wish(cia402::mapped_target(mode_), true);
+    task.add(cia402::mapped_controlword, true);
+    task.add(cia402::mapped_target(mode_), true);
     pdo_.begin(task);
   }
 
@@ -118,7 +118,7 @@ class Cia402PdoSetUp {
     if (!failed_) begin_receive(static_cast<std::uint8_t>(number_ + 1));
   }
 
-  /// TPDOs 1 and 2 are mapped; the others are looked at where that was not allowed.
+  /// TPDOs 1 and 2 are mapped. The others are only read, if a mapping could not be changed.
   void begin_transmit(std::uint8_t number) noexcept {
     receiving_ = false;
     number_ = number;
@@ -129,7 +129,7 @@ class Cia402PdoSetUp {
     for (std::size_t k = 0; k < part_count; ++k) {
       const bool missing = (missing_ >> k & 1U) != 0;
       if (missing && parts[k].usual_number <= number) {
-        task.wish(parts[k].object, parts[k].required);
+        task.add(parts[k].object, parts[k].required);
       }
     }
     pdo_.begin(task);
@@ -147,7 +147,7 @@ class Cia402PdoSetUp {
     if (more && number_ + 1U < cia402::ProcessData::most) {
       return begin_transmit(static_cast<std::uint8_t>(number_ + 1));
     }
-    failed_ = (missing_ & needed) != 0;
+    failed_ = (missing_ & required_parts) != 0;
     if (failed_) return;
     next_.has_velocity = (missing_ & velocity) == 0;
     next_.is_usual = next_.stream_count == 2 && next_.transmit[0] == cia402::usual_transmit[0] &&
@@ -156,15 +156,15 @@ class Cia402PdoSetUp {
     done_ = true;
   }
 
-  std::uint8_t node_;
-  cia402::Mode mode_;
-  std::uint16_t deadline_;
+  std::uint8_t node_ = 0;
+  cia402::Mode mode_ = cia402::Mode::cyclic_synchronous_torque;
+  std::uint16_t deadline_ = 0;
   canopen::PdoSetUp pdo_{};
   cia402::ProcessData process_data_{};
   cia402::ProcessData next_{};
   canopen::Sdo refusal_{};
   std::uint8_t number_ = 0;
-  unsigned missing_ = wanted;
+  unsigned missing_ = all_parts;
   bool receiving_ = true;
   bool any_fixed_ = false;
   bool done_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Where a CiA 402 drive's command and feedback lie in its process data.
+/// @file The layout of a CiA 402 drive's process data.
 #pragma once
 
 #include "articula/hardware/canopen/canopen_pdo_mapping.hpp"
@@ -11,7 +11,7 @@
 
 namespace articula::cia402 {
 
-/// The target object of a mode, as it is mapped.
+/// The target object of a mode, for mappings.
 [[nodiscard]] constexpr canopen::MappedObject mapped_target(Mode mode) noexcept {
   const Target target = target_of(mode);
   return {target.address, static_cast<std::uint8_t>(8 * target.size)};
@@ -23,19 +23,19 @@ inline constexpr canopen::MappedObject mapped_torque{torque_actual, 16};
 inline constexpr canopen::MappedObject mapped_velocity{velocity_actual, 32};
 inline constexpr canopen::MappedObject mapped_error_code{error_code, 16};
 
-/// What the host sends: the frame without the command, and the first bytes of the command's parts.
+/// The host's frame without the command, and the first bytes of the command's parts.
 struct ReceiveLayout {
   CanFrame frame{};
   std::uint8_t controlword = 0;
   std::uint8_t target = 2;
 };
 
-/// What a drive sends in one process data object: the first bytes of its parts, `absent` for those
-/// that are not in it. Its length is 0 if it is not used.
+/// The first bytes of the parts of a drive's frame; `absent` for parts that are not in it. The length
+/// is 0 if the frame is not used.
 struct TransmitLayout {
   static constexpr std::uint8_t absent = canopen::PdoMapping::absent;
   std::uint8_t length = 0;
-  std::uint8_t stream = 0;  ///< its place among those that are used
+  std::uint8_t stream = 0;  ///< its index among the used frames
   std::uint8_t statusword = absent;
   std::uint8_t position = absent;
   std::uint8_t torque = absent;
@@ -45,7 +45,7 @@ struct TransmitLayout {
   friend constexpr bool operator==(const TransmitLayout&, const TransmitLayout&) = default;
 };
 
-/// TPDO 1 and 2 of a drive that has all, as Cia402PdoSetUp maps them.
+/// TPDO 1 and 2 of a drive that has all parts, as Cia402PdoSetUp maps them.
 inline constexpr std::array<TransmitLayout, 2> usual_transmit{{
     {.length = 8, .stream = 0, .statusword = 0, .position = 2, .torque = 6},
     {.length = 6, .stream = 1, .velocity = 0, .error_code = 4},
@@ -53,14 +53,14 @@ inline constexpr std::array<TransmitLayout, 2> usual_transmit{{
 
 /// The process data of one drive.
 struct ProcessData {
-  static constexpr std::size_t most = 4;  ///< objects of either kind with predefined identifiers
-  std::uint8_t receive_number = 0;        ///< which of the drive's RPDOs is used, from 0
+  static constexpr std::size_t most = 4;  ///< RPDOs, and TPDOs, with predefined identifiers
+  std::uint8_t receive_number = 0;        ///< of the RPDO that is used, from 0
   ReceiveLayout receive{};
   std::array<TransmitLayout, most> transmit{};
-  std::size_t stream_count = 0;  ///< how many of these are used
+  std::size_t stream_count = 0;  ///< number of used frames
   double sync_period = 1e-3;     ///< [s]
-  bool is_usual = true;          ///< `transmit` is as `usual_transmit`: known when compiled
-  bool has_velocity = true;      ///< else the codec takes differences of positions
+  bool is_usual = true;          ///< `transmit` is `usual_transmit`
+  bool has_velocity = true;      ///< else velocity is the difference of two positions
 };
 
 /// The layout of the host's frame.
@@ -68,8 +68,8 @@ struct ProcessData {
 /// @param node     1 .. 127
 /// @param mode     of operation
 /// @param mapping  of the RPDO
-/// @return length 0 if controlword or target are missing, or an object is there to which zero (or
-///         the mode, for object 6060h) might not be harmless
+/// @return a layout of length 0 if controlword or target are missing, or if zero might not be a safe
+///         value of another object; object 6060h gets the mode
 /// Real-time: yes.
 [[nodiscard]] constexpr ReceiveLayout receive_layout(std::size_t number, std::uint8_t node,
                                                      Mode mode,
@@ -79,7 +79,7 @@ struct ProcessData {
   if (layout.controlword == canopen::PdoMapping::absent) return {};
   if (layout.target == canopen::PdoMapping::absent) return {};
   for (const canopen::MappedObject& object : mapping) {
-    constexpr std::uint16_t last_dummy = 7;  // data types stand for bytes without meaning
+    constexpr std::uint16_t last_dummy = 7;  // data types are placeholders for unused bytes
     const bool harmless = object == mapped_controlword || object == mapped_target(mode) ||
                           object.address.index <= last_dummy || object.address == target_torque ||
                           object.address == target_velocity || object.address == velocity_offset ||
@@ -96,7 +96,7 @@ struct ProcessData {
   return layout;
 }
 
-/// The layout of one of a drive's frames; length 0 if nothing in it is of use. Real-time: yes.
+/// The layout of a drive's frame; of length 0 if no part is in it. Real-time: yes.
 [[nodiscard]] constexpr TransmitLayout transmit_layout(
     const canopen::PdoMapping& mapping) noexcept {
   const TransmitLayout layout{mapping.length(),

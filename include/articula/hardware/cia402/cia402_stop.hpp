@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How the power is taken from a CiA 402 drive that process data may not reach.
+/// @file Stopping a CiA 402 drive by access to its objects.
 #pragma once
 
 #include "articula/hardware/can/can_batch.hpp"
@@ -11,43 +11,41 @@
 
 namespace articula {
 
-/// Takes the power from one drive by access to its objects. A drive obeys process data in the
-/// operational state alone, and after SYNC; its objects can be accessed in the pre-operational
-/// state, too. In turn: controlword 0 is written, then the statusword is read. Where no answer
-/// comes in time, the request is repeated, and the node is made pre-operational, in case it is in
-/// the stopped state. A repeated request takes the late answer to the one before, so a drive whose
-/// answers take longer than `patience` is stopped, too.
+/// Switches one drive off by access to its objects. Process data need the operational state and
+/// SYNC; access to objects works in the pre-operational state, too. All functions are real-time.
+///
+/// It writes controlword 0 and reads the statusword, in turn. Without an answer in time it repeats
+/// the request and makes the node pre-operational, in case that it is stopped. A late answer to the
+/// first request counts for the repeated one, so slow drives are stopped as well.
 class Cia402Stop {
  public:
-  /// Begins anew. Real-time: yes.
+  static constexpr std::uint64_t patience = 10;  ///< time until a request is repeated [cycles]
+
+  /// Clears the state.
   void restart() noexcept { *this = {}; }
 
-  static constexpr std::uint64_t patience = 10;  ///< until a request is repeated [cycles]
-
-  /// The drive may still exert effort: appends the next frame, if one is due.
-  /// @param node   the drive's
-  /// @param cycle  number of this cycle, for the time to wait for an answer
-  /// @param batch  receives the frame
-  /// @return       how many frames there were
-  /// Real-time: yes.
+  /// Appends the next frames, if some are due.
+  /// @param node   of the drive
+  /// @param cycle  number of this cycle
+  /// @param batch  receives the frames
+  /// @return       number of frames appended
   std::size_t advance(std::uint8_t node, std::uint64_t cycle, CanBatch& batch) noexcept {
     const std::size_t before = batch.size();
     if (waits_) {
-      if (cycle - asked_ < patience) return 0;
+      if (cycle - requested_ < patience) return 0;
       batch.push_back(canopen::encode(canopen::NmtCommand::enter_pre_operational, node));
     }
     waits_ = true;
-    asked_ = cycle;
+    requested_ = cycle;
     batch.push_back(canopen::encode_request(request(), node));
     return batch.size() - before;
   }
 
-  /// The bus did not take the last frame. Real-time: yes.
-  void withdraw() noexcept { waits_ = false; }
+  /// Notes that the bus did not take the last frame.
+  void cancel_request() noexcept { waits_ = false; }
 
-  /// Takes in the node's answer; one to another question is ignored.
-  /// @return the statusword, if that is the answer
-  /// Real-time: yes.
+  /// Processes an answer of the node; an answer to another request is ignored.
+  /// @return the statusword, if the answer has it
   [[nodiscard]] std::optional<std::uint16_t> take(const canopen::Sdo& answer) noexcept {
     if (!waits_ || answer.address != request().address) return {};
     waits_ = false;
@@ -58,13 +56,13 @@ class Cia402Stop {
 
  private:
   [[nodiscard]] canopen::Sdo request() const noexcept {
-    if (reading_) return {canopen::SdoKind::upload, cia402::statusword, 0, 0};
-    return {canopen::SdoKind::download, cia402::controlword, cia402::disable_voltage, 2};
+    return reading_ ? canopen::read_request(cia402::statusword)
+                    : canopen::write_request(cia402::controlword, cia402::disable_voltage, 2);
   }
 
-  bool reading_ = false;  ///< it is the statusword's turn
+  bool reading_ = false;  ///< the statusword is next
   bool waits_ = false;    ///< for an answer
-  std::uint64_t asked_ = 0;
+  std::uint64_t requested_ = 0;
 };
 
 }  // namespace articula

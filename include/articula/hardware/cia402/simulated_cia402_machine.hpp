@@ -8,8 +8,8 @@
 
 namespace articula {
 
-/// The state machine of a simulated CiA 402 drive [CiA 402-2, controlword]. A quick stop takes the
-/// power at once.
+/// The state machine of a simulated CiA 402 drive [CiA 402-2, controlword]. A quick stop switches the
+/// power off at once. All functions are real-time.
 class SimulatedCia402Machine {
  public:
   SimulatedCia402Machine() = default;
@@ -17,16 +17,13 @@ class SimulatedCia402Machine {
   explicit SimulatedCia402Machine(double transition_time) noexcept
       : transition_time_(transition_time) {}
 
-  [[nodiscard]] cia402::State state() const noexcept { return state_; }
   [[nodiscard]] bool enabled() const noexcept { return state_ == cia402::State::operation_enabled; }
 
-  /// Real-time: yes.
   void fault() noexcept { state_ = next_ = cia402::State::fault; }
 
-  /// Takes a controlword.
+  /// Executes a controlword.
   /// @return true if it has reset a fault
-  /// Real-time: yes.
-  bool obey(std::uint16_t word) noexcept {
+  bool execute(std::uint16_t word) noexcept {
     using cia402::State;
     const bool reset = (word & 0x80) != 0 && (last_word_ & 0x80) == 0;
     last_word_ = word;
@@ -47,8 +44,7 @@ class SimulatedCia402Machine {
   }
 
   /// Lets time pass.
-  /// @return true if a transition has come to its end
-  /// Real-time: yes.
+  /// @return true if a transition has ended
   bool pass(double time) noexcept {
     if (next_ == state_) return false;
     left_ -= time;
@@ -57,8 +53,7 @@ class SimulatedCia402Machine {
     return true;
   }
 
-  /// @param shows_following  bit 12 says in operation that the drive follows its target
-  /// Real-time: yes.
+  /// @param shows_following  sets bit 12 in operation
   [[nodiscard]] std::uint16_t statusword(bool shows_following) const noexcept {
     unsigned bits = 0x40;
     if (state_ == cia402::State::ready_to_switch_on) bits = 0x21;
@@ -70,7 +65,7 @@ class SimulatedCia402Machine {
   }
 
  private:
-  /// Upwards takes its time, downwards none.
+  /// Transitions upwards take time, downwards none.
   void go_to(cia402::State state) noexcept {
     const bool upwards = state > state_;
     if (upwards && transition_time_ > 0) {
@@ -82,9 +77,9 @@ class SimulatedCia402Machine {
   }
 
   double transition_time_ = 0;  ///< [s]
-  double left_ = 0;             ///< of the transition that has begun [s]
+  double left_ = 0;             ///< of the current transition [s]
   cia402::State state_ = cia402::State::switch_on_disabled;
-  cia402::State next_ = cia402::State::switch_on_disabled;  ///< where it leads
+  cia402::State next_ = cia402::State::switch_on_disabled;  ///< target of the transition
   std::uint16_t last_word_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file One CANopen node of the profile CiA 402, without the motor.
+/// @file A simulated CANopen node of the profile CiA 402, without the motor.
 #pragma once
 
 #include "articula/hardware/can/can_batch.hpp"
@@ -14,36 +14,34 @@
 
 namespace articula {
 
-/// One CANopen node of the profile CiA 402: object dictionary with an expedited server, network
-/// management, process data that follow their mapping objects, state machine, heartbeat and
-/// emergency messages, and the deadlines for commands and for the host's heartbeat. It is written
-/// from the standard's point of view and shares nothing with the codec but the layout of frames, so
-/// each checks the other.
+/// A CANopen node of the profile CiA 402: objects, network management, process data, state machine,
+/// heartbeat, emergency messages, and the deadlines for commands and for the host's heartbeat. It
+/// shares only the layout of frames with the codec, so each checks the other. All functions are
+/// real-time.
 class SimulatedCia402Node {
  public:
   SimulatedCia402Node() = default;
 
   /// @param node    1 .. 127
   /// @param period  of SYNC [s]
-  /// @param quirks  what it lacks or does in its own way
+  /// @param quirks  deviations from the standard
   SimulatedCia402Node(std::uint8_t node, double period, const SimulatedCia402Quirks& quirks = {})
       : node_(node), period_(period), quirks_(quirks) {
     restart();
   }
 
-  /// As after switching on. Real-time: yes.
   void restart() noexcept {
     objects_.restart(node_, quirks_);
     nmt_ = canopen::NmtState::boot_up;
     booting_ = quirks_.boot_time;
     machine_ = SimulatedCia402Machine(quirks_.transition_time);
     received_.fill({});
-    watches_commands_ = watches_host_ = false;
+    commands_ = host_ = {};
     emergency_ = 0;
-    silence_ = host_silence_ = since_heartbeat_ = 0;
+    since_heartbeat_ = 0;
   }
 
-  /// Takes a frame from the bus. Real-time: yes.
+  /// Processes a frame from the bus.
   void receive(const CanFrame& frame, CanBatch& answers) noexcept {
     if (frame.extended || booting_ > 0) return;
     if (frame.identifier == canopen::nmt_identifier && frame.length == 2) {
@@ -53,29 +51,27 @@ class SimulatedCia402Node {
       if (const auto request = canopen::decode_request(frame)) {
         answers.push_back(canopen::encode_answer(serve(*request), node_));
       }
-    } else if (canopen::decode_heartbeat(frame) && is_of_host(frame)) {
-      watches_host_ = true;
-      host_silence_ = 0;
+    } else if (canopen::decode_heartbeat(frame) && objects_.is_heartbeat_of_host(frame)) {
+      host_.feed();
     } else if (nmt_ == canopen::NmtState::operational) {
-      for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
-        // What has none is 0, which is the identifier of network management.
-        if (frame.identifier == value(parameter(0x1400, k))) received_[k] = {true, frame};
+      for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) {
+        // A missing PDO has 0, which is the identifier of network management.
+        if (frame.identifier == value(Objects::parameter(0x1400, k))) received_[k] = {true, frame};
       }
     }
   }
 
-  /// SYNC: what has been measured is sent, and the process data that have come are put into force.
-  /// @param sync  the frame; one without the counter that is expected, or with one, is ignored
-  /// Real-time: yes.
+  /// SYNC: sends the measured figures, and puts the received process data into force.
+  /// @param sync  a frame without the expected counter, or with an unexpected one, is ignored
   void take_sync(const CanFrame& sync, CanBatch& answers) noexcept {
-    const bool has_counter = value(SimulatedCia402Objects::sync_counter) != 0;
+    const bool has_counter = value(Objects::sync_counter) != 0;
     if (sync.length != (has_counter ? 1 : 0)) return;
     send_emergency(answers);
     report(answers);
-    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) put_into_force(k);
+    for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) put_into_force(k);
   }
 
-  /// Lets a period pass: boot-up message, heartbeat, deadlines, emergency. Real-time: yes.
+  /// Simulates a period: boot-up message, heartbeat, deadlines, emergency.
   void pass_period(CanBatch& answers) noexcept {
     if (booting_ > 0) booting_ -= period_;
     if (booting_ > period_ / 2) return;
@@ -95,7 +91,7 @@ class SimulatedCia402Node {
     }
   }
 
-  /// The joint as the node is to show it, in its units. Real-time: yes.
+  /// Sets the measured figures, in the node's units.
   void show(std::int32_t position, std::int32_t velocity, std::int32_t torque) noexcept {
     objects_.set(cia402::position_actual, static_cast<std::uint32_t>(position));
     objects_.set(cia402::velocity_actual, static_cast<std::uint32_t>(velocity));
@@ -103,7 +99,7 @@ class SimulatedCia402Node {
     show_state();
   }
 
-  /// Faults with an error code that is not 0. Real-time: yes.
+  /// Faults with an error code that is not 0.
   void raise_fault(std::uint16_t code) noexcept {
     machine_.fault();
     objects_.set(cia402::error_code, code);
@@ -112,57 +108,49 @@ class SimulatedCia402Node {
   }
 
   [[nodiscard]] bool enabled() const noexcept { return machine_.enabled(); }
-  [[nodiscard]] cia402::State state() const noexcept { return machine_.state(); }
   [[nodiscard]] cia402::Mode mode() const noexcept {
     return static_cast<cia402::Mode>(value(cia402::mode_display));
   }
-  /// A target object, with its sign. Real-time: yes.
+  /// A target object, with its sign.
   [[nodiscard]] std::int32_t target(const canopen::ObjectAddress& address) const noexcept {
     const std::uint32_t bits = value(address);
     return address == cia402::target_torque
                ? static_cast<std::int32_t>(static_cast<std::int16_t>(bits))
                : static_cast<std::int32_t>(bits);
   }
-  /// Any object's value; 0 if there is none at the address. Real-time: yes.
+  /// The value of any object; 0 without it.
   [[nodiscard]] std::uint32_t value(const canopen::ObjectAddress& address) const noexcept {
     return objects_.value(address);
   }
 
  private:
+  using Objects = SimulatedCia402Objects;
   struct Received {
     bool is_new = false;
     CanFrame frame{};
   };
+  /// The longest time between two frames, from the first frame on.
+  struct Deadline {
+    bool active = false;
+    double silence = 0;  ///< [s]
 
-  [[nodiscard]] static canopen::ObjectAddress parameter(std::uint16_t base, std::uint16_t number,
-                                                        std::uint8_t subindex = 1) noexcept {
-    return {static_cast<std::uint16_t>(base + number), subindex};
-  }
-  /// A heartbeat of the node that object 1016h has.
-  [[nodiscard]] bool is_of_host(const CanFrame& frame) const noexcept {
-    const std::uint32_t consumer = value(SimulatedCia402Objects::heartbeat_consumer);
-    return (consumer & 0xffff) != 0 &&
-           frame.identifier == canopen::heartbeat_base + (consumer >> 16 & 0x7f);
-  }
+    void feed() noexcept { *this = {true, 0}; }
+    /// @return true once the limit is exceeded; a limit of 0 is none
+    bool pass(double period, double limit) noexcept {
+      silence += period;
+      if (!active || limit <= 0 || silence <= limit + period / 2) return false;
+      active = false;
+      return true;
+    }
+  };
 
   void put_into_force(std::uint16_t number) noexcept {
     if (!std::exchange(received_[number].is_new, false)) return;
-    const CanFrame& frame = received_[number].frame;
     const auto mapping = static_cast<std::uint16_t>(0x1600 + number);
-    std::size_t length = 0;
-    objects_.for_each_mapped(mapping, [&](const auto& object) { length += object.size; });
-    if (frame.length < length) return;  // too short: not applied [CiA 301, 7.2.2]
-    std::size_t offset = 0;
-    objects_.for_each_mapped(mapping, [&](auto& object) {
-      object.value = 0;
-      for (std::size_t k = 0; k < object.size; ++k) {
-        object.value |= std::uint32_t{frame.data[offset++]} << (8 * k);
-      }
-    });
-    obey(static_cast<std::uint16_t>(value(cia402::controlword)));
-    watches_commands_ = true;
-    silence_ = 0;
-    deadline_ = value(parameter(0x1400, number, 5)) * 1e-3;
+    if (!objects_.unpack(mapping, received_[number].frame)) return;
+    execute(static_cast<std::uint16_t>(value(cia402::controlword)));
+    commands_.feed();
+    deadline_ = value(Objects::parameter(0x1400, number, 5)) * 1e-3;
   }
 
   void send_emergency(CanBatch& answers) noexcept {
@@ -173,33 +161,19 @@ class SimulatedCia402Node {
 
   void report(CanBatch& answers) noexcept {
     if (nmt_ != canopen::NmtState::operational) return;
-    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
-      const std::uint32_t identifier = value(parameter(0x1800, k));
-      if (identifier == 0 || (identifier & SimulatedCia402Objects::off) != 0) continue;
-      CanFrame frame;
-      frame.identifier = identifier & 0x7ff;
-      objects_.for_each_mapped(static_cast<std::uint16_t>(0x1a00 + k), [&](const auto& object) {
-        for (std::size_t byte = 0; byte < object.size && frame.length < 8; ++byte) {
-          const std::uint32_t bits = object.value >> (8 * byte);
-          frame.data[frame.length++] = static_cast<std::uint8_t>(bits & 0xff);
-        }
-      });
-      answers.push_back(frame);
+    for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) {
+      const std::uint32_t identifier = value(Objects::parameter(0x1800, k));
+      if (identifier == 0 || (identifier & Objects::off) != 0) continue;
+      answers.push_back(objects_.pack(static_cast<std::uint16_t>(0x1a00 + k), identifier & 0x7ff));
     }
   }
 
-  /// Each deadline is watched from the first frame on that it is for, whatever the drive's state.
   void watch() noexcept {
-    silence_ += period_;
-    if (watches_commands_ && deadline_ > 0 && silence_ > deadline_ + period_ / 2) {
-      watches_commands_ = false;
+    if (commands_.pass(period_, deadline_)) {
       emergency_ = 0x8250;  // RPDO timeout [CiA 301, table 26]
       if (enabled()) raise_fault(emergency_);
     }
-    host_silence_ += period_;
-    const double deadline = (value(SimulatedCia402Objects::heartbeat_consumer) & 0xffff) * 1e-3;
-    if (watches_host_ && deadline > 0 && host_silence_ > deadline + period_ / 2) {
-      watches_host_ = false;
+    if (host_.pass(period_, (value(Objects::heartbeat_consumer) & 0xffff) * 1e-3)) {
       emergency_ = 0x8130;  // heartbeat error
       if (nmt_ == canopen::NmtState::operational) leave_operation();
     }
@@ -208,8 +182,7 @@ class SimulatedCia402Node {
   void manage(std::uint8_t command) noexcept {
     switch (static_cast<canopen::NmtCommand>(command)) {
       case canopen::NmtCommand::start:
-        nmt_ = canopen::NmtState::operational;
-        return;
+        return void(nmt_ = canopen::NmtState::operational);
       case canopen::NmtCommand::stop:
         leave_operation();
         nmt_ = canopen::NmtState::stopped;
@@ -222,34 +195,34 @@ class SimulatedCia402Node {
     }
   }
 
-  /// What the node does when it leaves the operational state, as object 6007h says
-  /// [CiA 402-2, abort connection option code]: 0 nothing, 1 a fault, 2 and 3 a stop.
+  /// Leaves the operational state with the reaction of object 6007h
+  /// [CiA 402-2, abort connection option code]: 0 none, 1 a fault, 2 and 3 a stop.
   void leave_operation() noexcept {
     nmt_ = canopen::NmtState::pre_operational;
     received_.fill({});
-    watches_commands_ = false;  // commands are watched in operation alone
+    commands_.active = false;  // the deadline for commands holds only in operation
     const std::uint32_t option = value(cia402::abort_connection);
     if (option == 1 && enabled()) raise_fault(0x8130);  // life guard error [CiA 301, table 26]
-    if (option == 2 || option == 3) obey(cia402::disable_voltage);
+    if (option == 2 || option == 3) execute(cia402::disable_voltage);
   }
 
   [[nodiscard]] canopen::Sdo serve(const canopen::Sdo& request) noexcept {
     const canopen::Sdo answer = objects_.serve(request, nmt_ == canopen::NmtState::operational);
     if (answer.kind != canopen::SdoKind::download) return answer;
-    // What has come for a process data object that is switched off is dropped.
-    for (std::uint16_t k = 0; k < SimulatedCia402Objects::pdo_count; ++k) {
-      const std::uint32_t identifier = value(parameter(0x1400, k));
-      if ((identifier & SimulatedCia402Objects::off) != 0) received_[k] = {};
-      if (request.address == parameter(0x1400, k, 5)) deadline_ = request.value * 1e-3;
+    for (std::uint16_t k = 0; k < Objects::pdo_count; ++k) {
+      const std::uint32_t identifier = value(Objects::parameter(0x1400, k));
+      // A frame for a process data object that is off is dropped.
+      if ((identifier & Objects::off) != 0) received_[k] = {};
+      if (request.address == Objects::parameter(0x1400, k, 5)) deadline_ = request.value * 1e-3;
     }
-    if (request.address == SimulatedCia402Objects::heartbeat_consumer) watches_host_ = false;
-    if (request.address == cia402::controlword) obey(static_cast<std::uint16_t>(request.value));
+    if (request.address == Objects::heartbeat_consumer) host_.active = false;
+    if (request.address == cia402::controlword) execute(static_cast<std::uint16_t>(request.value));
     show_state();
     return answer;
   }
 
-  void obey(std::uint16_t word) noexcept {
-    if (machine_.obey(word)) objects_.set(cia402::error_code, 0);
+  void execute(std::uint16_t controlword) noexcept {
+    if (machine_.execute(controlword)) objects_.set(cia402::error_code, 0);
     show_state();
   }
 
@@ -266,15 +239,12 @@ class SimulatedCia402Node {
   SimulatedCia402Objects objects_{};
   canopen::NmtState nmt_ = canopen::NmtState::boot_up;
   SimulatedCia402Machine machine_{};
-  std::array<Received, SimulatedCia402Objects::pdo_count> received_{};
-  bool watches_commands_ = false;  ///< some have come since the node is in operation
-  bool watches_host_ = false;      ///< a heartbeat has come
-  std::uint16_t emergency_ = 0;    ///< code of the message that is due
-  double deadline_ = 0;            ///< for commands [s]
-  double booting_ = 0;             ///< how long yet [s]
-  double silence_ = 0;             ///< since the last command [s]
-  double host_silence_ = 0;        ///< since the last heartbeat of the host [s]
-  double since_heartbeat_ = 0;     ///< [s]
+  std::array<Received, Objects::pdo_count> received_{};
+  Deadline commands_{}, host_{};
+  double deadline_ = 0;          ///< for commands [s]
+  std::uint16_t emergency_ = 0;  ///< code of the next emergency message
+  double booting_ = 0;           ///< remaining time [s]
+  double since_heartbeat_ = 0;   ///< [s]
 };
 
 }  // namespace articula

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The objects of a simulated CiA 402 drive, and the rules by which they are written.
+/// @file The objects of a simulated CiA 402 drive, and the rules for writing them.
 #pragma once
 
-#include "articula/hardware/canopen/simulated_canopen_objects.hpp"
+#include "articula/hardware/canopen/simulated_object_dictionary.hpp"
 #include "articula/hardware/cia402/cia402.hpp"
 #include "articula/hardware/cia402/simulated_cia402_quirks.hpp"
 
@@ -13,18 +13,19 @@
 
 namespace articula {
 
-/// The objects of a simulated CiA 402 drive, and the rules by which they are written.
-class SimulatedCia402Objects : public SimulatedCanopenObjects {
+/// The objects of a simulated CiA 402 drive, the rules for writing them, and the process data objects
+/// that are mapped from them. All functions are real-time.
+class SimulatedCia402Objects : public SimulatedObjectDictionary {
  public:
   static constexpr std::uint32_t off = 0x8000'0000U;  ///< in the identifier of a PDO
   static constexpr std::uint32_t no_remote_requests = 0x4000'0000U;
   static constexpr std::uint8_t pdo_count = 4;
 
-  /// As after switching on. Real-time: yes.
+  /// Sets the values after switching on.
   void restart(std::uint8_t node, const SimulatedCia402Quirks& quirks) noexcept {
     quirks_ = quirks;
     clear();
-    for (const SimulatedCanopenObject& object : factory_objects) {
+    for (const SimulatedObject& object : factory_objects) {
       const bool missing =
           (object.address == cia402::error_code && !quirks.has_error_code) ||
           (object.address == cia402::torque_actual && !quirks.has_torque) ||
@@ -37,8 +38,9 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
     set(sync_counter, quirks.sync_counter);
     if (quirks.sync_counter != 0) set(sync_period, 1000);
     if (!quirks.has_fixed_mappings()) {
-      for (const std::uint16_t index : std::array<std::uint16_t, 3>{0x1600, 0x1a00, 0x1a01})
+      for (const std::uint16_t index : std::array<std::uint16_t, 3>{0x1600, 0x1a00, 0x1a01}) {
         add_pdo(node, index, nullptr);
+      }
     }
     for (const auto& fixed : quirks.fixed_mappings) {
       if (fixed.index != 0) add_pdo(node, fixed.index, &fixed);
@@ -47,15 +49,14 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
 
   /// The answer to a request; abort codes of [CiA 301, table 22].
   /// @param is_operational  the node is in the state operational
-  /// Real-time: yes.
   [[nodiscard]] canopen::Sdo serve(const canopen::Sdo& request, bool is_operational) noexcept {
     const auto abort = [&](std::uint32_t code) {
       return canopen::Sdo{canopen::SdoKind::abort, request.address, code, 4};
     };
-    SimulatedCanopenObject* const object = find(request.address);
+    SimulatedObject* const object = find(request.address);
     if (!object) return abort(0x0602'0000);  // object does not exist
     if (request.kind == canopen::SdoKind::upload) {
-      const std::uint8_t size = quirks_.tells_size ? object->size : std::uint8_t{0};
+      const std::uint8_t size = quirks_.indicates_size ? object->size : std::uint8_t{0};
       return {request.kind, request.address, object->value, size};
     }
     const bool is_fixed =
@@ -69,22 +70,51 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
     return {request.kind, request.address, 0, 0};
   }
 
-  /// Calls function(object) for each object that a process data object is made of.
-  template <class Function>
-  void for_each_mapped(std::uint16_t mapping, Function function) noexcept {
-    const std::uint32_t count = std::min(value({mapping, 0}), std::uint32_t{8});
-    for (std::uint8_t k = 1; k <= count; ++k) {
-      SimulatedCanopenObject* const object = find(mapped(value({mapping, k})));
-      if (object) function(*object);
-    }
+  /// Writes the objects that a frame of a process data object carries.
+  /// @param mapping  index of the mapping object
+  /// @return         false if the frame is too short [CiA 301, 7.2.2]
+  [[nodiscard]] bool unpack(std::uint16_t mapping, const CanFrame& frame) noexcept {
+    std::size_t length = 0;
+    for_each_mapped(mapping, [&](const auto& object) { length += object.size; });
+    if (frame.length < length) return false;
+    std::size_t offset = 0;
+    for_each_mapped(mapping, [&](auto& object) {
+      object.value = 0;
+      for (std::size_t k = 0; k < object.size; ++k) {
+        object.value |= std::uint32_t{frame.data[offset++]} << (8 * k);
+      }
+    });
+    return true;
+  }
+  /// The frame of a process data object.
+  [[nodiscard]] CanFrame pack(std::uint16_t mapping, std::uint32_t identifier) noexcept {
+    CanFrame frame{.identifier = identifier};
+    for_each_mapped(mapping, [&](const auto& object) {
+      for (std::size_t byte = 0; byte < object.size && frame.length < 8; ++byte) {
+        frame.data[frame.length++] = static_cast<std::uint8_t>(object.value >> (8 * byte) & 0xff);
+      }
+    });
+    return frame;
   }
 
+  /// Whether a heartbeat is from the node in object 1016h.
+  [[nodiscard]] bool is_heartbeat_of_host(const CanFrame& frame) const noexcept {
+    const std::uint32_t consumer = value(heartbeat_consumer);
+    return (consumer & 0xffff) != 0 &&
+           frame.identifier == canopen::heartbeat_base + (consumer >> 16 & 0x7f);
+  }
+
+  /// The address of a parameter of a process data object.
+  [[nodiscard]] static canopen::ObjectAddress parameter(std::uint16_t base, std::uint16_t number,
+                                                        std::uint8_t subindex = 1) noexcept {
+    return {static_cast<std::uint16_t>(base + number), subindex};
+  }
   static constexpr canopen::ObjectAddress heartbeat_consumer{0x1016, 1};
   static constexpr canopen::ObjectAddress sync_period{0x1006, 0};
   static constexpr canopen::ObjectAddress sync_counter{0x1019, 0};
 
  private:
-  static constexpr auto factory_objects = std::to_array<SimulatedCanopenObject>({
+  static constexpr auto factory_objects = std::to_array<SimulatedObject>({
       {{0x1000, 0}, 4, false, 0x0002'0192},  // servo drive of the profile 402
       {sync_period, 4, true, 0},
       {heartbeat_consumer, 4, true, 0},
@@ -100,7 +130,7 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
       {cia402::position_actual, 4, false, 0},
       {cia402::velocity_actual, 4, false, 0},
       {cia402::target_torque, 2, true, 0},
-      {{0x6072, 0}, 2, true, 1000},  // most torque
+      {{0x6072, 0}, 2, true, 1000},  // maximum torque
       {cia402::torque_actual, 2, false, 0},
       {cia402::target_position, 4, true, 0},
       {cia402::interpolation_period, 1, true, 1},
@@ -108,6 +138,14 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
       {cia402::target_velocity, 4, true, 0},
   });
 
+  template <class Function>
+  void for_each_mapped(std::uint16_t mapping, Function function) noexcept {
+    const auto count = static_cast<std::uint8_t>(std::min(value({mapping, 0}), std::uint32_t{8}));
+    for (std::uint8_t k = 1; k <= count; ++k) {
+      SimulatedObject* const object = find(mapped(value({mapping, k})));
+      if (object) function(*object);
+    }
+  }
   [[nodiscard]] static canopen::ObjectAddress mapped(std::uint32_t entry) noexcept {
     return {static_cast<std::uint16_t>(entry >> 16), static_cast<std::uint8_t>(entry >> 8 & 0xff)};
   }
@@ -132,8 +170,8 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
     add({{mapping, 0}, 1, fixed == nullptr, count});
   }
 
-  /// Mapping objects are locked while their process data object is switched on, and its entries
-  /// while their number is not 0. The counter of SYNC is locked while that has a period.
+  /// Mapping objects are locked while their process data object is on, and entries while their number
+  /// is not 0. The counter of SYNC is locked while SYNC has a period.
   [[nodiscard]] bool is_locked(const canopen::Sdo& request, bool is_operational) const noexcept {
     const std::uint16_t index = request.address.index;
     if (request.address == sync_counter) return value(sync_period) != 0;
@@ -146,7 +184,7 @@ class SimulatedCia402Objects : public SimulatedCanopenObjects {
     return on || (request.address.subindex > 0 && value({index, 0}) != 0);
   }
 
-  /// What is wrong with a value: an abort code, or 0.
+  /// The abort code for an invalid value; 0 for a valid one.
   [[nodiscard]] std::uint32_t refusal(const canopen::Sdo& request) const noexcept {
     const std::uint16_t index = request.address.index;
     const std::uint8_t subindex = request.address.subindex;

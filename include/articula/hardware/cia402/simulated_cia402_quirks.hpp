@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a simulated CiA 402 drive lacks or does in its own way, as many real ones do.
+/// @file The deviations of a simulated CiA 402 drive from the standard.
 #pragma once
 
 #include <array>
@@ -8,10 +8,10 @@
 
 namespace articula {
 
-/// What a simulated CiA 402 drive lacks or does in its own way, as many real ones do.
+/// The deviations of a simulated CiA 402 drive from the standard. Many real drives have some.
 struct SimulatedCia402Quirks {
-  /// A mapping that cannot be changed: the index of its object, 1600h .. 1603h or 1a00h .. 1a03h,
-  /// and its entries, zero after the last.
+  /// A mapping that cannot be changed: the index of its object, 1600h .. 1603h or 1a00h .. 1a03h, and
+  /// its entries, with zero after the last.
   struct FixedMapping {
     std::uint16_t index = 0;
     std::array<std::uint32_t, 8> entries{};
@@ -24,16 +24,16 @@ struct SimulatedCia402Quirks {
   bool has_heartbeat_consumer = true;      ///< object 1016h
   bool has_abort_connection = true;        ///< object 6007h
   bool abort_connection_is_fixed = false;  ///< It cannot be written.
-  std::uint16_t abort_connection = 0;      ///< object 6007h at first
-  bool allows_remote_requests = true;  ///< Else identifiers of TPDOs have bit 30, and must keep it.
-  bool tells_size = true;              ///< of what is read (43h .. 4fh, else 42h)
-  bool shows_mode_at_once = true;      ///< Else object 6061h follows in operation enabled alone.
-  bool shows_following = true;         ///< bit 12 of the statusword
-  bool is_open_in_operation = true;    ///< Else 1400h .. 1BFFh are locked then.
-  std::uint8_t sync_counter = 0;       ///< object 1019h at first; other SYNCs are not obeyed
-  double boot_time = 0;                ///< [s]
-  double transition_time = 0;          ///< for each transition towards operation enabled [s]
-  std::array<FixedMapping, 8> fixed_mappings{};  ///< If there is one, there are no others.
+  std::uint16_t abort_connection = 0;      ///< initial value of object 6007h
+  bool allows_remote_requests = true;      ///< Else identifiers of TPDOs must have bit 30.
+  bool indicates_size = true;              ///< of a value that is read (43h .. 4fh, else 42h)
+  bool shows_mode_at_once = true;          ///< Else object 6061h follows only in operation enabled.
+  bool shows_following = true;             ///< bit 12 of the statusword
+  bool is_open_in_operation = true;        ///< Else 1400h .. 1BFFh are locked in operation.
+  std::uint8_t sync_counter = 0;  ///< initial value of object 1019h; other SYNCs are ignored
+  double boot_time = 0;           ///< [s]
+  double transition_time = 0;     ///< of each transition towards operation enabled [s]
+  std::array<FixedMapping, 8> fixed_mappings{};  ///< If there is one, there are no changeable ones.
 
   [[nodiscard]] constexpr bool has_fixed_mappings() const noexcept {
     return fixed_mappings[0].index != 0;

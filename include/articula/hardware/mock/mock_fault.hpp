@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What goes wrong with hardware that is not there.
+/// @file Scripted faults of mock hardware.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -12,25 +12,25 @@
 
 namespace articula {
 
-/// How mock hardware fails.
+/// The kind of a fault of mock hardware.
 enum class MockFaultKind : unsigned char {
-  refuses_activation,  ///< activate() answers Status::hardware_fault.
-  fails_to_read,       ///< read() answers Status::hardware_fault and leaves the state alone.
-  fails_to_write,      ///< write() answers Status::hardware_fault and the joints do not follow.
-  goes_silent,         ///< read() answers Status::stale_state with the joint's last figures.
+  refuses_activation,  ///< activate() returns Status::hardware_fault.
+  fails_to_read,       ///< read() returns Status::hardware_fault and keeps the state.
+  fails_to_write,      ///< write() returns Status::hardware_fault, and the joints stay.
+  goes_silent,         ///< read() returns Status::stale_state with the joint's last figures.
   measures_nan,        ///< The joint's measured position is NaN.
   measures_position,   ///< The joint's measured position is `value`.
   measures_velocity,   ///< The joint's measured velocity is `value`.
 };
 
-/// Something that goes wrong with mock hardware, at some readings. Readings are counted from 0; a
-/// Loop makes the first when it is constructed. A write belongs to the reading before it.
+/// A fault of mock hardware at some readings. Readings count from 0; a Loop makes the first in its
+/// constructor. A write belongs to the reading before it.
 struct MockFault {
   MockFaultKind kind{};
-  std::uint64_t first = 0;                                          ///< reading at which it begins
-  std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< for so many readings
-  int joint = -1;    ///< index of the joint it happens to; -1: to all of them
-  double value = 0;  ///< what is measured instead [rad or m, rad/s or m/s]
+  std::uint64_t first = 0;                                          ///< reading of its begin
+  std::uint64_t count = std::numeric_limits<std::uint64_t>::max();  ///< number of readings
+  int joint = -1;    ///< index of the joint; -1: all joints
+  double value = 0;  ///< measured instead [rad or m, rad/s or m/s]
 
   /// Real-time: yes.
   [[nodiscard]] constexpr bool covers(std::uint64_t reading) const noexcept {
@@ -38,11 +38,11 @@ struct MockFault {
   }
 };
 
-/// Refuses a script that makes no sense.
+/// Checks a script and the period.
 /// @param script       the faults
 /// @param joint_count  of the robot
 /// @param period       of the hardware [s]
-/// @throws std::invalid_argument naming the fault, the value and the limit
+/// @throws std::invalid_argument with the fault, the value and the limit
 /// Real-time: no (throws).
 inline void validate(const std::vector<MockFault>& script, int joint_count, double period) {
   if (!is_finite(period) || period <= 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Hardware that is not there.
+/// @file Mock hardware: joints that follow every command at once.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -20,23 +20,28 @@ namespace articula {
 
 namespace detail {
 
-/// What a mock takes unless it is said: positions where the robot has no masses, else efforts.
+/// The default command of a mock: positions for a robot without masses, else efforts.
 template <Robot R>
 using MockCommand = std::conditional_t<is_kinematic<R>, PositionCommand<joint_count<R>>,
                                        EffortCommand<joint_count<R>>>;
 
 }  // namespace detail
 
-/// Hardware that is not there: joints that do at once what they are told, without any dynamics, and
-/// fail by a script. For trying out everything around a robot.
+/// Joints that follow every command at once, without dynamics, and fail by a script. For tests of a
+/// program around a robot: its modes, errors and recordings. For control quality use a Simulator.
 ///
-/// A position command is where the joints are from then on, and their velocity is the step over the
-/// period; a velocity command moves them by one period; an effort command shows as measured effort.
-/// A multi-mode command does each of these: joints with a spring go where it pulls them, those with
-/// a damper alone move with its velocity, and all show the effort.
-/// Commands move joints while the hardware is active; a command that is not finite is refused.
+///     MockHardware<MyArm> arm({{.kind = MockFaultKind::goes_silent, .first = 100, .count = 5}});
+///
+/// | command | joints |
+/// |---|---|
+/// | position | stand there; velocity is the step over the period |
+/// | velocity | move by one period |
+/// | effort | report it as measured effort |
+/// | spring and damper | with a spring as by a position, with a damper alone as by a velocity |
+///
+/// Commands act while the hardware is active. A command that is not finite is refused.
 /// @tparam R            the robot
-/// @tparam CommandType  what the drives take; by default efforts, of a kinematic robot positions
+/// @tparam CommandType  command of the drives; by default efforts, for a kinematic robot positions
 template <Robot R, JointCommand<joint_count<R>> CommandType = detail::MockCommand<R>>
 class MockHardware {
  public:
@@ -45,10 +50,9 @@ class MockHardware {
   static constexpr int joint_count = articula::joint_count<R>;
 
   /// @param robot   whose joints these are
-  /// @param script  what goes wrong and when
+  /// @param script  its faults
   /// @param period  time from one command to the next [s]
-  /// @throws std::invalid_argument if a fault names a joint that the robot does not have, or the
-  ///         period is not a positive number
+  /// @throws std::invalid_argument as validate(script, joint_count, period)
   explicit MockHardware(const R& robot, std::vector<MockFault> script = {}, double period = 1e-3)
       : robot_(robot), script_(std::move(script)), period_(period) {
     validate(script_, joint_count, period_);
@@ -58,9 +62,9 @@ class MockHardware {
     requires DescribedRobot<R>
       : MockHardware(R(), std::move(script), period) {}
 
-  /// Status::hardware_fault if the script says so, else Status::ok. Real-time: yes.
+  /// Status::hardware_fault by the script, else Status::ok. Real-time: yes.
   [[nodiscard]] Status activate() noexcept {
-    active_ = !now(MockFaultKind::refuses_activation);
+    active_ = !fails(MockFaultKind::refuses_activation);
     return active_ ? Status::ok : Status::hardware_fault;
   }
   /// Real-time: yes.
@@ -69,8 +73,7 @@ class MockHardware {
     return Status::ok;
   }
 
-  /// Measures, as far as the script allows. One more reading of the script's count. Figures of
-  /// hardware that is not active come with Status::inactive.
+  /// Measures, with the script's faults of this reading. Inactive hardware returns Status::inactive.
   /// Real-time: yes. O(N + length of the script).
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     const std::uint64_t reading = readings_++;
@@ -78,31 +81,10 @@ class MockHardware {
     JointState<joint_count> fresh = joints_;
     for (const MockFault& fault : script_) {
       if (!fault.covers(reading)) continue;
-      switch (fault.kind) {
-        case MockFaultKind::fails_to_read:
-          return Status::hardware_fault;
-        case MockFaultKind::goes_silent:
-          status = Status::stale_state;
-          if (fault.joint < 0) {
-            fresh = measured_;
-          } else {
-            fresh.position[fault.joint] = measured_.position[fault.joint];
-            fresh.velocity[fault.joint] = measured_.velocity[fault.joint];
-            fresh.effort[fault.joint] = measured_.effort[fault.joint];
-          }
-          break;
-        case MockFaultKind::measures_nan:
-          spoil(fresh.position, fault.joint, std::numeric_limits<double>::quiet_NaN());
-          break;
-        case MockFaultKind::measures_position:
-          spoil(fresh.position, fault.joint, fault.value);
-          break;
-        case MockFaultKind::measures_velocity:
-          spoil(fresh.velocity, fault.joint, fault.value);
-          break;
-        case MockFaultKind::refuses_activation:
-        case MockFaultKind::fails_to_write:
-          break;
+      if (fault.kind == MockFaultKind::fails_to_read) return Status::hardware_fault;
+      if (fault.kind == MockFaultKind::goes_silent) status = Status::stale_state;
+      for (int j = 0; j < joint_count; ++j) {
+        if (fault.joint < 0 || fault.joint == j) distort(fault, j, fresh);
       }
     }
     measured_ = fresh;
@@ -110,13 +92,13 @@ class MockHardware {
     return status == Status::ok && !active_ ? Status::inactive : status;
   }
 
-  /// Does at once what it is told.
-  /// @return Status::hardware_fault if the script says so, Status::inactive if the hardware is not
-  ///         active, Status::non_finite_command if the command is refused
+  /// Follows a command at once.
+  /// @return Status::ok, Status::hardware_fault by the script, Status::inactive, or
+  ///         Status::non_finite_command
   /// Real-time: yes. O(N + length of the script).
   [[nodiscard]] Status write(const Command& command) noexcept {
     ++writes_;
-    if (now(MockFaultKind::fails_to_write)) return Status::hardware_fault;
+    if (fails(MockFaultKind::fails_to_write)) return Status::hardware_fault;
     if (!active_) return Status::inactive;
     if (!is_finite(command)) return Status::non_finite_command;
     written_ = command;
@@ -133,21 +115,21 @@ class MockHardware {
     return Status::ok;
   }
 
-  /// Puts the joints somewhere else, as a hand would. Real-time: yes.
+  /// Moves the joints to another state, as a hand would. Real-time: yes.
   void set_state(const JointState<joint_count>& state) noexcept { joints_ = state; }
   /// The last command that was accepted. Real-time: yes.
   [[nodiscard]] const Command& written() const noexcept { return written_; }
-  /// How often `write` was called, in whatever mode. Real-time: yes.
+  /// Number of calls of `write`, in any mode. Real-time: yes.
   [[nodiscard]] std::uint64_t writes() const noexcept { return writes_; }
-  /// How often `read` was called. Real-time: yes.
+  /// Number of calls of `read`. Real-time: yes.
   [[nodiscard]] std::uint64_t readings() const noexcept { return readings_; }
   [[nodiscard]] bool active() const noexcept { return active_; }
   [[nodiscard]] double period() const noexcept { return period_; }
   [[nodiscard]] const R& robot() const noexcept { return robot_; }
 
  private:
-  /// True if the script has that fault for the reading that was made last.
-  [[nodiscard]] bool now(MockFaultKind kind) const noexcept {
+  /// Whether the script has a fault for the last reading.
+  [[nodiscard]] bool fails(MockFaultKind kind) const noexcept {
     const std::uint64_t reading = readings_ == 0 ? 0 : readings_ - 1;
     for (const MockFault& fault : script_) {
       if (fault.kind == kind && fault.covers(reading)) return true;
@@ -168,12 +150,17 @@ class MockHardware {
     }
   }
 
-  static void spoil(JointVector<joint_count>& values, int joint, double value) noexcept {
-    if (joint < 0) {
-      values.setConstant(value);
-    } else {
-      values[joint] = value;
+  /// Changes the measured figures of joint j.
+  void distort(const MockFault& fault, int j, JointState<joint_count>& fresh) const noexcept {
+    if (fault.kind == MockFaultKind::goes_silent) {
+      fresh.position[j] = measured_.position[j];
+      fresh.velocity[j] = measured_.velocity[j];
+      fresh.effort[j] = measured_.effort[j];
     }
+    constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+    if (fault.kind == MockFaultKind::measures_nan) fresh.position[j] = not_a_number;
+    if (fault.kind == MockFaultKind::measures_position) fresh.position[j] = fault.value;
+    if (fault.kind == MockFaultKind::measures_velocity) fresh.velocity[j] = fault.value;
   }
 
   [[no_unique_address]] R robot_;

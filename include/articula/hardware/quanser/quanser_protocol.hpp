@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The frames of the arm's joint modules, see docs/quanser_protocol.md.
+/// @file The frames of the Quanser arm's joint modules, docs/quanser_protocol.md.
 #pragma once
 
 #include "articula/hardware/can/can_frame.hpp"
@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <optional>
 
-/// The frames that host and joint modules exchange, in the units of the wire. Encoding gives the
-/// frame; decoding takes any frame and gives a value, or nothing if it is not such a frame.
-/// All functions are real-time.
+/// The frames between host and joint modules, in the units of the bus. Encoding returns the frame.
+/// Decoding accepts any frame and returns a value, or nothing if it is another frame. All functions
+/// are real-time.
 namespace articula::quanser {
 
-// Identifiers; those of a module n = 1 .. 31 are the base plus n. Efforts stand before SYNC in
-// priority too, so that a controller that sends by priority keeps the order.
+// Identifiers; those of a module n = 1 .. 31 are the base plus n. Efforts have a higher priority than
+// SYNC, so that a controller that sends by priority keeps the order.
 inline constexpr std::uint32_t control_base = 0x040;
 inline constexpr std::uint32_t effort_base = 0x080;
 inline constexpr std::uint32_t sync_identifier = 0x100;
@@ -30,9 +30,9 @@ enum StatusBit : std::uint8_t {
   limited = 1 << 2,  ///< the effort is held at the module's limit
 };
 
-/// Bits of a module's faults; they stay until they are cleared.
+/// Bits of a module's latched faults.
 enum FaultBit : std::uint8_t {
-  command_timeout = 1 << 0,   ///< efforts stopped coming
+  command_timeout = 1 << 0,   ///< no new effort within the watchdog's time
   over_current = 1 << 1,      ///< motor current too high
   over_temperature = 1 << 2,  ///< module too hot
   encoder = 1 << 3,           ///< an encoder signal is missing, or a count is out of range
@@ -41,20 +41,20 @@ enum FaultBit : std::uint8_t {
   internal = 1 << 6,          ///< anything else
 };
 
-/// Host to one module: what its power stage is to do.
+/// Host to one module: command to its power stage.
 enum class Control : std::uint8_t {
-  enable = 1,        ///< follow efforts from now on, beginning with none; refused while faulty
-  disable = 2,       ///< let go
-  clear_faults = 3,  ///< let go and forget latched faults whose cause is gone
+  enable = 1,        ///< follow efforts, from zero on; refused while faulty
+  disable = 2,       ///< exert no effort
+  clear_faults = 3,  ///< exert no effort, and clear faults whose cause is gone
 };
 
-/// Host to one module: the effort to exert from the SYNC with the same counter on.
+/// Host to one module: the effort from the SYNC with the same counter on.
 struct Effort {
   std::int16_t millinewton_metres = 0;  ///< [1e-3 N m]
   std::uint8_t counter = 0;             ///< of the SYNC that puts it into force
 };
 
-/// Module to host, answering SYNC: where motor and load are.
+/// Module to host, answers SYNC: positions of motor and load.
 struct Position {
   std::int32_t motor_counts = 0;  ///< motor encoder, 24 bits
   std::int32_t load_counts = 0;   ///< load encoder, 24 bits
@@ -62,7 +62,7 @@ struct Position {
   std::uint8_t status = 0;        ///< StatusBit, at the time of sending
 };
 
-/// Module to host, answering SYNC: how the joint moves.
+/// Module to host, answers SYNC: velocity and effort of the joint.
 struct Motion {
   std::int16_t milliradians_per_second = 0;  ///< [1e-3 rad/s]
   std::int16_t millinewton_metres = 0;       ///< measured effort [1e-3 N m]
@@ -74,21 +74,20 @@ struct Motion {
 struct Heartbeat {
   std::uint8_t status = 0;  ///< StatusBit
   std::uint8_t faults = 0;  ///< FaultBit
-  std::uint16_t count = 0;  ///< heartbeats since the last reset; 0 tells of the reset; 65535 stays
+  std::uint16_t count = 0;  ///< heartbeats since the last reset, at most 65535
 };
 
 namespace detail {
 
-/// -32768 is not a value: it stands for a figure that a module does not have.
+/// -32768 marks a missing figure.
 inline constexpr std::int16_t no_value = -32768;
 inline constexpr std::int32_t largest_count = 0x7fffff;
-/// Likewise for counts.
+/// Marks a missing count.
 inline constexpr std::int32_t no_count = -largest_count - 1;
 
 [[nodiscard]] constexpr bool is(const CanFrame& frame, std::uint32_t base,
                                 std::uint8_t length) noexcept {
-  return !frame.extended && frame.length == length && frame.identifier > base &&
-         frame.identifier <= base + last_node;
+  return frame.length == length && node_after(base, last_node, frame) != 0;
 }
 /// Reserved bits are 0, and a module is not enabled while it is faulty.
 [[nodiscard]] constexpr bool is_status(std::uint8_t bits) noexcept {
@@ -96,29 +95,20 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 [[nodiscard]] constexpr bool is_faults(std::uint8_t bits) noexcept { return bits < 1 << 7; }
 
-[[nodiscard]] constexpr CanFrame frame_of(std::uint32_t identifier, std::uint8_t length) noexcept {
-  CanFrame frame;
-  frame.identifier = identifier;
-  frame.length = length;
-  return frame;
-}
-
 }  // namespace detail
 
-/// The module that a frame is from or for: 1 .. 31, or 0 if it is none's.
+/// The module's node number in a frame: 1 .. 31, or 0 if it is another frame.
 [[nodiscard]] constexpr std::uint8_t node_of(const CanFrame& frame) noexcept {
   for (const std::uint32_t base :
        {control_base, effort_base, position_base, motion_base, heartbeat_base}) {
-    const bool in_range = frame.identifier > base && frame.identifier <= base + last_node;
-    if (!frame.extended && in_range) return static_cast<std::uint8_t>(frame.identifier - base);
+    if (const std::uint8_t node = node_after(base, last_node, frame)) return node;
   }
   return 0;
 }
 
 [[nodiscard]] constexpr CanFrame encode(Control control, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(control_base + node, 1);
-  frame.data[0] = static_cast<std::uint8_t>(control);
-  return frame;
+  return {
+      .identifier = control_base + node, .length = 1, .data = {static_cast<std::uint8_t>(control)}};
 }
 [[nodiscard]] constexpr std::optional<Control> decode_control(const CanFrame& frame) noexcept {
   if (!detail::is(frame, control_base, 1)) return {};
@@ -127,9 +117,8 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Effort& effort, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(effort_base + node, 3);
+  CanFrame frame{.identifier = effort_base + node, .length = 3, .data = {0, 0, effort.counter}};
   store_little_endian<0, 2>(frame.data, effort.millinewton_metres);
-  frame.data[2] = effort.counter;
   return frame;
 }
 [[nodiscard]] constexpr std::optional<Effort> decode_effort(const CanFrame& frame) noexcept {
@@ -141,9 +130,7 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 
 /// Host to all modules: begins cycle `counter`.
 [[nodiscard]] constexpr CanFrame encode_sync(std::uint8_t counter) noexcept {
-  CanFrame frame = detail::frame_of(sync_identifier, 1);
-  frame.data[0] = counter;
-  return frame;
+  return {.identifier = sync_identifier, .length = 1, .data = {counter}};
 }
 [[nodiscard]] constexpr std::optional<std::uint8_t> decode_sync(const CanFrame& frame) noexcept {
   if (frame.extended || frame.identifier != sync_identifier || frame.length != 1) return {};
@@ -151,7 +138,7 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Position& position, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(position_base + node, 8);
+  CanFrame frame{.identifier = position_base + node, .length = 8};
   store_little_endian<0, 3>(frame.data, position.motor_counts);
   store_little_endian<3, 3>(frame.data, position.load_counts);
   frame.data[6] = position.counter;
@@ -169,7 +156,7 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Motion& motion, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(motion_base + node, 6);
+  CanFrame frame{.identifier = motion_base + node, .length = 6};
   store_little_endian<0, 2>(frame.data, motion.milliradians_per_second);
   store_little_endian<2, 2>(frame.data, motion.millinewton_metres);
   frame.data[4] = motion.counter;
@@ -187,9 +174,9 @@ inline constexpr std::int32_t no_count = -largest_count - 1;
 }
 
 [[nodiscard]] constexpr CanFrame encode(const Heartbeat& heartbeat, std::uint8_t node) noexcept {
-  CanFrame frame = detail::frame_of(heartbeat_base + node, 4);
-  frame.data[0] = heartbeat.status;
-  frame.data[1] = heartbeat.faults;
+  CanFrame frame{.identifier = heartbeat_base + node,
+                 .length = 4,
+                 .data = {heartbeat.status, heartbeat.faults}};
   store_little_endian<2, 2>(frame.data, heartbeat.count);
   return frame;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file One joint module of the Quanser protocol, without the joint behind it.
+/// @file A simulated Quanser joint module, without the joint.
 #pragma once
 
 #include "articula/hardware/quanser/quanser_protocol.hpp"
@@ -11,56 +11,56 @@
 
 namespace articula {
 
-/// How a joint module follows efforts, latches faults and supervises its host, as
-/// docs/quanser_protocol.md says. It has no sensors and no clock: see SimulatedQuanserDrives.
+/// A joint module that follows efforts, latches faults and supervises its host after
+/// docs/quanser_protocol.md. It has no sensors and no clock, see SimulatedQuanserDrives. All
+/// functions are real-time.
 class SimulatedQuanserModule {
  public:
   SimulatedQuanserModule() = default;
   /// @param effort_limit       largest effort of the module [N m]
-  /// @param watchdog_periods   periods that an effort may stay in force without another
+  /// @param watchdog_periods   the most periods without a new effort
   /// @param heartbeat_periods  periods between two heartbeats
   SimulatedQuanserModule(double effort_limit, int watchdog_periods, int heartbeat_periods) noexcept
       : effort_limit_(effort_limit),
         watchdog_periods_(watchdog_periods),
         heartbeat_periods_(heartbeat_periods) {}
 
-  /// CONTROL. Real-time: yes.
+  /// Executes CONTROL.
   void receive(quanser::Control control) noexcept {
     switch (control) {
       case quanser::Control::enable:
         if (!enabled_ && faults_ == 0) {
-          let_go();  // an effort that came before does not count
+          disable();  // an earlier effort does not count
           enabled_ = true;
         }
         return;
       case quanser::Control::disable:
-        return let_go();
+        return disable();
       case quanser::Control::clear_faults:
-        let_go();
+        disable();
         faults_ = causes();
         return;
     }
   }
-  /// EFFORT. It waits for the SYNC with its counter. Frames may overtake each other in a sender's
-  /// controller: SYNC may have been here already. Real-time: yes.
+  /// Stores EFFORT until the SYNC with its counter. SYNC may have arrived already, because a sender's
+  /// controller may reorder frames.
   void receive(const quanser::Effort& effort) noexcept {
     if (effort.counter == counter_) return follow(effort);
     pending_ = effort;
   }
-  /// SYNC: puts the effort with its counter into force; any other is dropped. Real-time: yes.
+  /// SYNC: puts the effort with its counter into force, and drops any other.
   void synchronize(std::uint8_t counter) noexcept {
     counter_ = counter;
     if (pending_ && pending_->counter == counter) follow(*pending_);
     pending_.reset();
   }
-  /// Lets a period begin: the watchdog runs on. Real-time: yes.
+  /// Begins a period of the watchdog.
   void begin_period() noexcept {
     if (supervised_ && ++silence_ > watchdog_periods_) latch(quanser::command_timeout);
   }
   /// Ends a period.
-  /// @param counts_fit  whether both encoders' counts fit into their frame
+  /// @param counts_fit  both encoders' counts are within the range of their frame
   /// @return            a heartbeat, if one is due
-  /// Real-time: yes.
   [[nodiscard]] std::optional<quanser::Heartbeat> end_period(bool counts_fit) noexcept {
     out_of_range_ = !counts_fit;
     latch(causes());
@@ -71,20 +71,20 @@ class SimulatedQuanserModule {
     return heartbeat;
   }
 
-  /// Latches faults whose cause is gone at once. Real-time: yes.
+  /// Latches faults whose cause ends at once.
   void latch(std::uint8_t faults) noexcept {
     if (faults == 0) return;
     faults_ |= faults;
-    let_go();
+    disable();
   }
-  /// Latches faults whose cause lasts until the next call. Real-time: yes.
+  /// Latches faults whose cause lasts until the next call.
   void hold(std::uint8_t faults) noexcept {
     held_ = faults;
     latch(faults);
   }
-  /// A reset. What causes a fault lasts. Real-time: yes.
+  /// Resets the module. The causes of faults last.
   void restart() noexcept {
-    let_go();
+    disable();
     faults_ = causes();
     until_heartbeat_ = heartbeats_ = 0;
     counter_ = -1;
@@ -104,7 +104,7 @@ class SimulatedQuanserModule {
   }
 
  private:
-  void let_go() noexcept {
+  void disable() noexcept {
     enabled_ = supervised_ = false;
     pending_.reset();
     effort_ = 0;
@@ -124,10 +124,10 @@ class SimulatedQuanserModule {
   int watchdog_periods_ = 0;
   int heartbeat_periods_ = 0;
   bool enabled_ = false;
-  bool supervised_ = false;  ///< an effort has come since the module was enabled
+  bool supervised_ = false;  ///< an effort has arrived since the module was enabled
   bool out_of_range_ = false;
   std::uint8_t faults_ = 0;
-  std::uint8_t held_ = 0;  ///< faults of which a test says that the cause lasts
+  std::uint8_t held_ = 0;  ///< faults with a lasting cause
   std::optional<quanser::Effort> pending_{};
   double effort_ = 0;  ///< [N m]
   int silence_ = 0;    ///< periods since the last effort

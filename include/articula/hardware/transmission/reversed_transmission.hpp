@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A transmission seen from the other side.
+/// @file A transmission with actuators and joints exchanged.
 #pragma once
 
 #include "articula/hardware/transmission/transmission.hpp"
@@ -8,9 +8,9 @@
 
 namespace articula {
 
-/// A transmission with actuators and joints exchanged: what it calls joints are the actuators of
-/// the one inside. It makes the motors' side of a simulated robot, for drives that count at the
-/// motor: `TransmittedHardware<Simulator<Arm>, Arm, Reversed<SimpleTransmission>, ...>`.
+/// A transmission with actuators and joints exchanged: its joints are the actuators of the one
+/// inside. For the simulation of drives that count at the motor:
+/// `TransmittedHardware<Simulator<Arm>, Arm, Reversed<SimpleTransmission>, ...>` is the motors' side.
 template <Transmission T>
 struct Reversed {
   static constexpr int size = T::size;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file One actuator that drives one joint through a gear.
+/// @file One joint driven by one actuator through a gear.
 #pragma once
 
 #include "articula/hardware/transmission/transmission.hpp"
+
+#include <string_view>
 
 namespace articula {
 
@@ -11,13 +13,14 @@ namespace articula {
 ///     q = q_a/n + offset,   v = v_a/n,   effort = n effort_a.
 ///
 /// Signs and offset are those of ROS's transmission_interface::SimpleTransmission. A negative
-/// reduction turns the joint the other way. All functions of this type are real-time: yes.
+/// reduction reverses the direction. All functions are real-time.
 struct SimpleTransmission {
   static constexpr int size = 1;
+  static constexpr std::string_view urdf_name = "SimpleTransmission";
   using Vector = JointVector<1>;  ///< 1 x 1
 
   double reduction = 1;     ///< n, turns of the actuator per turn of the joint [1, rad/m, ...]
-  double joint_offset = 0;  ///< where the joint is when the actuator is at 0 [rad or m]
+  double joint_offset = 0;  ///< q where the actuator is at 0 [rad or m]
 
   [[nodiscard]] Vector joint_position(const Vector& actuator) const noexcept {
     return Vector(actuator[0] / reduction + joint_offset);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a transmission between actuators and joints is.
+/// @file The concept of a transmission between actuators and joints.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -14,18 +14,21 @@
 
 namespace articula {
 
-/// A transmission without loss between as many actuators as joints. Its maps are linear up to the
-/// joints' offsets, and equal in power: efforts go the way back of velocities, so that
+/// A lossless transmission between as many actuators as joints. Its maps are linear, apart from the
+/// joints' offsets, and keep the power:
 /// actuator_effort . actuator_velocity = joint_effort . joint_velocity.
+/// Write one for gearing that SimpleTransmission, DifferentialTransmission and FourBarTransmission do
+/// not cover; TransmittedHardware takes it. For one gear between motor and joint in a CAN drive, use
+/// the scales of the drive instead.
 ///
 /// - `size` is the number of joints, and of actuators;
-/// - `joint_position(q_a)`, `joint_velocity(v_a)`, `joint_effort(effort_a)` go from actuators to
+/// - `joint_position(q_a)`, `joint_velocity(v_a)`, `joint_effort(effort_a)` convert from actuators to
 ///   joints;
-/// - `actuator_position(q)`, `actuator_velocity(v)`, `actuator_effort(effort)` go back;
-/// - `validate(transmission, where)` throws std::invalid_argument that begins with `where` and
-///   names the figure, its value and its limit.
+/// - `actuator_position(q)`, `actuator_velocity(v)`, `actuator_effort(effort)` convert back;
+/// - `validate(transmission, where)` throws std::invalid_argument with `where`, the figure, its value
+///   and its limit.
 ///
-/// All vectors are size x 1, in rad, rad/s, N m or m, m/s, N. The maps take any value and are
+/// All vectors are size x 1, in rad, rad/s, N m or m, m/s, N. The maps accept any value and are
 /// noexcept.
 template <class T>
 concept Transmission =
@@ -41,8 +44,7 @@ concept Transmission =
 
 namespace detail {
 
-/// Refuses a reduction by which nothing can be divided. Products of two that are accepted neither
-/// overflow nor vanish.
+/// Refuses a reduction whose products or quotients could overflow or vanish.
 inline void check_reduction(std::string_view where, std::string_view what, double reduction) {
   if (is_finite(reduction) && std::abs(reduction) >= 1e-100 && std::abs(reduction) <= 1e100) return;
   refuse({where, ": ", what, " ", reduction, " is not a number between 1e-100 and 1e100 in size"});
@@ -53,14 +55,23 @@ inline void check_offset(std::string_view where, std::string_view what, double o
   refuse({where, ": ", what, " ", offset, " is not finite"});
 }
 
+inline void check_two_joints(std::string_view where, const std::array<double, 2>& actuators,
+                             const std::array<double, 2>& joints,
+                             const std::array<double, 2>& offsets) {
+  check_reduction(where, "actuator_reduction[0]", actuators[0]);
+  check_reduction(where, "actuator_reduction[1]", actuators[1]);
+  check_reduction(where, "joint_reduction[0]", joints[0]);
+  check_reduction(where, "joint_reduction[1]", joints[1]);
+  check_offset(where, "joint_offset[0]", offsets[0]);
+  check_offset(where, "joint_offset[1]", offsets[1]);
+}
+
 }  // namespace detail
 
-/// What the joints feel of the actuators' rotors: A^T diag(J) A, with A the matrix of
-/// actuator_velocity. For a simple transmission that is n^2 J, the `reflected_inertia` of a Joint.
-///
-/// Between the two joints of a differential there is no coupling if J n^2 is the same for both
-/// actuators; else, and in a four-bar transmission, elements off the diagonal are left: the
-/// `shared_rotors` of one of the two joints.
+/// The inertia of the actuators' rotors at the joints: A^T diag(J) A, where A is the matrix of
+/// actuator_velocity. For a simple transmission it is n^2 J, the `reflected_inertia` of a Joint.
+/// Elements off the diagonal are the `shared_rotors` of one of the two joints. They are zero for a
+/// differential if J n^2 is the same for both actuators.
 /// @param transmission  between actuators and joints
 /// @param rotors        J, inertias of the actuators' rotors [kg m^2 or kg]
 /// @return              [kg m^2, kg m or kg], size x size
@@ -75,8 +86,7 @@ template <Transmission T>
   return rates.transpose() * rotors.asDiagonal() * rates;
 }
 
-/// The limits within which actuators must work so that the joints can be anywhere, as fast and as
-/// strong as their own limits allow, all at once.
+/// The smallest limits of actuators with which all joints can use their own limits at once.
 /// @param transmission  between actuators and joints
 /// @param joints        limits of the joints
 /// @return              of the actuators, in the order of the transmission
@@ -95,7 +105,7 @@ template <Transmission T>
       const JointLimits& joint = joints[static_cast<std::size_t>(j)];
       const double rate = transmission.actuator_velocity(Vector::Unit(j))[a];
       const double share = transmission.actuator_effort(Vector::Unit(j))[a];
-      if (rate != 0) {  // 0 times infinity is no number
+      if (rate != 0) {  // 0 times infinity is NaN
         actuator.lower += rate * (rate > 0 ? joint.lower : joint.upper);
         actuator.upper += rate * (rate > 0 ? joint.upper : joint.lower);
         actuator.velocity += std::abs(rate) * joint.velocity;

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The joints of a robot behind the transmissions of its actuators.
+/// @file Hardware with transmissions between its joints and the actuators of other hardware.
 #pragma once
 
 #include "articula/control/laws/drive_spring.hpp"
-#include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
+#include "articula/core/joint_array.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/hardware/transmission/hardware_adapter.hpp"
 #include "articula/hardware/transmission/transmission.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <limits>
@@ -23,38 +22,35 @@
 
 namespace articula {
 
-/// Which actuators drive which joints through a transmission, and what the actuators can do.
+/// A transmission with the names of its joints and actuators, and the actuators' limits.
 /// @tparam T  the transmission
 template <Transmission T>
 struct Gearing {
   static constexpr auto size = static_cast<std::size_t>(T::size);
 
-  std::array<Name, size> joints{};  ///< of the robot, in the order of the transmission
-  std::array<Name, size>
-      actuators{};  ///< by the names that the actuators' hardware has for its joints
+  std::array<Name, size> joints{};     ///< of the robot, in the order of the transmission
+  std::array<Name, size> actuators{};  ///< joints of the actuators' hardware, in that order
   T transmission{};
-  std::array<JointLimits, size>
-      limits{};  ///< of the actuators; commands are cut off there, see write
+  std::array<JointLimits, size> limits{};  ///< of the actuators; `write` limits commands to them
 };
 
-/// The joints of a robot, made of the hardware of its actuators and the transmissions between them,
-/// put together by the compiler. It is hardware for commands of effort, position and velocity, as
-/// far as the actuators' hardware is; and for springs and dampers where each joint has its own
-/// actuator.
+/// A robot's joints, made of the hardware of its actuators and the transmissions between them. It
+/// takes efforts, positions and velocities if the actuators' hardware does; and springs and dampers
+/// if each joint has its own actuator.
 ///
 ///     TransmittedHardware<Drives, Arm, SimpleTransmission, DifferentialTransmission> arm(
 ///         Drives(),
 ///         {.joints = {"elbow"}, .actuators = {"elbow"}, .transmission = {.reduction = 101}},
 ///         {.joints = {"pitch", "roll"}, .actuators = {"pitch", "roll"}});
 ///
-/// What goes wrong below is passed on: a figure that is no number reaches all joints of its
-/// transmission.
+/// A NaN of an actuator reaches all joints of its transmission. Do not use this class for drives that
+/// convert to the joints' units themselves, as Cia402Drive and QuanserModule do by their scales.
 /// @tparam ActuatorHardware  hardware with as many joints as the robot; its joints are the
 ///                           actuators
 /// @tparam R                 the robot
-/// @tparam Transmissions     which together have as many joints as the robot
+/// @tparam Transmissions     have as many joints together as the robot
 template <class ActuatorHardware, Robot R, Transmission... Transmissions>
-class TransmittedHardware {
+class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
  public:
   using RobotType = R;
   static constexpr int joint_count = articula::joint_count<R>;
@@ -66,8 +62,8 @@ class TransmittedHardware {
   /// For a robot known at compile time.
   /// @param hardware  of the actuators
   /// @param gearings  one for each of the transmissions
-  /// @throws std::invalid_argument naming the joint or actuator and the value, if a name is unknown
-  ///         or there twice, or a figure is out of range
+  /// @throws std::invalid_argument with the joint or actuator and the value, if a name is unknown or
+  ///         occurs twice, or a figure is out of range
   explicit TransmittedHardware(ActuatorHardware hardware, const Gearing<Transmissions>&... gearings)
     requires DescribedRobot<R>
       : TransmittedHardware(R(), std::move(hardware), gearings...) {}
@@ -76,21 +72,18 @@ class TransmittedHardware {
   /// @throws std::invalid_argument as above
   TransmittedHardware(const R& robot, ActuatorHardware hardware,
                       const Gearing<Transmissions>&... gearings)
-      : robot_(robot),
-        hardware_(std::move(hardware)),
-        parts_(part_of(robot, hardware_.robot(), gearings)...) {
-    check_that_none_is_there_twice();
+      : Adapter(std::move(hardware)),
+        robot_(robot),
+        parts_(part_of(robot, this->hardware_.robot(), gearings)...) {
+    check_duplicates();
   }
 
-  [[nodiscard]] Status activate() { return hardware_.activate(); }
-  [[nodiscard]] Status deactivate() { return hardware_.deactivate(); }
-
-  /// What the joints do, as the actuators measure it.
-  /// @param state  receives it; is left alone after Status::hardware_fault
+  /// Reads the actuators and converts their state to the joints.
+  /// @param state  of the joints; unchanged after Status::hardware_fault
   /// @return       as the actuators' hardware
   /// Real-time: yes, if the actuators' read is.
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
-    const Status status = hardware_.read(actuators_);
+    const Status status = this->hardware_.read(actuators_);
     if (status == Status::hardware_fault) return status;
     for_each_part([&](const auto& part) noexcept {
       const auto& [gearing, joints, actuators] = part;
@@ -102,87 +95,68 @@ class TransmittedHardware {
     return status;
   }
 
-  /// Hands over what the actuators have to do for the joints' command. Beyond an actuator's limit,
-  /// the limit. Of springs and dampers the total effort at the actuators' last state keeps it, too:
-  /// their references are drawn towards that state.
+  /// Converts a command to the actuators, limits it to their limits, and writes it. The total effort
+  /// of springs and dampers at the actuators' last state keeps the limit, too, see limit_total.
   /// @param command  for the joints
-  /// @return         as the actuators' hardware, which also sees what is not finite
+  /// @return         as the actuators' hardware, which also refuses what is not finite
   /// Real-time: yes, if the actuators' write is.
   template <JointCommand<joint_count> Command>
     requires Hardware<ActuatorHardware, Command> &&
              (!std::same_as<Command, MultiModeCommand<joint_count>> ||
               joint_count == sizeof...(Transmissions))
   [[nodiscard]] Status write(const Command& command) noexcept {
-    Command given;
+    Command converted;
     for_each_part([&](const auto& part) noexcept {
       const auto& [gearing, joints, actuators] = part;
       const auto& transmission = gearing.transmission;
       if constexpr (requires { command.position; }) {
-        given.position(actuators) = transmission.actuator_position(command.position(joints));
+        converted.position(actuators) = transmission.actuator_position(command.position(joints));
       }
       if constexpr (requires { command.velocity; }) {
-        given.velocity(actuators) = transmission.actuator_velocity(command.velocity(joints));
+        converted.velocity(actuators) = transmission.actuator_velocity(command.velocity(joints));
       }
       if constexpr (requires { command.effort; }) {
-        given.effort(actuators) = transmission.actuator_effort(command.effort(joints));
+        converted.effort(actuators) = transmission.actuator_effort(command.effort(joints));
       }
       if constexpr (requires { command.stiffness; }) {  // effort_a = share K rate q_a
         using One = JointVector<1>;
         const double rate = transmission.joint_velocity(One(1.0))[0];
         const double share = transmission.actuator_effort(One(1.0))[0];
-        given.stiffness(actuators) = share * rate * command.stiffness(joints);
-        given.damping(actuators) = share * rate * command.damping(joints);
+        converted.stiffness(actuators) = share * rate * command.stiffness(joints);
+        converted.damping(actuators) = share * rate * command.damping(joints);
       }
       for (std::size_t k = 0; k < actuators.size(); ++k) {
         const JointLimits& limits = gearing.limits[k];
         const int a = actuators[k];
-        // A NaN stays one.
+        // std::clamp keeps a NaN.
         if constexpr (requires { command.position; }) {
-          given.position[a] = std::clamp(given.position[a], limits.lower, limits.upper);
+          converted.position[a] = std::clamp(converted.position[a], limits.lower, limits.upper);
         }
         if constexpr (requires { command.velocity; }) {
-          given.velocity[a] = std::clamp(given.velocity[a], -limits.velocity, limits.velocity);
+          converted.velocity[a] =
+              std::clamp(converted.velocity[a], -limits.velocity, limits.velocity);
         }
         if constexpr (requires { command.stiffness; }) {
-          const double total = spring_pull(given, actuators_)[a] + given.effort[a];
-          const double most = std::max(std::abs(total), std::abs(given.effort[a]));
-          if (is_finite(total) && most > limits.effort) {
-            set_total(given, actuators_, a, std::clamp(total, -limits.effort, limits.effort),
-                      limits.effort);
-          }
+          limit_total(converted, actuators_, a, limits.effort);
         }
         if constexpr (requires { command.effort; }) {
-          given.effort[a] = std::clamp(given.effort[a], -limits.effort, limits.effort);
+          converted.effort[a] = std::clamp(converted.effort[a], -limits.effort, limits.effort);
         }
       }
     });
-    return hardware_.write(given);
-  }
-
-  /// The actuators' own period [s], where they have one. Real-time: yes.
-  [[nodiscard]] double period() const noexcept
-    requires requires(const ActuatorHardware& h) { h.period(); }
-  {
-    return hardware_.period();
-  }
-  /// Waits for the actuators' own cycle, where they have one. Real-time: yes, but for the wait.
-  [[nodiscard]] Status wait_for_cycle(std::chrono::nanoseconds timeout) noexcept
-    requires PacingHardware<ActuatorHardware>
-  {
-    return hardware_.wait_for_cycle(timeout);
+    return this->hardware_.write(converted);
   }
 
   [[nodiscard]] const R& robot() const noexcept { return robot_; }
-  /// The actuators' hardware. Real-time: yes.
-  [[nodiscard]] ActuatorHardware& hardware() noexcept { return hardware_; }
-  [[nodiscard]] const ActuatorHardware& hardware() const noexcept { return hardware_; }
   /// What the actuators measured last. Real-time: yes.
   [[nodiscard]] const JointState<joint_count>& actuator_state() const noexcept {
     return actuators_;
   }
 
  private:
-  /// A gearing, and by which indices its joints and actuators go.
+  using Adapter = detail::HardwareAdapter<ActuatorHardware>;
+
+  /// A gearing with the indices of its joints and actuators.
   template <Transmission T>
   struct Part {
     Gearing<T> gearing;
@@ -190,13 +164,13 @@ class TransmittedHardware {
     std::array<int, Gearing<T>::size> actuators;
   };
 
-  /// The index of a joint, or why there is none and on which side of the transmission.
+  /// The index of a joint on one side of the transmission.
   template <Robot Side>
-  [[nodiscard]] static int index_of(const Side& side, const Name& name, const char* what) {
+  [[nodiscard]] static int index_of(const Side& side, const Name& name, const char* role) {
     try {
       return joint_index(side, name.view());
     } catch (const std::invalid_argument& error) {
-      detail::refuse({"transmissions: '", name.view(), "' is to be ", what, ": ", error.what()});
+      detail::refuse({"transmissions: '", name.view(), "' is to be ", role, ": ", error.what()});
     }
   }
 
@@ -204,10 +178,12 @@ class TransmittedHardware {
   [[nodiscard]] static Part<T> part_of(const R& robot, const Actuators& actuators,
                                        const Gearing<T>& gearing) {
     Part<T> part{gearing, {}, {}};
+    std::string where = "transmission of joint";
     for (std::size_t k = 0; k < Gearing<T>::size; ++k) {
       part.joints[k] = index_of(robot, gearing.joints[k], "a joint of the transmission");
       part.actuators[k] = index_of(actuators, gearing.actuators[k],
                                    "an actuator, which is a joint of the hardware below");
+      where += detail::message_of({" '", gearing.joints[k].view(), "'"});
       const JointLimits& limits = gearing.limits[k];
       const double lower = limits.lower, upper = limits.upper;
       const double velocity = limits.velocity, effort = limits.effort;
@@ -217,36 +193,32 @@ class TransmittedHardware {
       }
       detail::refuse({"limits of actuator '", gearing.actuators[k].view(), "': position ", lower,
                       " .. ", upper, ", velocity ", velocity, ", effort ", effort,
-                      " leave nothing to do"});
+                      " leave no range; expected lower <= upper, velocity and effort >= 0"});
     }
-    std::string where = "transmission of joint";
-    for (const Name& joint : gearing.joints) where += detail::message_of({" '", joint.view(), "'"});
     validate(gearing.transmission, where);
     return part;
   }
 
-  void check_that_none_is_there_twice() const {
-    std::array<bool, static_cast<std::size_t>(joint_count)> has_joint{}, has_actuator{};
+  void check_duplicates() const {
+    JointArray<bool, joint_count> has_joint{}, has_actuator{};
     const auto add = [](auto& has, int index, const char* kind, const Name& name) {
-      if (!std::exchange(has[static_cast<std::size_t>(index)], true)) return;
-      detail::refuse({"transmissions: ", kind, " '", name.view(), "' is there twice"});
+      if (!std::exchange(has[index], true)) return;
+      detail::refuse({"transmissions: ", kind, " '", name.view(), "' occurs twice"});
     };
-    const auto add_part = [&](const auto& part) {
+    for_each_part([&](const auto& part) {
       for (std::size_t k = 0; k < part.joints.size(); ++k) {
         add(has_joint, part.joints[k], "joint", part.gearing.joints[k]);
         add(has_actuator, part.actuators[k], "actuator", part.gearing.actuators[k]);
       }
-    };
-    std::apply([&](const auto&... part) { (add_part(part), ...); }, parts_);
+    });
   }
 
   template <class Action>
-  void for_each_part(const Action& action) const noexcept {
-    std::apply([&](const auto&... part) noexcept { (action(part), ...); }, parts_);
+  void for_each_part(const Action& action) const {
+    std::apply([&](const auto&... part) { (action(part), ...); }, parts_);
   }
 
   [[no_unique_address]] R robot_;
-  ActuatorHardware hardware_;
   std::tuple<Part<Transmissions>...> parts_;
   JointState<joint_count> actuators_{};
 };

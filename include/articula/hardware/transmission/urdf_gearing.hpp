@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Transmissions with the figures of a URDF. Needs the CMake target articula::urdf (urdfdom).
+/// @file Transmissions with the parameters of a URDF. Needs the CMake target articula::urdf (urdfdom).
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -17,53 +17,34 @@
 
 namespace articula {
 
-namespace detail {
-
-/// The name by which URDFs know a transmission.
-template <class T>
-inline constexpr std::string_view urdf_transmission = "";
-template <>
-inline constexpr std::string_view urdf_transmission<SimpleTransmission> = "SimpleTransmission";
-template <>
-inline constexpr std::string_view urdf_transmission<DifferentialTransmission> =
-    "DifferentialTransmission";
-template <>
-inline constexpr std::string_view urdf_transmission<FourBarTransmission> =
-    "FourBarLinkageTransmission";
-
-}  // namespace detail
-
-/// A transmission as a URDF's <transmission> has it. Joints and actuators stand by their roles
-/// ("joint1", "actuator2"), or where none of them has one as in the file. The reduction of a simple
-/// transmission is that of its actuator, as ROS 1 writes it, times that of its joint, as
-/// ros2_control does. The type that the file names may be unknown here, but not another one of
-/// these three.
+/// The gearing of a URDF's <transmission>. Joints and actuators are sorted by their roles ("joint1",
+/// "actuator2"); without roles they keep the order of the file. The reduction of a simple
+/// transmission is that of its actuator (ROS 1) times that of its joint (ros2_control). The type in
+/// the file may be unknown, but not another one of the three known types.
 ///
 ///     TransmittedHardware<Drives, Arm, SimpleTransmission, ...> arm(
 ///         Drives(), gearing_of<SimpleTransmission>(urdf, "shoulder_transmission"), ...);
 ///
 /// @tparam T           the transmission
-/// @param description  what was read
+/// @param description  of the URDF
 /// @param name         of the <transmission>
-/// @throws std::invalid_argument if there is none of that name, it is of another type, has another
-///         number of joints or actuators, or their roles do not tell which is which; naming it and
-///         them
+/// @throws std::invalid_argument with the name, if the transmission does not exist, has another type
+///         or another number of joints or actuators, or if their roles are incomplete
 /// Real-time: no (searches by name, throws).
 template <Transmission T>
-  requires(!detail::urdf_transmission<T>.empty())
+  requires requires { T::urdf_name; }
 [[nodiscard]] Gearing<T> gearing_of(const UrdfDescription& description, std::string_view name) {
   const std::string where = description.file + ": transmission '" + std::string(name) + "'";
   const auto found = std::ranges::find(description.transmissions, name, &UrdfTransmission::name);
   if (found == description.transmissions.end()) {
     detail::refuse({where, " does not exist"});
   }
-  // "transmission_interface/SimpleTransmission": the last part counts.
+  // The last part of, for example, "transmission_interface/SimpleTransmission".
   const std::string type = found->type.substr(found->type.find_last_of("/:") + 1);
-  constexpr std::array known = {detail::urdf_transmission<SimpleTransmission>,
-                                detail::urdf_transmission<DifferentialTransmission>,
-                                detail::urdf_transmission<FourBarTransmission>};
-  if (type != detail::urdf_transmission<T> && std::ranges::find(known, type) != known.end()) {
-    detail::refuse({where, " is a ", type, ", not a ", detail::urdf_transmission<T>});
+  constexpr std::array known = {SimpleTransmission::urdf_name, DifferentialTransmission::urdf_name,
+                                FourBarTransmission::urdf_name};
+  if (type != T::urdf_name && std::ranges::find(known, type) != known.end()) {
+    detail::refuse({where, " is a ", type, ", not a ", T::urdf_name});
   }
   const auto in_order = [&](std::vector<UrdfTransmissionEnd> ends, const char* kind) {
     if (ends.size() != Gearing<T>::size) {

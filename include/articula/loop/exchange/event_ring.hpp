@@ -10,19 +10,20 @@
 
 namespace articula {
 
-/// Hands every value from one writing to one reading thread, in order: records, events. Neither
-/// side ever waits for the other. What finds the ring full is dropped, and counted.
+/// Passes every value from one writing to one reading thread, in order: records, events. Neither
+/// thread waits for the other. Values written to a full ring are dropped and counted. If only the
+/// latest value matters, use LatestValue.
 /// Source: [Lamport 1977], the ring buffer of one producer and one consumer.
-/// @tparam T         what is handed over; its assignment must be fit for real time
-/// @tparam Capacity  how many values the ring holds, a power of two
-/// @tparam Atomic    std::atomic, or what a test puts in its place
+/// @tparam T         type of the values
+/// @tparam Capacity  number of values in the ring, a power of two
+/// @tparam Atomic    std::atomic; tests put another type in its place
 template <std::default_initializable T, std::size_t Capacity,
           template <class> class Atomic = std::atomic>
   requires std::is_copy_assignable_v<T>
 class EventRing {
  public:
   static_assert(Capacity > 0 && (Capacity & (Capacity - 1)) == 0,
-                "the ring's capacity is a power of two");
+                "EventRing: the capacity must be a power of two");
   static constexpr std::size_t capacity = Capacity;
 
   EventRing() = default;
@@ -45,7 +46,7 @@ class EventRing {
 
   /// Takes the oldest value. For the reading thread.
   /// @param value  receives it
-  /// @return       false if the ring is empty; `value` is as before then
+  /// @return       false if the ring is empty; `value` is then unchanged
   /// Real-time: yes, if T's assignment is. Wait-free.
   [[nodiscard]] bool pop(T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     const std::size_t head = head_.load(std::memory_order_relaxed);
@@ -55,14 +56,14 @@ class EventRing {
     return true;
   }
 
-  /// How many values were dropped so far. For any thread. Real-time: yes.
+  /// Number of dropped values. For any thread. Real-time: yes.
   [[nodiscard]] std::uint64_t dropped() const noexcept {
     return dropped_.load(std::memory_order_relaxed);
   }
 
  private:
-  // Both counters run on for ever; their difference is right even when they wrap. On cache lines of
-  // their own, or the threads would slow each other down.
+  // The counters never return to 0; their difference is right even after an overflow. Each side has a
+  // cache line of its own, so that the threads do not slow each other down.
   alignas(64) Atomic<std::size_t> tail_ = 0;  ///< values pushed so far
   Atomic<std::uint64_t> dropped_ = 0;         ///< written by the pushing thread alone
   alignas(64) Atomic<std::size_t> head_ = 0;  ///< values popped so far

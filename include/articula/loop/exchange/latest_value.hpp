@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The latest value of something, handed from one thread to another.
+/// @file The latest value, passed from one thread to another.
 #pragma once
 
 #include <array>
@@ -10,23 +10,22 @@
 
 namespace articula {
 
-/// Hands the latest value from one writing to one reading thread: references, gains, states. Values
-/// that nobody has read are replaced. Neither side ever waits for the other (triple buffer): the
-/// writer fills a slot of its own and swaps it for the shared one, the reader swaps its own for the
-/// shared one if that is newer. Each side takes one atomic exchange, which is one instruction on
-/// x86-64 and ARMv8.1.
+/// Passes the latest value from one writing to one reading thread: references, gains, states. A new
+/// value replaces one that was not read. If every value matters, use EventRing.
 ///
-/// The swap publishes the slot (release) and takes the other side's finished one over (acquire), so
-/// a slot is never in two hands.
-/// @tparam T       what is handed over; its assignment must be fit for real time
-/// @tparam Atomic  std::atomic, or what a test puts in its place
+/// Neither thread waits for the other (triple buffer). The writer fills its own slot and swaps it
+/// for the shared one. The reader swaps its own for the shared one if that is newer. A swap is one
+/// atomic exchange, a single instruction on x86-64 and ARMv8.1. It publishes a slot (release) and
+/// takes over the other thread's (acquire), so no slot belongs to both.
+/// @tparam T       type of the value
+/// @tparam Atomic  std::atomic; tests put another type in its place
 template <std::default_initializable T, template <class> class Atomic = std::atomic>
   requires std::is_copy_assignable_v<T>
 class LatestValue {
  public:
   LatestValue() = default;
 
-  /// @param initial  what is read until something is written
+  /// @param initial  the value until the first `write`
   explicit LatestValue(const T& initial) { slots_[front_].value = initial; }
 
   LatestValue(const LatestValue&) = delete;
@@ -40,18 +39,17 @@ class LatestValue {
     back_ = returned & index;
   }
 
-  /// Takes over the latest value, if there is one that was not taken over yet. For the reading
-  /// thread.
-  /// @return whether there was one
+  /// Takes over the latest value. For the reading thread.
+  /// @return whether it is newer than the one before
   /// Real-time: yes. Wait-free.
   bool update() noexcept {
-    // Only a hint, for which no order is needed: the exchange settles it.
+    // Needs no order: only the exchange takes a slot over.
     if ((shared_.load(std::memory_order_relaxed) & fresh) == 0) return false;
     front_ = shared_.exchange(front_, std::memory_order_acq_rel) & index;
     return true;
   }
 
-  /// The value that was last taken over. For the reading thread; valid until the next `update`.
+  /// The value of the last `update`. For the reading thread; valid until the next `update`.
   /// Real-time: yes.
   [[nodiscard]] const T& value() const noexcept { return slots_[front_].value; }
 
@@ -59,8 +57,8 @@ class LatestValue {
   static constexpr unsigned index = 3;  ///< bits that number a slot
   static constexpr unsigned fresh = 4;  ///< the shared slot was written after the last take-over
 
-  // Each slot and each side's index has a cache line of its own, or the threads would slow each
-  // other down. 64 bytes on the processors that robots have.
+  // Each slot and each index has a cache line of its own (64 bytes on x86-64 and ARM), so that the
+  // threads do not slow each other down.
   struct alignas(64) Slot {
     T value{};
   };

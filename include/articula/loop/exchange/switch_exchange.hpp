@@ -69,6 +69,8 @@ class SwitchExchange {
     return next;
   }
 
+// WebAssembly without threads has no control thread to wait for.
+#if !defined(__wasi__) || defined(_REENTRANT)
   /// Hands a request over and waits for its outcome. Outcomes of earlier requests are dropped.
   /// @param patience  how long to wait for the control thread
   /// @return          nothing if it took longer; the request may still be done later
@@ -88,6 +90,7 @@ class SwitchExchange {
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
   }
+#endif
 
   /// All controllers and what they did at the last `apply`. Real-time: yes. Wait-free.
   [[nodiscard]] const std::array<ControllerInfo, Count>& list() noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Hardware that paces the loop.
+/// @file A loop clock that follows the cycle of a bus.
 #pragma once
 
 #include "articula/core/hardware.hpp"
@@ -10,13 +10,16 @@
 
 namespace articula {
 
-/// A clock that lets hardware pace the loop: cycles begin when the bus's own cycle does. Where that
-/// stays away for half a period, the loop's cycle begins without it, late by that much, so that the
-/// loop can notice and be safe; one period later it is waited for again. Any beginning within half
-/// a period of when it was due is taken, so the loop finds the bus's pace again wherever that
-/// resumes; but none sooner than half a period after the last, however often they come.
+/// A clock by which the hardware paces the loop: a cycle of the loop begins with a cycle of the bus.
+///
+/// - A cycle of the bus counts if it begins within half a period of its due time, and at least half a
+///   period after the last one.
+/// - If none begins by then, the loop's cycle begins without it, half a period late, so that the loop
+///   can detect the loss. The next one is due a period later.
+///
+/// So the loop finds the pace of the bus again after any interruption.
 /// @tparam HardwareType  satisfies PacingHardware
-/// @tparam Base          tells the time and waits where the hardware fails to
+/// @tparam Base          a clock for the time and for waits when the hardware fails
 template <PacingHardware HardwareType, LoopClock Base>
 class HardwareClock {
  public:
@@ -33,30 +36,30 @@ class HardwareClock {
   /// Real-time: yes, if the base clock's is.
   [[nodiscard]] std::chrono::nanoseconds now() noexcept { return base_->now(); }
 
-  /// Waits for the hardware's next cycle.
+  /// Waits for the next cycle of the hardware.
   /// @param due  when it is expected
-  /// @return     when it began; if it did not, when it was due, although it is later then
+  /// @return     when it began; `due` if it did not begin
   /// Real-time: yes, but for the wait.
   std::chrono::nanoseconds wait_until(std::chrono::nanoseconds due) noexcept {
     for (auto now = base_->now(); now < due + patience_; now = base_->now()) {
       if (hardware_->wait_for_cycle(due + patience_ - now) != Status::ok) break;
       const auto begun = base_->now();
-      const bool used_up = begun < due - patience_;  // it began during a cycle that took too long
+      const bool missed = begun < due - patience_;  // it began during a cycle that took too long
       const bool too_soon = begun < last_start_ + patience_;
-      if (!used_up && !too_soon) return last_start_ = begun;
+      if (!missed && !too_soon) return last_start_ = begun;
       ++skipped_;
-      if (!used_up) due = begun + 2 * patience_;  // that is the hardware's pace from here on
+      if (!missed) due = begun + 2 * patience_;  // follows the new pace of the hardware
     }
-    // Hardware that fails at once must not turn the loop into a busy one.
+    // If the hardware's wait fails at once, the loop must not run without pauses.
     static_cast<void>(base_->wait_until(due + patience_));
     ++timeouts_;
     last_start_ = base_->now();
     return due;
   }
 
-  /// Cycles of the loop that began without the hardware's. Real-time: yes.
+  /// Number of loop cycles without a hardware cycle. Real-time: yes.
   [[nodiscard]] std::uint64_t timeouts() const noexcept { return timeouts_; }
-  /// Cycles of the hardware that began too soon for the loop. Real-time: yes.
+  /// Number of hardware cycles that began too soon. Real-time: yes.
   [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The system's clock that is never set. Linux and other POSIX systems.
+/// @file The system's monotonic clock. Linux and other POSIX systems.
 #pragma once
 
 #include <cerrno>
@@ -8,18 +8,18 @@
 
 namespace articula {
 
-/// CLOCK_MONOTONIC, waited for at absolute times: what happens between two waits, such as being
-/// suspended, does not shift the next one. Source: POSIX.1-2017, clock_nanosleep.
+/// CLOCK_MONOTONIC with waits until absolute times, so that delays between two waits do not shift
+/// later cycles. Source: POSIX.1-2017, clock_nanosleep.
 class MonotonicClock {
  public:
-  /// Real-time: yes, but for reading the clock.
+  /// The time since an arbitrary moment. Real-time: yes, but for reading the clock.
   [[nodiscard]] std::chrono::nanoseconds now() const noexcept {
     timespec time{};
     clock_gettime(CLOCK_MONOTONIC, &time);
     return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
   }
 
-  /// Sleeps until `due`, also through signals. Real-time: yes, but for the sleep.
+  /// Sleeps until `due`, also if signals arrive. Real-time: yes, but for the sleep.
   std::chrono::nanoseconds wait_until(std::chrono::nanoseconds due) const noexcept {
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(due);
     const timespec time{seconds.count(), (due - seconds).count()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Makes a thread fit for real time. Linux.
+/// @file Prepares a thread for real time: memory, stack, processors, priority. Linux.
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -20,17 +20,17 @@
 
 namespace articula {
 
-/// What a thread asks of the system.
+/// Settings of the operating system for a real-time thread.
 struct ThreadOptions {
-  int priority = 80;              ///< SCHED_FIFO, 1 (low) .. 99; 0: scheduling stays as it is
-  std::vector<int> processors{};  ///< numbers of those it may run on; empty: all stay allowed
-  bool lock_memory = true;  ///< keeps all memory of the program, now and later, from being paged
-  std::size_t stack_size = 256 * 1024;  ///< how much of the stack is touched in advance [bytes]
+  int priority = 80;                ///< SCHED_FIFO, 1 (low) .. 99; 0: scheduling is not changed
+  std::vector<int> processors{};    ///< numbers of those it may run on; empty: not changed
+  bool lock_memory = true;          ///< locks all present and future memory of the program
+  std::size_t stack_size = 262144;  ///< part of the stack that is touched in advance [bytes]
 
-  bool strict = false;  ///< a refusal of the system is an error, not a warning
+  bool strict = false;  ///< whether a refusal of the system is an error, not a warning
 
-  /// Receives what the system refuses, and the thread goes on without it. The default writes a line
-  /// to standard error.
+  /// Receives a line for each setting that the system refuses. The default writes it to standard
+  /// error.
   std::function<void(const std::string&)> warn = [](const std::string& refusal) {
     static_cast<void>(std::fprintf(stderr, "warning: %s\n", refusal.c_str()));
   };
@@ -38,23 +38,23 @@ struct ThreadOptions {
 
 namespace detail {
 
-/// Touches the stack page by page, so that its pages are there before they are needed.
+/// Touches the stack page by page, so that later accesses cause no page fault.
 [[gnu::noinline]] inline char touch_stack(std::size_t size) {
   constexpr std::size_t frame = 4096;
   volatile char page[frame];
   page[0] = 0;
   page[frame - 1] = 0;
-  // Something is done with the page after the call, or the compiler would make a loop of it.
+  // Uses the page after the call, or the compiler would turn the recursion into a loop.
   return size > frame ? static_cast<char>(touch_stack(size - frame) + page[0]) : page[0];
 }
 
 }  // namespace detail
 
-/// Makes the calling thread fit for real time: locked memory, touched stack, processors, priority.
-/// It stays so after the run.
-/// @throws std::invalid_argument if an option makes no sense; the message names it, its value and
-///         limit
-/// @throws std::system_error if the system refuses and the options are strict
+/// Applies the options to the calling thread: locked memory, touched stack, processors, priority.
+/// They stay in force after the run.
+/// @throws std::invalid_argument if an option is out of range; the message names it, its value and
+///         the limit
+/// @throws std::system_error if the system refuses a setting and the options are strict
 /// Real-time: no (set-up).
 inline void make_realtime(const ThreadOptions& options) {
   if (options.priority < 0 || options.priority > 99) {

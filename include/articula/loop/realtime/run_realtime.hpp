@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Runs a loop in real time. Linux.
+/// @file Runs a loop on a real-time thread. Linux.
 #pragma once
 
 #include "articula/core/hardware.hpp"
@@ -14,7 +14,7 @@
 
 namespace articula {
 
-/// How a loop runs in real time.
+/// Settings of the thread and of the run.
 ///
 ///     run(loop, {.thread = {.priority = 99, .processors = {1}}, .run = {.stop = &stop}});
 struct RealtimeOptions {
@@ -22,17 +22,11 @@ struct RealtimeOptions {
   RunOptions run{};
 };
 
-/// A loop whose hardware can pace it.
-template <class L>
-concept PacedLoop =
-    requires(L loop) { requires PacingHardware<std::remove_cvref_t<decltype(loop.hardware())>>; };
-
-/// Makes the calling thread fit for real time and runs the loop on it; see make_realtime and the
-/// other `run`. What the loop has to say before (its notices) goes to options.thread.warn. The pace is that of the loop's hardware where it can give one (see HardwareClock),
-/// else CLOCK_MONOTONIC.
-/// @throws std::invalid_argument if an option or the loop's period makes no sense
-/// @throws std::system_error if the system refuses and options.thread is strict; else it is a
-///         warning, see ThreadOptions
+/// Prepares the calling thread with make_realtime and runs the loop on it, as the other `run` does.
+/// Passes the loop's notices to options.thread.warn. The hardware paces the loop if it can
+/// (HardwareClock), else CLOCK_MONOTONIC does.
+/// @throws std::invalid_argument if an option or the loop's period is out of range
+/// @throws std::system_error if the system refuses a setting and options.thread is strict
 /// Real-time: all cycles, if update and each are.
 template <RunnableLoop LoopType, class Each = WhileOk>
 RunReport run(LoopType& loop, const RealtimeOptions& options, Each each = {}) {
@@ -43,7 +37,7 @@ RunReport run(LoopType& loop, const RealtimeOptions& options, Each each = {}) {
     }
   }
   MonotonicClock clock;
-  if constexpr (PacedLoop<LoopType>) {
+  if constexpr (requires { HardwareClock(loop.hardware(), clock, loop.period()); }) {
     HardwareClock pace(loop.hardware(), clock, loop.period());
     return run(loop, pace, options.run, std::move(each));
   } else {

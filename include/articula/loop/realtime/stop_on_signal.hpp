@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Ending a loop by Ctrl-C. Linux and other POSIX systems.
+/// @file Ends a loop on Ctrl-C. Linux and other POSIX systems.
 #pragma once
 
 #include "articula/loop/stop_flag.hpp"
@@ -12,17 +12,21 @@
 
 namespace articula {
 
-/// While it lives, SIGINT (Ctrl-C) and SIGTERM raise a stop flag. Afterwards they do what they did
-/// before. One at a time.
+/// During its lifetime, SIGINT (Ctrl-C) and SIGTERM raise a stop flag. Its end restores the previous
+/// signal handlers. A program has at most one at a time:
+///
+///     StopFlag stop;
+///     StopOnSignal on_signal(stop);
+///     run(loop, {.run = {.stop = &stop}});
 class StopOnSignal {
  public:
   /// @param flag  raised by the signals; outlives this object
-  /// @throws std::logic_error if there is one already
-  /// @throws std::system_error if the system refuses
+  /// @throws std::logic_error if there is another StopOnSignal
+  /// @throws std::system_error if the system refuses the signal handlers
   explicit StopOnSignal(StopFlag& flag) {
     StopFlag* none = nullptr;
     if (!target().compare_exchange_strong(none, &flag)) {
-      throw std::logic_error("StopOnSignal: there is one already");
+      throw std::logic_error("StopOnSignal: there is another one; end it first");
     }
     struct sigaction action{};
     action.sa_handler = [](int) {
@@ -43,8 +47,7 @@ class StopOnSignal {
   StopOnSignal& operator=(const StopOnSignal&) = delete;
 
  private:
-  /// A signal handler can be given nothing but a global. Constant initialisation: no guard, no
-  /// lock.
+  // A signal handler can only use globals. Constant initialisation needs neither guard nor lock.
   [[nodiscard]] static std::atomic<StopFlag*>& target() noexcept {
     static constinit std::atomic<StopFlag*> flag{nullptr};
     return flag;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Velocities for points that have positions alone.
+/// @file Velocities of points that have only positions.
 #pragma once
 
 #include "articula/reference/trajectory/trajectory_point.hpp"
@@ -17,9 +17,9 @@ namespace articula {
 ///     v_(k-1)/h_(k-1) + 2 (1/h_(k-1) + 1/h_k) v_k + v_(k+1)/h_k
 ///         = 3 ((q_k - q_(k-1))/h_(k-1)^2 + (q_(k+1) - q_k)/h_k^2),
 ///
-/// a tridiagonal system, which Thomas's algorithm solves. Velocities that are given stay. The last
-/// one is 0, and so is the first one of a point at time 0, from which a motion begins at rest. A
-/// first point at a later time has a way before it, so its acceleration is 0 (natural spline).
+/// a tridiagonal system, which Thomas's algorithm solves. Velocities that points already have stay.
+/// The last velocity is 0. So is that of a first point at time 0, where a motion begins at rest. At
+/// a first point later than 0, the acceleration is 0 (natural spline).
 /// @param points  times strictly increasing; points without a velocity receive one
 /// Real-time: no (allocates).
 template <int N>

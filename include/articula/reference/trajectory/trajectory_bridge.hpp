@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The way from what is asked for at present into a trajectory.
+/// @file The segment from the present reference into a trajectory.
 #pragma once
 
-#include "articula/core/joint_reference.hpp"
 #include "articula/motion/motion_limits.hpp"
+#include "articula/reference/joint_range.hpp"
+#include "articula/reference/trajectory/segment_peaks.hpp"
 #include "articula/reference/trajectory/trajectory.hpp"
-#include "articula/reference/trajectory/trajectory_refusal.hpp"
-#include "articula/reference/trajectory/way_peaks.hpp"
+#include "articula/reference/trajectory/trajectory_outcome.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -16,37 +15,32 @@
 
 namespace articula {
 
-/// The way from what is asked for at present to a point of a trajectory, and on. It replaces the
-/// points before that one.
+/// The segment from the present reference to a point of a trajectory. It replaces the points before
+/// that one.
 /// @tparam N  number of joints
 template <int N>
 struct TrajectoryBridge {
   TrajectoryPoint<N> from{};                      ///< the present, in the trajectory's time
-  TrajectoryPoint<N> to{};                        ///< the point that it leads to, shifted
+  TrajectoryPoint<N> to{};                        ///< the point of the trajectory, shifted
   std::size_t index = 0;                          ///< of that point
   JointVector<N> shift = JointVector<N>::Zero();  ///< whole turns of continuous joints [rad], N x 1
 };
 
-/// Where N joints can be.
-/// @tparam N  number of joints
-template <int N>
-struct JointRange {
-  JointVector<N> lower, upper;  ///< limits of the position [rad or m], N x 1
-  JointVector<N> turn;          ///< how far on it is the same: 2 pi, or 0 for nowhere [rad], N x 1
-};
-
-/// Finds the way into a trajectory. From rest it is what interpolate() makes of a point at rest and
-/// the trajectory's first point ahead. From motion it is the quintic that ends with the velocity
-/// and acceleration that the trajectory has from that point on, whatever the points themselves
-/// leave open. A point that it takes more than the velocity limit on average to reach, or anywhere
-/// on the way more than the limits of position, velocity and acceleration (unless start or end are
-/// beyond them already), is too close and left out, like the points in the past.
-/// @param present     what is asked for, in the trajectory's time
+/// Finds the bridge into a trajectory.
+///
+/// - From rest, it is the segment from a point at rest to the trajectory's next point (interpolate).
+/// - From motion, it is the quintic that ends with the velocity and acceleration that the trajectory
+///   has from that point on, even if the point does not specify them.
+/// - A point is too close, and is skipped like points in the past, if the bridge to it would exceed
+///   the velocity limit on average, or the limits of position, velocity or acceleration anywhere.
+///   The start and the end of the bridge may be beyond these limits.
+///
+/// @param present     the present reference, in the trajectory's time
 /// @param trajectory  the trajectory
 /// @param time        the present in the trajectory's time [s]
 /// @param limits      V and A are used
-/// @param range       where the joints can be; those that turn take the short way
-/// @param refusal     receives why the last point cannot be reached, if none can
+/// @param range       positions of the joints; continuous joints take the short way round
+/// @param refusal     receives the reason why the last point cannot be reached, if none can
 /// @return            nothing if no point can be reached
 /// Real-time: yes. O(N Capacity).
 template <Robot R, int Capacity, int N = joint_count<R>>
@@ -65,9 +59,8 @@ template <Robot R, int Capacity, int N = joint_count<R>>
     return true;
   };
   const auto points = trajectory.points();
-  const bool splines = trajectory.interpolation() == Interpolation::splines;
   const bool moves = !present.velocity.isZero(0) || !present.acceleration.isZero(0);
-  for (std::size_t k = trajectory.next_point(time); k < points.size(); ++k) {
+  for (std::size_t k = next_point(points, time); k < points.size(); ++k) {
     TrajectoryBridge<N> bridge{
         {time, present.position, present.velocity, present.acceleration, present.effort},
         points[k],
@@ -78,20 +71,17 @@ template <Robot R, int Capacity, int N = joint_count<R>>
       bridge.shift[j] = range.turn[j] * std::round(apart / range.turn[j]);
     }
     bridge.to.position += bridge.shift;
-    if (!splines) return bridge;
+    if (trajectory.interpolation() == Interpolation::none) return bridge;
 
     const double period = points[k].time_from_start - time;
     const JointVector<N> distance = (bridge.to.position - present.position).cwiseAbs();
-    if (!within("on the way to the last point the mean velocity", distance / period,
-                limits.velocity)) {
+    if (!within("before the last point the mean velocity", distance / period, limits.velocity)) {
       continue;
     }
 
     if (moves) {
       const JointReference<N> onward =
-          k + 1 < points.size()
-              ? trajectory.between(points[k], points[k + 1], points[k].time_from_start)
-              : at_point(points[k]);
+          k + 1 < points.size() ? interpolate(points[k], points[k + 1], 0) : at_point(points[k]);
       bridge.to.velocity = onward.velocity;
       bridge.to.acceleration = onward.acceleration;
     }
@@ -101,17 +91,17 @@ template <Robot R, int Capacity, int N = joint_count<R>>
     };
     const JointReference<N> end = at_point(bridge.to);
     constexpr double rounding = 1e-9;  // [rad or m]
-    const WayPeaks<N> most{range.lower.cwiseMin(present.position).array() - rounding,
-                           range.upper.cwiseMax(present.position).array() + rounding,
-                           highest(present.velocity, end.velocity, limits.velocity),
-                           highest(present.acceleration, end.acceleration, limits.acceleration)};
-    const auto peaks = peaks_between(bridge.from, bridge.to, most);
-    if (within("on the way to the last point the highest velocity", peaks.velocity,
-               most.velocity) &&
-        within("on the way to the last point the highest acceleration", peaks.acceleration,
+    const SegmentPeaks<N> most{
+        range.lower.cwiseMin(present.position).array() - rounding,
+        range.upper.cwiseMax(present.position).array() + rounding,
+        highest(present.velocity, end.velocity, limits.velocity),
+        highest(present.acceleration, end.acceleration, limits.acceleration)};
+    const auto peaks = segment_peaks(bridge.from, bridge.to, most);
+    if (within("before the last point the highest velocity", peaks.velocity, most.velocity) &&
+        within("before the last point the highest acceleration", peaks.acceleration,
                most.acceleration) &&
-        within("on the way to the last point the position", peaks.highest, most.highest) &&
-        within("on the way to the last point the position", peaks.lowest, most.lowest, -1)) {
+        within("before the last point the position", peaks.highest, most.highest) &&
+        within("before the last point the position", peaks.lowest, most.lowest, -1)) {
       return bridge;
     }
   }

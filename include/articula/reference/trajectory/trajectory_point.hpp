@@ -1,57 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The points of a trajectory and what lies between two of them.
+/// @file The points of a trajectory and the segment between two of them.
 #pragma once
 
 #include "articula/core/joint_reference.hpp"
-#include "articula/core/joint_vector.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
 
 namespace articula {
 
-/// Where N joints shall be at a time.
+/// The position of N joints at a time, and optionally their velocity and acceleration.
 /// @tparam N  number of joints
 template <int N>
 struct TrajectoryPoint {
   double time_from_start = 0;                        ///< [s]
   JointVector<N> position = JointVector<N>::Zero();  ///< [rad or m], N x 1
-  std::optional<JointVector<N>> velocity{};          ///< [rad/s or m/s], N x 1; may be left open
-  std::optional<JointVector<N>> acceleration{};    ///< [rad/s^2 or m/s^2], N x 1; may be left open
-  JointVector<N> effort = JointVector<N>::Zero();  ///< feed-forward [N m or N], N x 1
+  std::optional<JointVector<N>> velocity{};          ///< [rad/s or m/s], N x 1
+  std::optional<JointVector<N>> acceleration{};      ///< [rad/s^2 or m/s^2], N x 1
+  JointVector<N> effort = JointVector<N>::Zero();    ///< feed-forward [N m or N], N x 1
 };
 
-/// The reference that a point is, with 0 for what it leaves open.
-/// Real-time: yes.
+/// The segments of a trajectory.
+enum class Interpolation : unsigned char {
+  splines,  ///< polynomials, see segment_polynomial()
+  none,     ///< steps: from each point on, the reference is the next point
+};
+
+/// The reference at a point, with 0 for what the point leaves out. Real-time: yes.
 template <int N>
 [[nodiscard]] JointReference<N> at_point(const TrajectoryPoint<N>& point) noexcept {
   const JointVector<N> zero = JointVector<N>::Zero();
+  // value_or() makes g++ 12 warn of values that may be uninitialised.
   return {point.position, point.velocity ? *point.velocity : zero,
           point.acceleration ? *point.acceleration : zero, point.effort};
 }
 
-/// The way between two points a and b as a polynomial in s = t / T, with t since a and T from a to
-/// b: q = q_a + s (c_1 + s (c_2 + s (c_3 + s (c_4 + s c_5)))). What both points have decides on the
-/// degree, as in ROS's joint trajectory controller:
+/// The index of the first point after a time [s]; the number of points if there is none.
+/// Real-time: yes. O(log of the number of points).
+template <int N>
+[[nodiscard]] std::size_t next_point(std::span<const TrajectoryPoint<N>> points,
+                                     double time) noexcept {
+  const auto later = [](double t, const auto& point) { return t < point.time_from_start; };
+  return static_cast<std::size_t>(std::upper_bound(points.begin(), points.end(), time, later) -
+                                  points.begin());
+}
+
+/// The position between two points a and b as a polynomial in s = t / T, with the time t since a and
+/// the duration T. The values that both points have determine the degree, as in ROS's joint
+/// trajectory controller:
 ///
 /// - position alone: the straight line,
 /// - velocity too: the cubic with these velocities at the ends,
 /// - velocity and acceleration too: the quintic,
 /// - acceleration without velocity: the cubic with these accelerations at the ends
-///   (the controller has no rule for it and gives zero).
+///   (the controller has no rule for this case and gives zero).
 ///
 /// @param a, b  the points, b later than a
-/// @return      c_1 to c_5 [rad or m], N x 1 each
+/// @return      coefficients c_0 to c_5 [rad or m], N x 1 each
 /// Real-time: yes. O(N).
 template <int N>
-[[nodiscard]] std::array<JointVector<N>, 5> way_between(const TrajectoryPoint<N>& a,
-                                                        const TrajectoryPoint<N>& b) noexcept {
+[[nodiscard]] std::array<JointVector<N>, 6> segment_polynomial(
+    const TrajectoryPoint<N>& a, const TrajectoryPoint<N>& b) noexcept {
   using Vector = JointVector<N>;
   const double T = b.time_from_start - a.time_from_start;
   const Vector d = b.position - a.position, zero = Vector::Zero();
   const bool velocities = a.velocity && b.velocity,
              accelerations = a.acceleration && b.acceleration;
-  // Velocities and accelerations per T and T^2, so that no power of T is divided by.
+  // Velocities times T and accelerations times T^2, so that no power of T is a divisor.
   const Vector va = velocities ? Vector(T * *a.velocity) : zero;
   const Vector vb = velocities ? Vector(T * *b.velocity) : zero;
   const Vector aa = accelerations ? Vector(T * T * *a.acceleration) : zero;
@@ -70,25 +88,35 @@ template <int N>
     c1 = d - (2 * aa + ab) / 6;
     c3 = (ab - aa) / 6;
   }
-  return {c1, c2, c3, c4, c5};
+  return {a.position, c1, c2, c3, c4, c5};
 }
 
-/// The reference between two points, at a time since the first one: on the way_between() them, with
-/// an effort that is linear.
+/// The reference between two points: the segment_polynomial() and its derivatives, with linear
+/// effort.
 /// @param a, b  the points, b later than a
-/// @param t     0 <= t <= T [s]
+/// @param t     time since a, 0 <= t <= T [s]
 /// Real-time: yes. O(N).
 template <int N>
 [[nodiscard]] JointReference<N> interpolate(const TrajectoryPoint<N>& a,
                                             const TrajectoryPoint<N>& b, double t) noexcept {
   const double T = b.time_from_start - a.time_from_start, s = t / T;
-  const auto [c1, c2, c3, c4, c5] = way_between(a, b);
-  JointReference<N> r;
-  r.position = a.position + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
-  r.velocity = (c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / T;
-  r.acceleration = (2 * c2 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / T / T;
-  r.effort = a.effort + (b.effort - a.effort) * s;
-  return r;
+  const auto [c0, c1, c2, c3, c4, c5] = segment_polynomial(a, b);
+  return {c0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5)))),
+          (c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / T,
+          (2 * c2 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / T / T,
+          a.effort + (b.effort - a.effort) * s};
+}
+
+/// The reference between two points for either kind of segment.
+/// @param a, b  the points, b later than a
+/// @param time  on the clock of the points [s]
+/// Real-time: yes. O(N).
+template <int N>
+[[nodiscard]] JointReference<N> interpolate(Interpolation interpolation,
+                                            const TrajectoryPoint<N>& a,
+                                            const TrajectoryPoint<N>& b, double time) noexcept {
+  if (interpolation == Interpolation::none) return at_point(b);
+  return interpolate(a, b, time - a.time_from_start);
 }
 
 }  // namespace articula

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How closely a trajectory must be followed.
+/// @file Tolerances between a trajectory and the measured motion.
 #pragma once
 
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_vector.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
-#include "articula/reference/trajectory/trajectory_refusal.hpp"
+#include "articula/reference/trajectory/trajectory_outcome.hpp"
 
+#include <cmath>
+#include <string>
 #include <string_view>
 
 namespace articula {
 
-/// How far N joints may be off, in either direction. 0 is not checked, as in ROS's joint trajectory
-/// controller, whose parameters these are: constraints.<joint>.trajectory,
-/// constraints.<joint>.goal, constraints.stopped_velocity_tolerance and constraints.goal_time.
+/// The largest deviations of N joints, in both directions. 0 is not checked. These are parameters of
+/// ROS's joint trajectory controller: constraints.<joint>.trajectory, constraints.<joint>.goal,
+/// constraints.stopped_velocity_tolerance and constraints.goal_time.
 /// @tparam N  number of joints
 template <int N>
 struct TrajectoryTolerances {
-  JointVector<N> path_position = JointVector<N>::Zero();  ///< on the way [rad or m], N x 1
-  JointVector<N> path_velocity = JointVector<N>::Zero();  ///< on the way [rad/s or m/s], N x 1
+  JointVector<N> path_position = JointVector<N>::Zero();  ///< before the end [rad or m], N x 1
+  JointVector<N> path_velocity = JointVector<N>::Zero();  ///< before the end [rad/s or m/s], N x 1
   JointVector<N> goal_position = JointVector<N>::Zero();  ///< at the end [rad or m], N x 1
   JointVector<N> stopped_velocity =
       JointVector<N>::Constant(0.01);  ///< at the end [rad/s or m/s], N x 1
-  double goal_time = 0;  ///< time to arrive after the last point [s]; 0: as long as it takes
+  double goal_time = 0;                ///< time to arrive after the last point [s]; 0: unlimited
 };
 
-/// The first tolerance that is not a finite number >= 0; nothing, if there is none.
+/// The first tolerance that is not a finite number >= 0; an empty refusal if there is none.
 /// Real-time: yes.
 template <int N>
 [[nodiscard]] TrajectoryRefusal refusal_of(const TrajectoryTolerances<N>& tolerances) noexcept {
@@ -45,13 +47,7 @@ template <int N>
   return refusal;
 }
 
-/// True if every tolerance is a finite number >= 0. Real-time: yes.
-template <int N>
-[[nodiscard]] bool is_valid(const TrajectoryTolerances<N>& tolerances) noexcept {
-  return refusal_of(tolerances).what.empty();
-}
-
-/// Refuses tolerances that are not valid.
+/// Checks that tolerances are valid.
 /// @throws std::invalid_argument naming tolerance, joint and value
 /// Real-time: no (throws).
 template <Robot R>
@@ -60,23 +56,38 @@ void validate(const R& robot, const TrajectoryTolerances<joint_count<R>>& tolera
   if (!text.empty()) detail::refuse({"tolerances: ", text});
 }
 
-/// Tolerances that come with a goal, over those that are set: 0 leaves what is set, -1 means that
-/// it is not checked. What else is negative or not finite stays, so that is_valid() finds it.
+/// Whether errors are within tolerances. A tolerance of 0 is not checked; NaN is out of tolerance.
 /// Real-time: yes.
 template <int N>
-[[nodiscard]] TrajectoryTolerances<N> overridden(TrajectoryTolerances<N> set,
-                                                 const TrajectoryTolerances<N>& asked) noexcept {
+[[nodiscard]] bool within_tolerance(const JointVector<N>& error,
+                                    const JointVector<N>& tolerance) noexcept {
+  for (int j = 0; j < N; ++j) {
+    const bool good = is_finite(error[j]) && std::abs(error[j]) <= tolerance[j];
+    if (tolerance[j] > 0 && !good) return false;
+  }
+  return true;
+}
+
+/// The tolerances of a goal in combination with configured ones. A goal's 0 selects the configured
+/// tolerance, -1 none. Other values that are negative or not finite stay, so that
+/// refusal_of() finds them.
+/// @param configured  tolerances of goals that bring none
+/// @param goal        tolerances in the goal
+/// Real-time: yes.
+template <int N>
+[[nodiscard]] TrajectoryTolerances<N> overridden(TrajectoryTolerances<N> configured,
+                                                 const TrajectoryTolerances<N>& goal) noexcept {
   const auto put = [](double& value, double request) {
     if (request != 0) value = request == -1 ? 0 : request;
   };
   for (int j = 0; j < N; ++j) {
-    put(set.path_position[j], asked.path_position[j]);
-    put(set.path_velocity[j], asked.path_velocity[j]);
-    put(set.goal_position[j], asked.goal_position[j]);
-    put(set.stopped_velocity[j], asked.stopped_velocity[j]);
+    put(configured.path_position[j], goal.path_position[j]);
+    put(configured.path_velocity[j], goal.path_velocity[j]);
+    put(configured.goal_position[j], goal.goal_position[j]);
+    put(configured.stopped_velocity[j], goal.stopped_velocity[j]);
   }
-  put(set.goal_time, asked.goal_time);
-  return set;
+  put(configured.goal_time, goal.goal_time);
+  return configured;
 }
 
 }  // namespace articula

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/model/joint.hpp"
-#include "articula/urdf/xml/numbers.hpp"
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/xml/transmission.hpp"
 #include "articula/urdf/xml/xml.hpp"
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "articula/text/meant_word.hpp"
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/xml/control_words.hpp"
 #include "articula/urdf/xml/grouped_lines.hpp"
-#include "articula/urdf/xml/numbers.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>
@@ -98,11 +98,10 @@ class ControlCheck {
       const bool is_bound = word == "min" || word == "max";
       if (is_bound && is_command && has_limits) return;
       if (is_bound && is_command) {
-        const std::string_view meant = meant_word(name, limited);
         add(where + ": its " + word +
             " does not count; limits are read for position, velocity, "
             "effort (or torque, force), acceleration and jerk" +
-            (meant.empty() ? "" : "; did you mean '" + std::string(meant) + "'?"));
+            did_you_mean(name, limited));
       } else if (is_bound) {
         add(where + ": its " + word + " does not count; limits are those of commands");
       } else {

@@ -44,11 +44,8 @@ namespace articula::detail {
                            const char* open, const char* close) {
     if (word.find(':') != std::string::npos || word == "xmlns") return;  // others' own
     if (std::find(words.begin(), words.end(), word) != words.end()) return;
-    const std::string_view meant = meant_word(word, words);
-    lines.push_back(
-        "<" + std::string(element.Value()) + ">: the " + open + word + close +
-        " is not known there and does not count" +
-        (meant.empty() ? "" : std::string("; did you mean '") + std::string(meant) + "'?"));
+    lines.push_back("<" + std::string(element.Value()) + ">: the " + open + word + close +
+                    " is not known there and does not count" + did_you_mean(word, words));
   };
   for (auto each = element.FirstAttribute(); each; each = each->Next()) {
     look_at(each->Name(), known->attributes, "attribute '", "'");

@@ -2,7 +2,7 @@
 /// @file Texts in a URDF that are to be numbers and are none.
 #pragma once
 
-#include "articula/urdf/xml/numbers.hpp"
+#include "articula/text/number_hint.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>
@@ -12,17 +12,6 @@
 #include <string_view>
 
 namespace articula::detail {
-
-/// What is likely to be wrong with a text that is no number; empty if that is not known.
-[[nodiscard]] inline std::string number_advice(std::string text) {
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) return "";
-  if (comma + 1 == text.size() || text.find(',', comma + 1) != std::string::npos) {
-    return "; numbers have blanks between them, and no commas";
-  }
-  text[comma] = '.';
-  return number_of(text) ? "; if the comma is a decimal one, write " + text : "";
-}
 
 /// Makes sure that what stands for numbers is of the characters of numbers. urdfdom would refuse
 /// the rest as well, but some versions (3.0 is one) take a text that they refuse for a format of
@@ -50,8 +39,11 @@ inline void check_numbers(const std::string& file, const std::string& where,
       const std::string word(text.substr(0, text.find_first_of(space)));
       text.remove_prefix(word.size());
       if (word.find_first_not_of("0123456789.+-eE") == std::string::npos) continue;
-      throw UrdfError(file, where + ": <" + std::string(kind) + ">: " + name + ": '" + word +
-                                "' is not a finite number" + number_advice(word));
+      throw UrdfError(file, where + ": <" + std::string(kind) + ">: " + name + ": " +
+                                quoted_text(word) + " is not a finite number" +
+                                (std::count(word.begin(), word.end(), ',') > 1
+                                     ? "; numbers have blanks between them, and no commas"
+                                     : number_hint(word)));
     }
   }
   for_each_child(element, nullptr,

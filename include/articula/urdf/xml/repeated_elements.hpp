@@ -2,8 +2,8 @@
 /// @file Elements of a URDF that stand twice where one counts.
 #pragma once
 
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/xml/known_words.hpp"
-#include "articula/urdf/xml/numbers.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>

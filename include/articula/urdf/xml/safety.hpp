@@ -3,8 +3,8 @@
 /// k_velocity is missing.
 #pragma once
 
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/xml/grouped_lines.hpp"
-#include "articula/urdf/xml/numbers.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <limits>

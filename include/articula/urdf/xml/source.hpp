@@ -1,53 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Where a URDF comes from: a file or a text.
+/// @file The source of a URDF: a file or a string of XML.
 #pragma once
 
-#include "articula/urdf/xml/error.hpp"
+#include "articula/text/text_source.hpp"
 
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace articula {
 
-/// A URDF file, or URDF itself: a string whose first character after white space is '<' is XML, any
-/// other is a file's name.
-class UrdfSource {
+/// A URDF file, or URDF itself. A string whose first character after white space is '<' is XML. Any
+/// other string is a file's name.
+class UrdfSource : public detail::TextSource {
  public:
   static constexpr std::size_t capacity = std::size_t{1} << 26;  ///< largest size read [byte]
 
   UrdfSource(const std::filesystem::path& file)  // NOLINT: a path is a source
-      : name_(file.string()) {}
+      : TextSource(file.string()) {}
   UrdfSource(std::string_view file_or_xml)  // NOLINT: a string is a source
-      : name_(is_xml(file_or_xml) ? "URDF" : file_or_xml),
-        xml_(is_xml(file_or_xml) ? file_or_xml : "") {}
+      : TextSource(std::string(is_xml(file_or_xml) ? "URDF" : file_or_xml),
+                   is_xml(file_or_xml) ? std::optional<std::string>(file_or_xml) : std::nullopt) {}
   UrdfSource(const std::string& file_or_xml)  // NOLINT: likewise
       : UrdfSource(std::string_view(file_or_xml)) {}
   UrdfSource(const char* file_or_xml)  // NOLINT: likewise
       : UrdfSource(std::string_view(file_or_xml)) {}
 
-  /// The file's name, for messages; "URDF" for a text. Real-time: no (may copy).
-  [[nodiscard]] const std::string& name() const noexcept { return name_; }
-
   /// The XML.
-  /// @throws UrdfError if the file cannot be read, is larger than `capacity`, is UTF-16 or holds a
-  /// NUL
+  /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL character
   /// Real-time: no (reads a file).
-  [[nodiscard]] std::string text() const {
-    std::string text = xml_.empty() ? contents() : xml_;
-    if (text.size() > capacity) throw UrdfError(name_, "it is larger than 64 MiB");
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
-      throw UrdfError(name_, "it is UTF-16: save it as UTF-8");
-    }
-    if (text.starts_with(std::string_view("<\0", 2)) ||
-        text.starts_with(std::string_view("\0<", 2))) {
-      throw UrdfError(name_, "it is UTF-16: save it as UTF-8");
-    }
-    if (text.find('\0') != std::string::npos) throw UrdfError(name_, "it is no text: it holds NUL");
-    return text;
-  }
+  [[nodiscard]] std::string text() const { return read(capacity); }
 
  private:
   [[nodiscard]] static bool is_xml(std::string_view text) {
@@ -55,22 +39,6 @@ class UrdfSource {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     return first != std::string_view::npos && text[first] == '<';
   }
-  [[nodiscard]] std::string contents() const {
-    std::error_code ignored;
-    std::ifstream file(name_, std::ios::binary);
-    if (!file || std::filesystem::is_directory(name_, ignored)) {
-      throw UrdfError(name_, "the file cannot be read");
-    }
-    std::string text;
-    char block[1 << 16];
-    while (text.size() <= capacity && file.read(block, sizeof block).gcount() > 0) {
-      text.append(block, static_cast<std::size_t>(file.gcount()));
-    }
-    return text;
-  }
-
-  std::string name_;
-  std::string xml_{};
 };
 
 }  // namespace articula

@@ -2,6 +2,8 @@
 /// @file A first look at the tags of an XML text.
 #pragma once
 
+#include "articula/urdf/xml/error.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -42,7 +44,7 @@ class TagReader {
   }
 
   /// The line that was read last, from 1.
-  [[nodiscard]] std::size_t line() const { return line_of(at_); }
+  [[nodiscard]] int line() const { return line_of(at_); }
 
  private:
   static constexpr std::string_view space = " \t\r\n";
@@ -52,10 +54,9 @@ class TagReader {
     std::size_t begin;
   };
 
-  [[nodiscard]] std::size_t line_of(std::size_t place) const {
-    const std::size_t end = std::min(place, text_.size());
-    return 1 + static_cast<std::size_t>(std::count(
-                   text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  [[nodiscard]] int line_of(std::size_t place) const {
+    const auto end = static_cast<std::ptrdiff_t>(std::min(place, text_.size()));
+    return 1 + static_cast<int>(std::count(text_.begin(), text_.begin() + end, '\n'));
   }
   /// The element that is to be closed next, in words.
   [[nodiscard]] std::string innermost() const {
@@ -214,12 +215,12 @@ class TagReader {
   bool has_type_ = false;
 };
 
-/// What is wrong with the tags of an XML text, with the line; empty if nothing is. What TinyXML
-/// would misread and nobody needs becomes blanks.
-[[nodiscard]] inline std::string tag_fault(std::string& text) {
+/// Checks the tags of an XML text. What TinyXML would misread and nobody needs becomes blanks.
+/// @throws UrdfError with the line
+inline void check_tags(const std::string& file, std::string& text) {
   TagReader reader(text);
   const std::string fault = reader.fault();
-  return fault.empty() ? "" : "line " + std::to_string(reader.line()) + ": " + fault;
+  if (!fault.empty()) throw UrdfError({.file = file, .line = reader.line()}, fault);
 }
 
 }  // namespace articula::detail

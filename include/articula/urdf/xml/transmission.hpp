@@ -2,7 +2,7 @@
 /// @file The transmissions of a URDF, which urdfdom skips.
 #pragma once
 
-#include "articula/urdf/xml/numbers.hpp"
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <optional>

@@ -3,6 +3,7 @@
 /// urdfdom 4 on.
 #pragma once
 
+#include "articula/text/placeholder.hpp"
 #include "articula/urdf/xml/error.hpp"
 #include "articula/urdf/xml/tags.hpp"
 
@@ -18,16 +19,18 @@ namespace articula::detail {
 using XmlDocument = tinyxml2::XMLDocument;
 using XmlElement = tinyxml2::XMLElement;
 using XmlPrinter = tinyxml2::XMLPrinter;
-[[nodiscard]] inline std::string error_of(const XmlDocument& document) {
-  return "line " + std::to_string(document.ErrorLineNum()) + ": " + document.ErrorStr();
+[[nodiscard]] inline int error_line(const XmlDocument& document) { return document.ErrorLineNum(); }
+[[nodiscard]] inline std::string error_text(const XmlDocument& document) {
+  return document.ErrorStr();
 }
 inline void remove(XmlElement& parent, XmlElement& child) { parent.DeleteChild(&child); }
 #else
 using XmlDocument = TiXmlDocument;
 using XmlElement = TiXmlElement;
 using XmlPrinter = TiXmlPrinter;
-[[nodiscard]] inline std::string error_of(const XmlDocument& document) {
-  return "line " + std::to_string(document.ErrorRow()) + ": " + document.ErrorDesc();
+[[nodiscard]] inline int error_line(const XmlDocument& document) { return document.ErrorRow(); }
+[[nodiscard]] inline std::string error_text(const XmlDocument& document) {
+  return document.ErrorDesc();
 }
 inline void remove(XmlElement& parent, XmlElement& child) { parent.RemoveChild(&child); }
 #endif
@@ -74,10 +77,11 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
 /// @throws UrdfError if it is not XML or no robot
 inline XmlElement& parse_xml(const std::string& file, std::string text, XmlDocument& document) {
   if (text.find('<') == std::string::npos) throw UrdfError(file, "it is no XML: it has no tag");
-  const std::string fault = tag_fault(text);
-  if (!fault.empty()) throw UrdfError(file, fault);
+  check_tags(file, text);
   document.Parse(text.c_str());
-  if (document.Error()) throw UrdfError(file, error_of(document));
+  if (document.Error()) {
+    throw UrdfError({.file = file, .line = error_line(document)}, error_text(document));
+  }
   XmlElement* robot = document.FirstChildElement("robot");
   if (!robot) {
     const XmlElement* top = document.FirstChildElement();
@@ -104,14 +108,12 @@ inline void refuse_placeholders(const std::string& file, const std::string& wher
                                 const XmlElement& element) {
   for (auto each = element.FirstAttribute(); each; each = each->Next()) {
     const std::string text = each->Value();
-    for (const char* bracket : {"${", "$(", "{{", "{%", "<%"}) {
-      if (text.find(bracket) == std::string::npos) continue;
-      throw UrdfError(file,
-                      where + ": '" + text + "'" +
-                          (bracket[0] == '$' ? xacro_advice
-                                             : " is a placeholder that a template tool was to "
-                                               "fill in"));
-    }
+    const std::string_view placeholder = bracketed_placeholder_in(text);
+    if (placeholder.empty()) continue;
+    throw UrdfError(file, where + ": '" + text + "'" +
+                              (placeholder.starts_with('$')
+                                   ? xacro_advice
+                                   : " is a placeholder that a template tool was to fill in"));
   }
   for_each_child(element, nullptr,
                  [&](const XmlElement& child) { refuse_placeholders(file, where, child); });

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A map of a configuration whose keys the caller looks up; others are unknown keys.
+#pragma once
+
+#include "articula/config/yaml/config_value.hpp"
+#include "articula/config/yaml/node.hpp"
+#include "articula/config/yaml/scalar.hpp"
+#include "articula/text/file_error.hpp"
+#include "articula/text/meant_word.hpp"
+#include "articula/text/numbers.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace articula::detail {
+
+/// How to treat an unknown key that comes from a section with wildcards.
+enum class Inherited : unsigned char {
+  must_be_known,   ///< as any other: it is refused
+  may_be_unknown,  ///< a note says that it is not used
+};
+
+/// A map of a configuration. Each look-up makes a key known. `finish()` refuses keys that are not
+/// known by then.
+class ConfigMap {
+ public:
+  /// @param notes      receives a line on each value that has no effect
+  /// @param inherited  treatment of unknown keys from other sections
+  /// @throws FileError if the value is no map
+  ConfigMap(ConfigValue value, std::vector<std::string>& notes,
+            Inherited inherited = Inherited::must_be_known)
+      : value_(std::move(value)),
+        notes_(&notes),
+        tolerant_(inherited == Inherited::may_be_unknown) {
+    const ConfigNode& node = value_.node();
+    if (node.is_map()) return;
+    const std::string hint = key_hint(node.text, node.value_names);
+    value_.refuse("a map" + (hint.empty() ? hint : ", and " + hint));
+  }
+
+  [[nodiscard]] const ConfigValue& value() const noexcept { return value_; }
+
+  /// The value of a key, if there is one.
+  [[nodiscard]] std::optional<ConfigValue> find(std::string_view key) {
+    if (!knows(key)) known_.emplace_back(key);
+    const ConfigNode* item = value_.node().find(key);
+    if (item == nullptr) return {};
+    ++found_;
+    return value_.child(*item);
+  }
+  /// The value of one of several keys with the same meaning, if there is one.
+  /// @throws FileError if there are several
+  [[nodiscard]] std::optional<ConfigValue> find_one_of(
+      std::initializer_list<std::string_view> keys) {
+    std::optional<ConfigValue> found;
+    for (const std::string_view key : keys) {
+      const auto value = find(key);
+      if (value && found) {
+        value->refuse("'" + found->node().key + "' has the same meaning", "one of the two keys");
+      }
+      if (value) found = value;
+    }
+    return found;
+  }
+  /// The value of a key that must be there. If it is missing, `finish()` throws, since a misspelt
+  /// key may be the reason.
+  [[nodiscard]] std::optional<ConfigValue> require(std::string_view key) {
+    auto found = find(key);
+    if (!found) missing_.emplace_back(key);
+    return found;
+  }
+  [[nodiscard]] std::optional<ConfigMap> find_map(std::string_view key) {
+    const auto found = find(key);
+    if (!found) return {};
+    return ConfigMap(*found, *notes_);
+  }
+  /// These read the value of a key into a variable, which keeps its value if there is no such key.
+  void read_number(std::string_view key, double& number) {
+    if (const auto value = find(key)) number = value->number();
+  }
+  void read_not_negative(std::string_view key, double& number) {
+    if (const auto value = find(key)) number = value->not_negative();
+  }
+  void read_truth(std::string_view key, bool& truth) {
+    if (const auto value = find(key)) truth = value->truth();
+  }
+
+  /// The number of look-ups that found a value.
+  [[nodiscard]] std::size_t found() const noexcept { return found_; }
+  [[nodiscard]] bool knows(std::string_view key) const {
+    return std::find(known_.begin(), known_.end(), key) != known_.end();
+  }
+  /// True if a key is probably a misspelling of a known one.
+  [[nodiscard]] bool nearly_knows(std::string_view key) const {
+    return std::any_of(known_.begin(), known_.end(),
+                       [&](const std::string& known) { return is_near(key, known); });
+  }
+  [[nodiscard]] bool has_unknown() const { return !unknown().empty(); }
+
+  /// Adds a note on a value.
+  void note(const ConfigValue& value, std::string_view text) const {
+    notes_->push_back(value.place().text() + std::string(text));
+  }
+
+  /// @throws FileError if the map has an unknown key, or lacks a required one
+  void finish() const {
+    constexpr std::size_t listed = 3, tried = 16;
+    for (const ConfigNode& item : value_.node().items) {
+      if (tolerant_ && item.is_inherited() && !knows(item.key)) {
+        note(value_.child(item), "not used here");
+      }
+    }
+    const auto others = unknown();
+    refuse_malformed(others);
+    const ConfigNode* wrong = others.empty() ? nullptr : others.front();
+    if (!missing_.empty()) {
+      // A misspelt key is the probable reason why another one is missing.
+      const auto last =
+          others.begin() + static_cast<std::ptrdiff_t>(std::min(others.size(), tried));
+      const auto misspelt = std::find_if(
+          others.begin(), last, [&](const ConfigNode* item) { return nearly_knows(item->key); });
+      if (misspelt == last) {
+        const std::string unknown =
+            wrong == nullptr ? "" : "; its key '" + shown(wrong->key) + "' is unknown";
+        value_.refuse("the key '" + missing_.front() + "' is missing", "it in this map" + unknown);
+      }
+      wrong = *misspelt;
+    }
+    if (wrong != nullptr) refuse_key(*wrong, one_of_words(wrong->key, known_, listed));
+  }
+
+  /// @throws FileError about a key that is unknown
+  [[noreturn]] void refuse_key(const ConfigNode& item, const std::string& expected) const {
+    throw FileError(value_.child(item).key_place(), "unknown key '" + shown(item.key) + "'",
+                    expected);
+  }
+
+ private:
+  /// Refuses texts that YAML reads as keys and that were probably not meant as such.
+  void refuse_malformed(const std::vector<const ConfigNode*>& others) const {
+    for (const ConfigNode* item : others) {
+      const std::string hint = key_hint(item->key, item->value_names);
+      if (!hint.empty()) refuse_key(*item, hint);
+      // YAML reads {p: 1,5} as p: 1 and a key 5 without a value.
+      if (item->kind == ConfigNode::Kind::nothing && number_of(item->key)) {
+        refuse_key(*item, "a decimal point, if the comma before it is a decimal one");
+      }
+    }
+  }
+  [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
+    std::vector<const ConfigNode*> items;
+    for (const ConfigNode& item : value_.node().items) {
+      if (!(tolerant_ && item.is_inherited()) && !knows(item.key)) items.push_back(&item);
+    }
+    return items;
+  }
+
+  ConfigValue value_;
+  std::vector<std::string>* notes_;
+  bool tolerant_;
+  std::vector<std::string> known_{}, missing_{};
+  std::size_t found_ = 0;
+};
+
+}  // namespace articula::detail

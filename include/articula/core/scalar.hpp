@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Selection and access by lane: what algorithms over any scalar need beyond arithmetic.
+///
+/// An algorithm over a scalar S computes for one robot where S is double, and for several robots
+/// where S is a pack, which holds the number of one robot in each lane. A comparison of packs gives
+/// a mask with a truth value for each lane, so such an algorithm selects where others branch:
+///
+///     x = select(x > limit, limit, x);
+///
+/// This header has these operations for double and bool. Argument-dependent lookup finds those of a
+/// pack.
+#pragma once
+
+#include "articula/core/joint_command.hpp"
+#include "articula/core/joint_state.hpp"
+
+#include <cstddef>
+#include <type_traits>
+
+namespace articula {
+
+/// The number of robots whose numbers a scalar holds.
+template <class S>
+inline constexpr int lanes = 1;
+template <class S>
+  requires requires { S::lanes; }
+inline constexpr int lanes<S> = S::lanes;
+
+/// A scalar that holds the numbers of several robots.
+template <class S>
+concept PackedScalar = lanes<S> > 1;
+
+/// `chosen` in lanes where the mask is true, else `other`. Real-time: yes.
+[[nodiscard]] constexpr double select(bool mask, double chosen, double other) noexcept {
+  return mask ? chosen : other;
+}
+/// Whether the mask is true in any lane. Real-time: yes.
+[[nodiscard]] constexpr bool any_of(bool mask) noexcept { return mask; }
+template <class Mask>
+  requires requires(const Mask& mask) { mask[0]; }
+[[nodiscard]] constexpr bool any_of(const Mask& mask) noexcept {
+  bool any = false;
+  for (std::size_t k = 0; k < sizeof(mask) / sizeof(mask[0]); ++k) any = any || mask[k] != 0;
+  return any;
+}
+/// Whether the mask is true in all lanes. Real-time: yes.
+[[nodiscard]] constexpr bool all_of(bool mask) noexcept { return mask; }
+template <class Mask>
+  requires requires(const Mask& mask) { mask[0]; }
+[[nodiscard]] constexpr bool all_of(const Mask& mask) noexcept {
+  return !any_of(~mask);
+}
+
+/// The number between two limits that is nearest to x. Real-time: yes.
+/// @pre low <= high
+template <class S>
+[[nodiscard]] constexpr S clamp(const S& x, const std::type_identity_t<S>& low,
+                                const std::type_identity_t<S>& high) noexcept {
+  return select(x < low, low, select(high < x, high, x));
+}
+
+/// The number of the robot in one lane, 0 .. lanes<S> - 1. Real-time: yes.
+template <class S>
+[[nodiscard]] constexpr double lane_of(const S& x, [[maybe_unused]] int lane) noexcept {
+  if constexpr (PackedScalar<S>) {
+    return x[lane];
+  } else {
+    return x;
+  }
+}
+/// @copydoc lane_of(const S&, int)
+template <int N, class S>
+[[nodiscard]] JointVector<N> lane_of(const JointVector<N, S>& x, int lane) noexcept {
+  return for_each_joint<N>([&](int j) noexcept { return lane_of(x[j], lane); });
+}
+
+template <int N, class S>
+[[nodiscard]] JointState<N> lane_of(const JointState<N, S>& x, int lane) noexcept {
+  return {lane_of(x.position, lane), lane_of(x.velocity, lane), lane_of(x.effort, lane)};
+}
+template <int N, class S>
+[[nodiscard]] EffortCommand<N> lane_of(const EffortCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.effort, lane)};
+}
+template <int N, class S>
+[[nodiscard]] PositionCommand<N> lane_of(const PositionCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.position, lane)};
+}
+template <int N, class S>
+[[nodiscard]] VelocityCommand<N> lane_of(const VelocityCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.velocity, lane)};
+}
+template <int N, class S>
+[[nodiscard]] MultiModeCommand<N> lane_of(const MultiModeCommand<N, S>& x, int lane) noexcept {
+  return {lane_of(x.position, lane), lane_of(x.velocity, lane), lane_of(x.stiffness, lane),
+          lane_of(x.damping, lane), lane_of(x.effort, lane)};
+}
+
+/// Replaces the number of the robot in one lane. Real-time: yes.
+template <class S>
+constexpr void set_lane(S& x, [[maybe_unused]] int lane, double number) noexcept {
+  if constexpr (PackedScalar<S>) {
+    x.set(lane, number);
+  } else {
+    x = number;
+  }
+}
+template <int N, class S>
+void set_lane(JointVector<N, S>& x, int lane, const JointVector<N>& numbers) noexcept {
+  for (int j = 0; j < N; ++j) set_lane(x[j], lane, numbers[j]);
+}
+
+}  // namespace articula

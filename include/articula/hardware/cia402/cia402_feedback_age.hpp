@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The age of a CiA 402 drive's feedback, from counting its frames.
+#pragma once
+
+#include "articula/hardware/can/can_codec.hpp"
+#include "articula/hardware/canopen/canopen.hpp"
+#include "articula/hardware/cia402/cia402_process_data.hpp"
+#include "articula/hardware/cia402/sync_history.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace articula {
+
+/// The age of one drive's feedback.
+///
+/// A drive answers each SYNC with one frame of each process data object, in order. Frames have no
+/// number, so they are counted: a frame answers the oldest SYNC without an answer. Its age is the
+/// number of cycles since that SYNC.
+///
+/// A lost frame looks like a late one. A mark tells them apart: it is a request to read an object.
+/// A drive answers it later than every SYNC before it, and frames do not overtake each other. So
+/// feedback to a SYNC before the request that is missing when the answer arrives is lost. A drive
+/// takes some cycles to answer and sends feedback meanwhile, so a mark covers later SYNCs as well,
+/// by the time of the fastest answer. One cycle stays unknown, because times are counted in whole
+/// cycles. The set-up reads object 1018h, so that the time is known before feedback begins.
+/// All functions are real-time.
+class Cia402FeedbackAge {
+ public:
+  /// Whether the next frame of a stream answers the SYNC of this cycle.
+  [[nodiscard]] bool is_in_time(std::size_t stream, const SyncHistory& syncs) const noexcept {
+    return next_[stream] == syncs.cycle() && syncs.is_new();
+  }
+  /// The cycle of a stream's last frame; 0 if there was none.
+  [[nodiscard]] std::uint64_t cycle_of(std::size_t stream) const noexcept { return cycle_[stream]; }
+
+  /// Counts a frame of a stream for which `is_in_time` holds.
+  /// @param streams  number of process data objects that the drive sends
+  /// @param syncs    of the bus; receives the note that an answer is missing
+  /// @param report   of the drive; receives the age
+  void count_in_time(std::size_t stream, std::size_t streams, SyncHistory& syncs,
+                     DriveReport& report) noexcept {
+    const std::uint64_t cycle = syncs.cycle();
+    cycle_[stream] = cycle;
+    next_[stream] = cycle + 1;
+    const std::uint64_t least_next = least(next_, streams);
+    if (least_next > cycle) {
+      report.age = 0;
+    } else if (least_next < cycle) {
+      syncs.note_missing();
+    }
+  }
+  /// Counts any frame of a stream; parameters as above.
+  /// @return false if there was no SYNC that it could answer
+  [[nodiscard]] bool count(std::size_t stream, std::size_t streams, SyncHistory& syncs,
+                           DriveReport& report) noexcept {
+    if (!syncs.has_begun()) return false;
+    cycle_[stream] = syncs.first_from(next_[stream]);
+    next_[stream] = std::max(next_[stream], cycle_[stream] + 1);
+    if (lag(streams, syncs) > 0) syncs.note_missing();
+    const std::uint64_t oldest = least(cycle_, streams);
+    if (oldest > 0) {
+      report.age = static_cast<std::uint32_t>(syncs.cycle() - oldest);
+      least_age_ = std::min(least_age_, std::uint64_t{report.age});
+    }
+    return true;
+  }
+
+  /// The request for a mark. It is due if more answers are missing than at the last mark, or if some
+  /// are missing and the last mark is ten cycles old. Any node answers it, by the object or by a
+  /// refusal.
+  [[nodiscard]] std::optional<canopen::Sdo> next_mark(std::size_t streams,
+                                                      const SyncHistory& syncs) noexcept {
+    constexpr std::uint64_t interval = 10;  // [cycles]
+    const std::uint64_t patience = std::max(std::uint64_t{20}, fastest_answer_ + 10);
+    const std::uint32_t missing = lag(streams, syncs);
+    if (missing == 0) {
+      if (least_age_ != unknown_age) least_age_ = 0;
+      return {};
+    }
+    const std::uint64_t since = syncs.cycle() - mark_cycle_;
+    const bool known = missing <= known_lag_ && since < interval;
+    if (awaits_mark_ ? since < patience : known) return {};
+    // Subindices alternate, so that a late answer to the mark before does not count for this one.
+    constexpr std::uint8_t objects = 5;
+    mark_number_ = static_cast<std::uint8_t>((mark_number_ + 1) % objects);
+    place_mark({canopen::identity, mark_number_}, syncs);
+    return canopen::read_request(mark_);
+  }
+  /// Notes that an object is requested now. Every request is a mark.
+  void place_mark(const canopen::ObjectAddress& object, const SyncHistory& syncs) noexcept {
+    mark_ = object;
+    mark_cycle_ = syncs.cycle();
+    awaits_mark_ = true;
+  }
+  /// Notes that the bus did not take the last request.
+  void cancel_mark() noexcept { awaits_mark_ = false; }
+
+  /// Notes the answer to a request.
+  ///
+  /// Without a queue, an answer to a request just before SYNC takes at least F - 1 cycles, and
+  /// feedback less than a + 1, where F and a are the fewest cycles counted. A queue delays both
+  /// alike. So the drive has sent feedback to SYNCs up to F - 1 - (a + 1) cycles after the one
+  /// before the answer. Where another node sends SYNC, requests vary by up to one cycle.
+  /// @param object  that was requested
+  /// @param sync    sender of SYNC
+  void take_answer(const canopen::ObjectAddress& object, std::size_t streams,
+                   const SyncHistory& syncs, SyncProducer sync) noexcept {
+    if (!awaits_mark_ || object != mark_) return;
+    awaits_mark_ = false;
+    const std::uint64_t cycles = syncs.cycle() - mark_cycle_;
+    fastest_answer_ = std::min(fastest_answer_, cycles);
+    const std::uint64_t unsure = least_age_ + 1 + (sync == SyncProducer::host ? 0 : 1);
+    const std::uint64_t covered =
+        mark_cycle_ + (fastest_answer_ > unsure ? fastest_answer_ - unsure : 0);
+    for (std::uint64_t& next : next_) next = std::max(next, covered + 1);
+    known_lag_ = lag(streams, syncs);
+  }
+
+ private:
+  using Cycles = std::array<std::uint64_t, cia402::ProcessData::most>;
+
+  [[nodiscard]] static std::uint64_t least(const Cycles& cycles, std::size_t streams) noexcept {
+    std::uint64_t lowest = cycles[0];
+    for (std::size_t i = 1; i < streams; ++i) lowest = std::min(lowest, cycles[i]);
+    return lowest;
+  }
+  /// SYNCs without an answer.
+  [[nodiscard]] std::uint32_t lag(std::size_t streams, const SyncHistory& syncs) const noexcept {
+    return syncs.count_from(least(next_, streams));
+  }
+
+  static constexpr std::uint64_t unknown_age = 1'000'000;  ///< longer than any answer takes
+
+  Cycles next_{};   ///< cycle whose SYNC the stream's next frame answers, or the first later one
+  Cycles cycle_{};  ///< of the stream's last frame; 0: there was none
+  bool awaits_mark_ = false;
+  std::uint8_t mark_number_ = 0;
+  canopen::ObjectAddress mark_{};
+  std::uint64_t fastest_answer_ = 100;     ///< to a request [cycles]; at first the slowest expected
+  std::uint64_t least_age_ = unknown_age;  ///< of any feedback [cycles]
+  std::uint64_t mark_cycle_ = 0;           ///< of the request
+  std::uint32_t known_lag_ = 0;            ///< SYNCs without an answer after the last mark
+};
+
+}  // namespace articula
