@@ -74,7 +74,7 @@ TEST_CASE("Positions are controlled without masses") {
 
 TEST_CASE("An ordinary load of a robot without masses says how to load it without") {
   const std::string advice =
-      "without dynamics, load_kinematic_urdf (KINEMATIC in CMake) loads the robot";
+      "without masses and dynamics, use load_kinematic_urdf (KINEMATIC in CMake)";
   CHECK_THAT(refusal(file), Contains("joint 'shoulder': the joint moves no link that has mass") &&
                                 Contains(advice));
   const std::string bare = pendulum("<link name=\"rod\"/>");
@@ -92,11 +92,11 @@ TEST_CASE("An ordinary load of a robot without masses says how to load it withou
 
 TEST_CASE("Masses that are not to count leave no trace and no notice") {
   const UrdfDescription drawn = read_urdf(file, {.kinematic = true});
-  CHECK(drawn.notices.empty());
-  for (const Link& link : drawn.links) CHECK(link.mass == 0);
+  CHECK(drawn->notices.empty());
+  for (const Link& link : drawn->links) CHECK(link.mass == 0);
   const UrdfDescription chain =
       read_urdf(URDF_FILES "/gripper.urdf", {.root = "palm", .kinematic = true});
-  for (const std::string& notice : chain.notices) {
+  for (const std::string& notice : chain->notices) {
     CHECK_THAT(notice, !Contains("inerti") && !Contains("gravity") && !Contains("kg"));
   }
 }
@@ -117,8 +117,8 @@ TEST_CASE("What is wrong with masses that do not count is no reason to refuse a 
 TEST_CASE("A kinematic description makes no model with dynamics, a full one makes either") {
   CHECK_THROWS_WITH(
       (load_urdf<3, 4>(file, {.kinematic = true})),
-      Contains("massless.urdf: it was read as kinematic") && Contains("load_kinematic_urdf"));
+      Contains("massless.urdf: it was read without masses") && Contains("load_kinematic_urdf"));
   const UrdfDescription full = read_urdf(pendulum());
-  CHECK(kinematic_model_of_urdf<1>(full).joint_count == 1);
-  CHECK_THROWS_WITH(kinematic_model_of_urdf<2>(full), Contains("<2> was asked for, <1> is right"));
+  CHECK(load_kinematic_urdf<1>(full).joint_count == 1);
+  CHECK_THROWS_WITH(load_kinematic_urdf<2>(full), Contains("load it with <1>, not <2>"));
 }
