@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What is wrong with a URDF is said in one line with file, element, reason and figures.
+/// @file An error of a URDF is one line with file, element, reason and figures.
 #include <articula/urdf/urdf.hpp>
 
 #include <console_bridge/console.h>
@@ -113,7 +113,7 @@ TEST_CASE("Text that is not XML") {
   std::filesystem::remove(file);
 }
 
-TEST_CASE("What a document type declares cannot be honoured, and is refused where it is used") {
+TEST_CASE("Declarations of a document type are refused where they are used") {
   const auto with = [](const std::string& declarations, const std::string& robot = pendulum()) {
     return refusal("<!DOCTYPE robot [" + declarations + "]>\n" + robot);
   };
@@ -146,7 +146,7 @@ TEST_CASE("What a document type declares cannot be honoured, and is refused wher
         "URDF:1: there is text outside of the top element");
 }
 
-TEST_CASE("What is left of xacro is named") {
+TEST_CASE("Unexpanded xacro is refused") {
   const std::string advice =
       " is unexpanded xacro: run `xacro r.xacro > r.urdf` and load the result";
   CHECK(refusal(robot("<xacro:property name='m' value='2'/><xacro:arm/>")) ==
@@ -161,7 +161,7 @@ TEST_CASE("What is left of xacro is named") {
         "URDF: link '$(arg p)rod': '$(arg p)rod'" + advice);
 }
 
-TEST_CASE("Elements with capitals are not left out in silence") {
+TEST_CASE("Links and joints with capital letters are refused") {
   CHECK(refusal(robot(base + solid("rod") + "<Joint name=\"pivot\" type=\"fixed\"/>")) ==
         "URDF: <Joint name=\"pivot\">: write the element's name as <joint>");
 }
@@ -172,14 +172,14 @@ TEST_CASE("Elements nested without end") {
   CHECK(refusal(deep) == "URDF:1: elements are nested more than 100 deep");
 }
 
-TEST_CASE("XML that is no robot") {
+TEST_CASE("XML without a robot") {
   CHECK(refusal("<link name='a'/>") == "URDF: the top element must be <robot>, but is <link>");
   CHECK(refusal("<robot/>") == "URDF: No name given for the robot.");
   CHECK(refusal(robot("")) == "URDF: No link elements found in urdf file");
   CHECK(refusal(robot(base)) == "URDF: robot 'r': no joint moves");
 }
 
-TEST_CASE("Inertias that cannot be") {
+TEST_CASE("Inertias of no real body") {
   CHECK(
       refusal(inertial("0")) ==
       "URDF: link 'rod': the link has inertia but no mass (mass 0 kg, principal moments of inertia "
@@ -216,7 +216,7 @@ TEST_CASE("Inertias that cannot be") {
             kinematic);
 }
 
-TEST_CASE("Numbers that are none") {
+TEST_CASE("Texts that are not numbers") {
   for (const char* number : {"nan", "inf", "-inf", "1e999", "1,5", "0x10", "2 kg", "", "--1"}) {
     CAPTURE(number);
     CHECK(refusal(inertial(number)).find("rod") != std::string::npos);
@@ -237,7 +237,8 @@ TEST_CASE("Numbers that are none") {
   CHECK(refusal(with_joint("<axis xyz=\"1e200 0 0\"/>")).empty());  // a direction like any other
 }
 
-TEST_CASE("What is no number is named with its element, and never taken for a format of printf") {
+TEST_CASE(
+    "A text that is not a number is named with its element, and never used as a format of printf") {
   const std::string none = "' is not a finite number";
   std::map<std::string, std::string> messages = {
       {"pi/2", "'pi/2" + none + "; expressions are not computed"},
@@ -287,7 +288,7 @@ TEST_CASE("An inertia that urdfdom cannot read is not left out") {
   CHECK(refusal(with_inertial("<mass/>")).find("[rod]") != std::string::npos);
 }
 
-TEST_CASE("Elements given twice that say different things") {
+TEST_CASE("Elements that occur twice and differ") {
   const std::string limit = "<limit effort=\"1\" velocity=\"1\"/>",
                     other = " differs from the first: remove one of them";
   for (const auto& [name, inside] :
@@ -320,7 +321,7 @@ TEST_CASE("Elements given twice that say different things") {
   }
 }
 
-TEST_CASE("Joints that cannot be") {
+TEST_CASE("Impossible joints") {
   CHECK(refusal(with_joint("<axis xyz=\"0 0 0\"/>")) ==
         "URDF: joint 'pivot': the axis has length 0 (0 0 0)");
   CHECK(refusal(with_joint("<limit lower=\"1\" upper=\"-0.5\" effort=\"1\" velocity=\"1\"/>",
@@ -355,7 +356,7 @@ TEST_CASE("Floating joints can be locked or left behind") {
   CHECK(refusal(text, {.locked = {{"float", 1}}}).find("floating") != std::string::npos);
 }
 
-TEST_CASE("Links that are no tree") {
+TEST_CASE("Links that do not form a tree") {
   const std::string a = solid("a"), b = solid("b"), c = solid("c");
   CHECK(refusal(robot(a + b + joint("i", "continuous", "a", "b") +
                       joint("j", "continuous", "a", "b"))) ==
@@ -392,7 +393,7 @@ TEST_CASE("Links that are no tree") {
         "URDF: joint 'i': it has no child link");
 }
 
-TEST_CASE("Names that cannot be") {
+TEST_CASE("Invalid names") {
   const std::string a = solid("a"), long_name(64, 'x'), longest(63, 'x');
   CHECK(refusal(robot(a + a)) == "URDF: link 'a' is not unique.");
   CHECK(refusal(robot(a + solid("b") + solid("c") + joint("i", "continuous", "a", "b") +
@@ -413,7 +414,7 @@ TEST_CASE("Names of odd characters") {
   }
 }
 
-TEST_CASE("Joints that mimic nobody") {
+TEST_CASE("Joints that mimic no free joint") {
   const auto mimics = [](const std::string& other, const UrdfOptions& options = {}) {
     return refusal(robot(base + solid("a") + solid("b") + solid("c") +
                          joint("i", "continuous", "base", "a") + joint("j", "fixed", "base", "c") +
@@ -433,7 +434,7 @@ TEST_CASE("Joints that mimic nobody") {
       "or choose root and tip so that it is between them");
 }
 
-TEST_CASE("A word that is not known is blamed for what is wrong where it stands") {
+TEST_CASE("An unknown word is named as a possible cause of an error in its element") {
   const std::string odd = "<limit lower='1' upper='-1' effort='1' velocity='1' uper='2'/>";
   const std::string fault = refusal(with_joint(odd, "revolute"));
   CHECK_THAT(fault,
@@ -445,7 +446,7 @@ TEST_CASE("A word that is not known is blamed for what is wrong where it stands"
   CHECK_THAT(refusal(elsewhere), !Contains("possible cause") && Contains("pivot"));
 }
 
-TEST_CASE("Options that name nothing") {
+TEST_CASE("Options with names that do not exist") {
   CHECK(refusal(pendulum(), {.root = "x"}) ==
         "URDF: root 'x': there is no such link; links: base, rod");
   CHECK(refusal(pendulum(), {.tip = "x"}) ==
@@ -461,7 +462,7 @@ TEST_CASE("Options that name nothing") {
         "more than 1e9 rad) (gravity)");
 }
 
-TEST_CASE("Options that are no figures of use") {
+TEST_CASE("Options with unusable figures") {
   const auto tolerance = [](double value) {
     return refusal(pendulum(), {.right_angle_tolerance = value});
   };
@@ -481,7 +482,7 @@ TEST_CASE("Options that are no figures of use") {
         "URDF: joint 'pivot': it cannot be locked at inf");
 }
 
-TEST_CASE("Limits in ros2_control that cannot be") {
+TEST_CASE("Impossible limits in ros2_control") {
   const auto control = [](const std::string& inside) {
     std::string text = pendulum();
     return refusal(text.insert(text.rfind("</robot>"),
@@ -513,12 +514,12 @@ TEST_CASE("Limits in ros2_control that cannot be") {
   CHECK_THAT(control("<param name=\"max\">0</param>"), Contains("(min -inf, max 0) exclude one"));
   CHECK(bounds("0.2", "-0.2") ==
         "URDF: <ros2_control>: joint 'pivot': effort: its limits (min 0.2, max -0.2) exclude 0");
-  CHECK(bounds("{-2*pi}", "{2*pi}").empty());  // does not count, and a notice says so
+  CHECK(bounds("{-2*pi}", "{2*pi}").empty());  // ignored, with a notice
   CHECK(control("<param name=\"max\">-5</param>") ==
         "URDF: <ros2_control>: joint 'pivot': effort: its limits (min -inf, max -5) exclude 0");
 }
 
-TEST_CASE("Limits of positions in two places have something in common") {
+TEST_CASE("Limits of position in two elements must have a position in common") {
   const auto position = [](const char* min, const char* max,
                            const UrdfOptions& options = {.locked = {"turn"}}) {
     std::string text = robot(base + solid("rod") + solid("tool") +

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a URDF tells of drives: transmissions, and where a simulation starts.
+/// @file Transmissions and initial values from a URDF.
 #include <articula/hardware/transmission/urdf_gearing.hpp>
 #include <articula/urdf/initial_values.hpp>
 #include <articula/urdf/urdf.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The C++ that is made of a description.
+/// @file The C++ header of a description.
 #include "header_text.hpp"
 
 #include <articula/urdf/read_urdf.hpp>

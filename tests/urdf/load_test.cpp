@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a URDF says is what the model does.
+/// @file A model moves as its URDF describes.
 #include <articula/dynamics/dynamics.hpp>
 #include <articula/urdf/urdf.hpp>
 
@@ -13,6 +13,8 @@
 #include <iterator>
 #include <locale>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 using namespace articula;
@@ -135,7 +137,7 @@ TEST_CASE("Transmissions are read in all dialects") {
   CHECK(read_urdf(arm_file)->transmissions.at(0).actuators.at(0).mechanical_reduction == 100.5);
 }
 
-TEST_CASE("A root that is turned has another gravity, which is told unless it is given") {
+TEST_CASE("A rotated root is reported unless gravity is set") {
   const auto robot = [](const std::string& mount) {
     std::string text = support::pendulum();
     text.insert(text.find("<link"), "<link name='world'/>");
@@ -193,7 +195,29 @@ TEST_CASE("A file and its text give the same robot") {
   CHECK(gravity(load_urdf<3>(std::filesystem::path(arm_file)), q) == expected);
 }
 
-TEST_CASE("A chain is cut out by its root and tip") {
+TEST_CASE("A description cannot be changed; changed contents are checked again") {
+  STATIC_REQUIRE(
+      std::is_const_v<std::remove_reference_t<decltype(*std::declval<UrdfDescription&>())>>);
+  UrdfContents contents = *read_urdf(arm_file);
+  contents.joints.back().damping = 7;
+  CHECK(UrdfDescription(contents)->joints.back().damping == 7);
+  contents.links.back().mass = -1;
+  CHECK_THROWS_WITH(UrdfDescription(contents), Catch::Contains("the mass is negative (-1 kg)"));
+  contents = *read_urdf(arm_file);
+  contents.right_angle_tolerance = 1;
+  CHECK_THROWS_WITH(UrdfDescription(contents), Catch::Contains("right_angle_tolerance 1"));
+}
+
+TEST_CASE("A file that is parsed once gives several robots") {
+  const UrdfDocument document = parse_urdf(arm_file);
+  CHECK(read_urdf(document)->notices == read_urdf(arm_file)->notices);
+  CHECK(load_urdf<2>(read_urdf(document, {.locked = {"lift"}})).joint_count == 2);
+  const UrdfDescription drawn = read_urdf(document, {.kinematic = true});
+  for (const Link& link : drawn->links) CHECK(link.mass == 0);
+  CHECK(load_kinematic_urdf<3>(drawn).joint_count == 3);
+}
+
+TEST_CASE("Root and tip select a chain") {
   const Model<2> chain = load_urdf<2>(arm_file, {.root = "column", .tip = "tool"});
   CHECK(joint_names(chain) == std::array<std::string_view, 2>{"shoulder", "lift"});
   CHECK(chain.links.front().name.view() == "column");
@@ -211,7 +235,7 @@ TEST_CASE("A chain is cut out by its root and tip") {
   CHECK(wrist.links.size() == 3);
 }
 
-TEST_CASE("A chain says what it leaves out of what its joints carry") {
+TEST_CASE("A chain reports the masses that its joints carry in the file and that it leaves out") {
   const auto about_tip = [](const UrdfOptions& options) {
     std::vector<std::string> notices = read_urdf(URDF_FILES "/gripper.urdf", options)->notices;
     std::erase_if(notices, [](const std::string& each) { return !each.starts_with("tip"); });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are odd, but sane: as programs and people write them.
+// Unusual but valid files, as programs and people write them.
 #include <articula/control/limits/command_limits.hpp>
 #include <articula/dynamics/dynamics.hpp>
 #include <articula/urdf/urdf.hpp>
@@ -50,7 +50,7 @@ TEST_CASE("numbers of commands with comments, infinities and white space") {
                     Contains("effort max: 'much' is not a finite number"));
 }
 
-TEST_CASE("a joint has one limit for both directions: the narrower counts, and a notice says so") {
+TEST_CASE("a joint has one limit for both directions, the narrower one, with a notice") {
   const auto notices = [](const std::string& bounds) {
     return read_urdf(UrdfSource(controlled("<command_interface name=\"velocity\">" + bounds +
                                            "</command_interface>")))
@@ -75,7 +75,7 @@ TEST_CASE("a joint has one limit for both directions: the narrower counts, and a
   }
 }
 
-TEST_CASE("limits that contradict themselves are noted where they do not count") {
+TEST_CASE("contradictory limits are reported where they are not used") {
   const auto read = [](const std::string& kind, const std::string& bounds, bool kinematic,
                        const std::string& mimic = "<mimic joint=\"pivot\"/>") {
     const std::string range = "<limit lower=\"-1\" upper=\"1\" effort=\"9\" velocity=\"3\"/>";
@@ -199,7 +199,7 @@ TEST_CASE("limits of acceleration and jerk are read from URDF 1.2, too") {
         Notices{"joint 'pivot': <limit>: jerk '0' is not a number > 0 and is ignored"});
 }
 
-TEST_CASE("what is odd in ros2_control, or refused by it, is reported") {
+TEST_CASE("mistakes in ros2_control are reported") {
   const auto notices = [](const std::string& component, const std::string& mechanics = "") {
     return read_urdf(UrdfSource(robot(
                          "<link name=\"base\"/>" + solid("rod") + solid("end") +
@@ -409,13 +409,13 @@ TEST_CASE("a chain that is too long is refused, and not followed") {
   CHECK_THROWS_WITH(read_urdf(UrdfSource(robot(inside))), Contains("links in one chain"));
 }
 
-TEST_CASE("what is said of the robot names the robot") {
+TEST_CASE("an error about the robot names the robot") {
   const std::string file = "<robot name=\"base\"><link name=\"base\"/><link name=\"b\"/>" +
                            joint("base", "fixed", "base", "b") + "</robot>";
   CHECK_THROWS_WITH(read_urdf(UrdfSource(file)), Contains("robot 'base': no joint moves"));
 }
 
-TEST_CASE("limits of a mimic that contradict what it mimics do not count, and that is told") {
+TEST_CASE("limits of a mimic joint that contradict the mimicked joint's are ignored and reported") {
   const auto finger = [](const std::string& name, const std::string& link, double lower,
                          double upper, const std::string& mimic) {
     return joint(name, "prismatic", "base", link,
@@ -469,7 +469,7 @@ TEST_CASE("document types and processing instructions are passed over") {
   CHECK(named.joints[0].name.view() == "<A&m;");
 }
 
-TEST_CASE("a mimic of a mimic that is left out follows the joint at the end of the line") {
+TEST_CASE("a mimic of a mimic that is left out mimics the last joint of the chain") {
   // Two arms: end mimics mid, which is on the other one and mimics master.
   const std::string file =
       robot("<link name=\"base\"/>" + solid("a") + solid("b") + solid("c") +
@@ -548,7 +548,7 @@ TEST_CASE("angles of more than a turn and inertias of giants are reported") {
                 "in kg m^2?"});
 }
 
-TEST_CASE("limits that are expressions in braces do not count and are reported") {
+TEST_CASE("limits that are expressions in braces are ignored and reported") {
   std::string file = support::pendulum();
   file.insert(file.rfind("</robot>"),
               "<ros2_control name='c' type='system'><joint name='pivot'><command_interface "
@@ -589,7 +589,7 @@ TEST_CASE("a place beyond the limits is reported") {
   CHECK(notices({.locked = {{"wheel", 100}}}).size() == 1);  // of the initial_value
 }
 
-TEST_CASE("limits that do not count, and reductions of 0, are reported") {
+TEST_CASE("ignored limits and reductions of 0 are reported") {
   const auto notices = [](const std::string& text) { return read_urdf(UrdfSource(text))->notices; };
   const auto limited = [&](const std::string& bounds) {
     return notices(support::pendulum(solid("rod"),
@@ -614,7 +614,7 @@ TEST_CASE("limits that do not count, and reductions of 0, are reported") {
         "transmission 't': actuator 'm': its mechanical reduction is 0, so it moves nothing");
 }
 
-TEST_CASE("a mimic that stands in ros2_control alone is reported") {
+TEST_CASE("a mimic in ros2_control alone is reported") {
   const auto notices = [](const std::string& mimic, const std::string& attributes,
                           const std::string& inside) {
     return read_urdf(UrdfSource(robot("<link name=\"base\"/>" + solid("a") + solid("b") +
@@ -637,7 +637,7 @@ TEST_CASE("a mimic that stands in ros2_control alone is reported") {
         "<ros2_control>: joint 'k': mimic 'false" + counts);
 }
 
-TEST_CASE("elements given twice that say the same, or do not count, are reported") {
+TEST_CASE("elements that occur twice and are equal or ignored are reported") {
   const auto notices = [](const std::string& inside, const std::string& type = "continuous") {
     const std::string file = robot("<link name=\"base\"/>" + solid("rod") + solid("tip") +
                                    joint("pivot", "continuous", "base", "rod") +
