@@ -198,10 +198,10 @@ TEST_CASE("A file and its text give the same robot") {
 TEST_CASE("A description cannot be changed; changed contents are checked again") {
   STATIC_REQUIRE(
       std::is_const_v<std::remove_reference_t<decltype(*std::declval<UrdfDescription&>())>>);
-  UrdfContents contents = *read_urdf(arm_file);
-  contents.joints.back().damping = 7;
-  CHECK(UrdfDescription(contents)->joints.back().damping == 7);
-  contents.links.back().mass = -1;
+  UrdfContents contents = *read_urdf(support::pendulum());
+  contents.joints[0].damping = 7;
+  CHECK(UrdfDescription(contents)->joints[0].damping == 7);
+  contents.links[1].mass = -1;
   CHECK_THROWS_WITH(UrdfDescription(contents), Catch::Contains("the mass is negative (-1 kg)"));
   contents = *read_urdf(arm_file);
   contents.right_angle_tolerance = 1;
