@@ -19,7 +19,8 @@ struct DescriptionFault {
 
 namespace detail {
 
-inline constexpr std::size_t none = static_cast<std::size_t>(-1);  ///< the index of no element
+inline constexpr std::size_t no_element =
+    static_cast<std::size_t>(-1);  ///< the index of no element
 
 /// The index of an element by name.
 template <class Element>
@@ -27,12 +28,12 @@ constexpr std::size_t index_of(std::span<const Element> elements, const Name& na
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (elements[i].name == name) return i;
   }
-  return none;
+  return no_element;
 }
 
 /// The tree by indices. Names are compared once only, because compilers limit the number of steps.
 struct TreeIndex {
-  std::vector<std::size_t> carriers;  ///< by link: the joint that carries it, none for a root
+  std::vector<std::size_t> carriers;  ///< by link: the joint that carries it, or no_element
   std::vector<std::size_t> parents;   ///< by joint: its parent link
 
   /// The joint that carries a joint's parent link.
@@ -44,20 +45,21 @@ struct TreeIndex {
 /// Fills the index of the tree. Returns the fault if links and joints do not form a tree.
 constexpr DescriptionFault index_tree(std::span<const Link> links, std::span<const Joint> joints,
                                       TreeIndex& tree) {
-  tree.carriers.assign(links.size(), none);
+  tree.carriers.assign(links.size(), no_element);
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = joints[j];
     const std::size_t parent = index_of(links, joint.parent), child = index_of(links, joint.child);
-    if (parent == none) return {joint.name, Rule::parent_link_does_not_exist};
-    if (child == none) return {joint.name, Rule::child_link_does_not_exist};
-    if (tree.carriers[child] != none) return {joint.child, Rule::link_is_the_child_of_two_joints};
+    if (parent == no_element) return {joint.name, Rule::parent_link_does_not_exist};
+    if (child == no_element) return {joint.name, Rule::child_link_does_not_exist};
+    if (tree.carriers[child] != no_element)
+      return {joint.child, Rule::link_is_the_child_of_two_joints};
     tree.carriers[child] = j;
     tree.parents.push_back(parent);
   }
   std::size_t root_count = 0;
   for (std::size_t i = 0; i < links.size(); ++i) {
     std::size_t steps = 0;
-    for (std::size_t j = tree.carriers[i]; j != none; j = tree.parent_joint(j)) {
+    for (std::size_t j = tree.carriers[i]; j != no_element; j = tree.parent_joint(j)) {
       if (++steps > joints.size()) return {links[i].name, Rule::links_form_a_loop};
     }
     if (steps == 0 && ++root_count > 1) {
@@ -74,13 +76,13 @@ constexpr std::vector<char> mass_movers(std::span<const Link> links, std::span<c
   std::vector<char> movers(joints.size(), 0);
   for (std::size_t i = 0; i < links.size(); ++i) {
     if (links[i].mass == 0 && links[i].inertia == Symmetric3<double>{}) continue;
-    for (std::size_t j = tree.carriers[i]; j != none; j = tree.parent_joint(j)) movers[j] = 1;
+    for (std::size_t j = tree.carriers[i]; j != no_element; j = tree.parent_joint(j)) movers[j] = 1;
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Mimic& mimic = joints[j].mimic;
     if (movers[j] == 0 || joints[j].type == JointType::fixed || mimic.multiplier == 0) continue;
     const std::size_t mimicked = index_of(joints, mimic.joint);
-    if (mimicked != none) movers[mimicked] = 1;
+    if (mimicked != no_element) movers[mimicked] = 1;
   }
   return movers;
 }
@@ -94,7 +96,7 @@ constexpr bool is_free(const Joint& joint) {
 constexpr Rule broken_mimic_rule(std::span<const Joint> joints, const Joint& joint) {
   if (joint.type == JointType::fixed || joint.mimic.joint.empty()) return Rule::none;
   const std::size_t mimicked = index_of(joints, joint.mimic.joint);
-  if (mimicked == none) return Rule::mimicked_joint_does_not_exist;
+  if (mimicked == no_element) return Rule::mimicked_joint_does_not_exist;
   return is_free(joints[mimicked]) ? Rule::none : Rule::mimicked_joint_is_not_free;
 }
 
@@ -108,7 +110,7 @@ constexpr Rule broken_rotor_rule(std::span<const Joint> joints, const Joint& joi
     return inertia == 0 ? Rule::none : Rule::rotors_are_shared_with_no_free_joint;
   }
   const std::size_t other = index_of(joints, name);
-  if (other == none || name == joint.name || !is_free(joint) || !is_free(joints[other])) {
+  if (other == no_element || name == joint.name || !is_free(joint) || !is_free(joints[other])) {
     return Rule::rotors_are_shared_with_no_free_joint;
   }
   for (const Joint& third : joints) {
