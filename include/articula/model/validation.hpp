@@ -19,10 +19,9 @@ struct DescriptionFault {
 
 namespace detail {
 
-inline constexpr std::size_t no_element =
-    static_cast<std::size_t>(-1);  ///< the index of no element
+inline constexpr auto no_element = static_cast<std::size_t>(-1);
 
-/// The index of an element by name.
+/// The index of an element by name, no_element if there is none.
 template <class Element>
 constexpr std::size_t index_of(std::span<const Element> elements, const Name& name) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
