@@ -2,7 +2,7 @@
 /// @file Robot descriptions from URDF files.
 #pragma once
 
-#include "articula/text/meant_word.hpp"
+#include "articula/text/similar_word.hpp"
 #include "articula/urdf/convert.hpp"
 #include "articula/urdf/description.hpp"
 #include "articula/urdf/excluded_branches.hpp"

@@ -2,7 +2,7 @@
 /// @file Notices about mistakes in <ros2_control>.
 #pragma once
 
-#include "articula/text/meant_word.hpp"
+#include "articula/text/similar_word.hpp"
 #include "articula/urdf/xml/notice_list.hpp"
 #include "articula/urdf/xml/unknown_words.hpp"
 #include "articula/urdf/xml/xml.hpp"

@@ -2,7 +2,7 @@
 /// @file Check that the links of a URDF form a tree that urdfdom can read.
 #pragma once
 
-#include "articula/text/meant_word.hpp"
+#include "articula/text/similar_word.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <cstddef>

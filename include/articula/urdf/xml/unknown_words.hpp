@@ -2,7 +2,7 @@
 /// @file Notices about attributes and elements that URDF does not define and that may be misspelt.
 #pragma once
 
-#include "articula/text/meant_word.hpp"
+#include "articula/text/similar_word.hpp"
 #include "articula/urdf/xml/known_words.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
