@@ -54,7 +54,7 @@ namespace articula::detail {
 /// words are equally near.
 /// @param words  the known words, a range of strings; the result refers to one of them
 template <class Words>
-[[nodiscard]] std::string_view meant_word(std::string_view unknown, const Words& words) {
+[[nodiscard]] std::string_view similar_word(std::string_view unknown, const Words& words) {
   std::string_view meant;
   std::size_t nearest = unknown.size() + 3;
   for (const std::string_view word : words) {
@@ -70,7 +70,7 @@ template <class Words>
 /// "; did you mean 'p'?" for the end of a message about an unknown word; empty if no word is near.
 template <class Words>
 [[nodiscard]] std::string did_you_mean(std::string_view unknown, const Words& words) {
-  const std::string_view meant = meant_word(unknown, words);
+  const std::string_view meant = similar_word(unknown, words);
   return meant.empty() ? "" : "; did you mean '" + shown(meant) + "'?";
 }
 
