@@ -18,7 +18,7 @@ std::string constant_text(double x) {
   return x == 0 && std::signbit(x) ? "-0.0" : detail::number_text(x);
 }
 
-/// A text as it may stand in a string literal.
+/// A text with the escapes of a string literal.
 std::string escaped(std::string_view text) {
   std::string result;
   for (char c : text) {
@@ -43,7 +43,10 @@ std::string vector_text(const Vector3<double>& a) {
          constant_text(a.z) + "}";
 }
 
-/// The members of an aggregate that are not as by default, with designators.
+constexpr std::size_t element_indent = 10;
+constexpr std::size_t member_indent = element_indent + 1;
+
+/// The members of an aggregate that differ from their defaults, with designators.
 class Members {
  public:
   void add(const std::string& name, const std::string& value) {
@@ -59,10 +62,13 @@ class Members {
     if (vector_text(value) != vector_text(by_default)) add(name, vector_text(value));
   }
 
-  [[nodiscard]] bool empty() const { return members_.empty(); }
+  void add(const std::string& name, const Members& value) {
+    const std::size_t column = member_indent + name.size() + std::string_view(". = ").size();
+    if (!value.members_.empty()) add(name, value.text(column));
+  }
 
-  /// All of them between braces, a line each if there are several.
-  /// @param indent  where the opening brace stands
+  /// All of them in braces, a line each.
+  /// @param indent  column of the opening brace
   [[nodiscard]] std::string text(std::size_t indent) const {
     const std::string separator = ",\n" + std::string(indent + 1, ' ');
     std::string result = "{";
@@ -74,9 +80,6 @@ class Members {
  private:
   std::vector<std::string> members_{};
 };
-
-constexpr std::size_t element_indent = 10;
-constexpr std::size_t member_indent = element_indent + 1;
 
 std::string link_text(const Link& link) {
   const Link bare;
@@ -91,9 +94,7 @@ std::string link_text(const Link& link) {
   inertia.add("yy", link.inertia.yy, 0);
   inertia.add("yz", link.inertia.yz, 0);
   inertia.add("zz", link.inertia.zz, 0);
-  if (!inertia.empty()) {
-    members.add("inertia", inertia.text(member_indent + std::string_view(".inertia = ").size()));
-  }
+  members.add("inertia", inertia);
   members.add("inertia_orientation", link.inertia_orientation, bare.inertia_orientation);
   return members.text(element_indent);
 }
@@ -134,9 +135,7 @@ std::string joint_text(const Joint& joint) {
   limits.add("soft_lower", joint.limits.soft_lower, bare.limits.soft_lower);
   limits.add("soft_upper", joint.limits.soft_upper, bare.limits.soft_upper);
   limits.add("soft_rate", joint.limits.soft_rate, bare.limits.soft_rate);
-  if (!limits.empty()) {
-    members.add("limits", limits.text(member_indent + std::string_view(".limits = ").size()));
-  }
+  members.add("limits", limits);
   members.add("damping", joint.damping, bare.damping);
   members.add("friction", joint.friction, bare.friction);
   members.add("reflected_inertia", joint.reflected_inertia, bare.reflected_inertia);
@@ -145,14 +144,13 @@ std::string joint_text(const Joint& joint) {
     mimic.add("joint", quoted(joint.mimic.joint));
     mimic.add("multiplier", joint.mimic.multiplier, bare.mimic.multiplier);
     mimic.add("offset", joint.mimic.offset, bare.mimic.offset);
-    members.add("mimic", mimic.text(member_indent + std::string_view(".mimic = ").size()));
+    members.add("mimic", mimic);
   }
   if (!joint.shared_rotors.joint.empty()) {
     Members rotors;
     rotors.add("joint", quoted(joint.shared_rotors.joint));
     rotors.add("inertia", joint.shared_rotors.inertia, bare.shared_rotors.inertia);
-    members.add("shared_rotors",
-                rotors.text(member_indent + std::string_view(".shared_rotors = ").size()));
+    members.add("shared_rotors", rotors);
   }
   return members.text(element_indent);
 }
@@ -170,51 +168,48 @@ void check(const HeaderNames& names) {
   const std::regex identifier("[A-Za-z][A-Za-z0-9_]*");
   const std::regex qualified("([A-Za-z][A-Za-z0-9_]*(::[A-Za-z][A-Za-z0-9_]*)*)?");
   if (!std::regex_match(names.type, identifier)) {
-    throw std::invalid_argument("'" + names.type + "' cannot be the name of a struct");
+    throw std::invalid_argument("'" + names.type + "' is not a valid name of a struct");
   }
   if (!std::regex_match(names.name_space, qualified)) {
-    throw std::invalid_argument("'" + names.name_space + "' cannot be the name of a namespace");
+    throw std::invalid_argument("'" + names.name_space + "' is not a valid name of a namespace");
   }
 }
 
 }  // namespace
 
 std::string header_text(const UrdfDescription& description, const HeaderNames& names) {
+  const UrdfContents& robot = *description;
   check(names);
   const std::string space = names.name_space;
   std::string text = "// Made by articula_add_robot from " +
-                     escaped(description.file.substr(description.file.find_last_of('/') + 1)) +
-                     ". Changes go there.\n";
+                     escaped(robot.file.substr(robot.file.find_last_of('/') + 1)) +
+                     ". Edit that file instead.\n";
   text +=
       "#pragma once\n\n"
       "#include <articula/model/description.hpp>\n\n"
       "#include <array>\n\n";
   if (!space.empty()) text += "namespace " + space + " {\n\n";
-  text += "/// The robot '" + escaped(description.name) + "'";
-  if (!description.notices.empty()) {
-    text += ". To be known:";
-    for (const std::string& notice : description.notices) text += "\n/// - " + escaped(notice);
-    text += "\n";
-  } else {
-    text += ".\n";
-  }
+  text += "/// The robot '" + escaped(robot.name) + "'";
+  text += robot.notices.empty() ? "." : ". Notices:";
+  for (const std::string& notice : robot.notices) text += "\n/// - " + escaped(notice);
+  text += "\n";
   text += "struct " + names.type + " {\n" +
           "  static constexpr articula::RobotDescription description{\n" +
-          "      .name = " + quoted(description.name) + ",\n" +
-          "      .gravity = " + vector_text(description.gravity) + ",\n" +
-          "      .links = " + array_text("Link", description.links, link_text) + ",\n" +
-          "      .joints = " + array_text("Joint", description.joints, joint_text);
-  // Compilers that deduce the description's type want no member left out before another one.
+          "      .name = " + quoted(robot.name) + ",\n" +
+          "      .gravity = " + vector_text(robot.gravity) + ",\n" +
+          "      .links = " + array_text("Link", robot.links, link_text) + ",\n" +
+          "      .joints = " + array_text("Joint", robot.joints, joint_text);
+  // Compilers deduce the description's type only if no member before another one is left out.
   const auto truth = [](bool is_true) { return is_true ? "true" : "false"; };
-  const bool own_tolerance = description.right_angle_tolerance != default_right_angle_tolerance;
-  if (description.allow_unphysical || own_tolerance || description.kinematic) {
-    text += std::string(",\n      .allow_unphysical = ") + truth(description.allow_unphysical);
+  const bool own_tolerance = robot.right_angle_tolerance != default_right_angle_tolerance;
+  if (robot.allow_unphysical || own_tolerance || robot.kinematic) {
+    text += std::string(",\n      .allow_unphysical = ") + truth(robot.allow_unphysical);
   }
-  if (own_tolerance || description.kinematic) {
+  if (own_tolerance || robot.kinematic) {
     text += ",\n      .right_angle_tolerance = ";
-    text += constant_text(description.right_angle_tolerance);
+    text += constant_text(robot.right_angle_tolerance);
   }
-  if (description.kinematic) text += ",\n      .kinematic = true";
+  if (robot.kinematic) text += ",\n      .kinematic = true";
   text += "};\n};\n";
   if (!space.empty()) text += "\n}  // namespace " + space + "\n";
   return text;

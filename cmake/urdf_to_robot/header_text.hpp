@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A robot's description as C++.
+/// @file Text of a C++ header with a robot's description.
 #pragma once
 
 #include <articula/urdf/description.hpp>
@@ -8,15 +8,15 @@
 
 namespace articula {
 
-/// How the C++ of a robot is to be named.
+/// Names in the header.
 struct HeaderNames {
   std::string type{};        ///< name of the struct, such as "Iiwa"
-  std::string name_space{};  ///< where it goes, such as "lab::robots"; empty: the global namespace
+  std::string name_space{};  ///< its namespace, such as "lab::robots"; empty: the global one
 };
 
 /// A header that defines a struct with the description as a constexpr RobotDescription. Every
 /// number reads back as the same double.
-/// @throws std::invalid_argument if a name is none that C++ accepts
+/// @throws std::invalid_argument if a name is not valid in C++
 [[nodiscard]] std::string header_text(const UrdfDescription& description, const HeaderNames& names);
 
 }  // namespace articula

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Turns a URDF into a header with the robot's description; articula_add_robot runs it.
+/// @file Converts a URDF to a header with the robot's description; articula_add_robot runs it.
+///
+/// It parses its options without CLI11: it is built on each user's machine, where it must need
+/// nothing but urdfdom.
 #include "header_text.hpp"
 
-#include <articula/text/numbers.hpp>
+#include <articula/urdf/read_urdf.hpp>
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace {
@@ -25,6 +31,7 @@ struct Arguments {
   articula::UrdfOptions options{};
 };
 
+/// A finite number.
 /// @param where  the option, for the message
 double number(const std::string& where, const std::string& text) {
   const auto number = articula::detail::number_of(text);
@@ -41,6 +48,11 @@ articula::LockedJoint locked_joint(const std::string& text) {
 
 Arguments parse(const std::vector<std::string>& words) {
   Arguments arguments;
+  articula::UrdfOptions& options = arguments.options;
+  const std::map<std::string_view, std::string*> texts{
+      {"--urdf", &arguments.urdf},       {"--output", &arguments.output},
+      {"--type", &arguments.names.type}, {"--namespace", &arguments.names.name_space},
+      {"--root", &options.root},         {"--tip", &options.tip}};
   std::size_t at = 0;
   const auto value = [&]() -> const std::string& {
     if (++at >= words.size()) throw std::invalid_argument(words[at - 1] + " needs a value");
@@ -48,29 +60,20 @@ Arguments parse(const std::vector<std::string>& words) {
   };
   for (; at < words.size(); ++at) {
     const std::string& word = words[at];
-    if (word == "--urdf") {
-      arguments.urdf = value();
-    } else if (word == "--output") {
-      arguments.output = value();
-    } else if (word == "--type") {
-      arguments.names.type = value();
-    } else if (word == "--namespace") {
-      arguments.names.name_space = value();
-    } else if (word == "--root") {
-      arguments.options.root = value();
-    } else if (word == "--tip") {
-      arguments.options.tip = value();
+    if (const auto text = texts.find(word); text != texts.end()) {
+      *text->second = value();
     } else if (word == "--lock") {
-      arguments.options.locked.push_back(locked_joint(value()));
+      options.locked.push_back(locked_joint(value()));
     } else if (word == "--gravity") {
-      const double x = number("GRAVITY", value()), y = number("GRAVITY", value());
-      arguments.options.gravity = {x, y, number("GRAVITY", value())};
+      for (double* component : {&options.gravity.x, &options.gravity.y, &options.gravity.z}) {
+        *component = number("GRAVITY", value());
+      }
     } else if (word == "--right-angle-tolerance") {
-      arguments.options.right_angle_tolerance = number("RIGHT_ANGLE_TOLERANCE", value());
+      options.right_angle_tolerance = number("RIGHT_ANGLE_TOLERANCE", value());
     } else if (word == "--allow-unphysical") {
-      arguments.options.allow_unphysical = true;
+      options.allow_unphysical = true;
     } else if (word == "--kinematic") {
-      arguments.options.kinematic = true;
+      options.kinematic = true;
     } else {
       throw std::invalid_argument("unknown option '" + word + "'\n" + usage);
     }
@@ -93,7 +96,7 @@ int main(int count, char** words) {
     const articula::UrdfDescription description =
         articula::read_urdf(std::filesystem::path(arguments.urdf), arguments.options);
     write(arguments.output, header_text(description, arguments.names));
-    for (const std::string& notice : description.notices) {
+    for (const std::string& notice : description->notices) {
       std::fprintf(stderr, "warning: %s: %s\n", arguments.urdf.c_str(), notice.c_str());
     }
     return 0;

@@ -8,9 +8,9 @@
 /// joints in their order, and the notices. A robot without masses is shown as load_kinematic_urdf
 /// loads it.
 ///
-/// Exit status 0; 1 if the file cannot be read or is no URDF, 2 if the options are wrong.
+/// Exit status 0; 1 if the file cannot be read or is not URDF, 2 if the options are wrong.
 #include <articula/model/build_model.hpp>
-#include <articula/urdf/description.hpp>
+#include <articula/urdf/read_urdf.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -48,7 +48,7 @@ const char* type_name(int type) {
   }
 }
 
-/// What a joint is, without its name.
+/// The type, links, axis and limits of a joint.
 std::string properties(const articula::UrdfDocument& document, const urdf::Joint& joint) {
   std::string text = type_name(joint.type);
   text += ", " + joint.parent_link_name + " -> " + joint.child_link_name;
@@ -79,7 +79,7 @@ std::string properties(const articula::UrdfDocument& document, const urdf::Joint
   return text;
 }
 
-/// Prints a link's joints and what is beyond them, depth first.
+/// Prints all joints below a link, depth first.
 void list(const articula::UrdfDocument& document, const urdf::Link& root, bool moving_only) {
   std::vector<urdf::JointSharedPtr> open;  // the next one last
   const auto add_joints = [&open](const urdf::Link& link) {
@@ -111,33 +111,33 @@ void list_transmissions(const articula::UrdfDocument& document) {
   }
 }
 
-/// Prints what load_urdf, or load_kinematic_urdf, makes of the file.
+/// Prints the call that loads a robot, its joints and its notices.
 void describe(const articula::UrdfDescription& description) {
-  const articula::ModelSize size = articula::model_size(description.joints);
-  std::printf("%s<%d", description.kinematic ? "load_kinematic_urdf" : "load_urdf", size.joints);
+  const articula::ModelSize size = articula::model_size(description->joints);
+  std::printf("%s<%d", description->kinematic ? "load_kinematic_urdf" : "load_urdf", size.joints);
   if (size.bodies != size.joints) std::printf(", %d", size.bodies);
   const char* separator = ">: ";
-  for (const articula::Joint& joint : description.joints) {
+  for (const articula::Joint& joint : description->joints) {
     if (joint.type == articula::JointType::fixed || !joint.mimic.joint.empty()) continue;
     std::printf("%s%s", separator, std::string(joint.name.view()).c_str());
     separator = ", ";
   }
   std::printf("\n");
-  for (const std::string& notice : description.notices) std::printf("%s\n", notice.c_str());
+  for (const std::string& notice : description->notices) std::printf("%s\n", notice.c_str());
 }
 
-/// Describes a file; where load_urdf refuses it for its masses, as a robot without them.
-void describe(const std::filesystem::path& file, articula::UrdfOptions options) {
+/// Describes a file; if load_urdf refuses its masses, as a robot without masses.
+void describe(const articula::UrdfDocument& document, articula::UrdfOptions options) {
   std::string reason;
   try {
-    return describe(articula::read_urdf(file, options));
+    return describe(articula::read_urdf(document, options));
   } catch (const articula::UrdfError& error) {
     reason = error.what();
   }
   options.kinematic = true;
   try {
-    describe(articula::read_urdf(file, options));
-  } catch (const articula::UrdfError&) {  // masses are not all that is wrong
+    describe(articula::read_urdf(document, options));
+  } catch (const articula::UrdfError&) {  // the masses are not the only fault
     throw std::runtime_error(reason);
   }
   std::printf("load_urdf refuses it: %s\n", reason.c_str());
@@ -152,15 +152,15 @@ int main(int count, char** words) {
   articula::UrdfOptions options;
   std::vector<std::string> locked;
   app.add_option("file", file, "the URDF")->required();
-  app.add_flag("--moving", moving_only, "leave out fixed joints");
-  app.add_flag("--transmissions", transmissions, "list the transmissions, too");
-  app.add_flag("--model", model, "say how to load the file");
+  app.add_flag("--moving", moving_only, "skip fixed joints");
+  app.add_flag("--transmissions", transmissions, "list the transmissions as well");
+  app.add_flag("--model", model, "print the call that loads the file");
   app.add_option("--root", options.root, "the model's root link")->needs("--model");
   app.add_option("--tip", options.tip, "the link at which a chain ends")->needs("--model");
-  app.add_option("--lock", locked, "a joint to be held at 0")
+  app.add_option("--lock", locked, "a joint to hold at 0")
       ->needs("--model")
       ->allow_extra_args(false);  // one each time
-  app.add_flag("--allow-unphysical", options.allow_unphysical, "accept such inertias")
+  app.add_flag("--allow-unphysical", options.allow_unphysical, "accept inertias that no body has")
       ->needs("--model");
   try {
     app.parse(count, words);
@@ -171,12 +171,11 @@ int main(int count, char** words) {
     return 2;
   }
   try {
-    const std::filesystem::path path(file);
-    const articula::UrdfDocument document = articula::parse_urdf(path);
+    const articula::UrdfDocument document = articula::parse_urdf(std::filesystem::path(file));
     list(document, *document.robot->getRoot(), moving_only);
     if (transmissions) list_transmissions(document);
     options.locked.assign(locked.begin(), locked.end());
-    if (model) describe(path, options);
+    if (model) describe(document, options);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "urdf_joints: %s\n", error.what());

@@ -138,7 +138,7 @@ TEST_CASE("joints that are missing or another robot's are found before their gai
   CHECK_THAT(of_gains("gains: [1, 2]"), Contains("gains: a list of 2, expected a map"));
 }
 
-TEST_CASE("joints that cannot be commanded are told why") {
+TEST_CASE("messages state why a joint takes no commands") {
   const auto complaint = [](const std::string& joint) {
     return complaint_of([&] {
       static_cast<void>(load_pid_gains(Spinner(), yaml("gains: {" + joint + ": {p: 1}}")));
@@ -242,7 +242,7 @@ TEST_CASE("which way round is noted where the file and the joint say different t
              Contains("'angle_wraparound' has the same meaning, expected one of the two keys"));
 }
 
-TEST_CASE("a decimal comma is told") {
+TEST_CASE("a decimal comma is named") {
   const auto elbow = [](const std::string& gains) {
     return of_gains(shoulder + "elbow_active_joint: {" + gains + "}\n");
   };
@@ -296,7 +296,7 @@ TEST_CASE("marks between thousands are refused, and what may be a decimal comma 
       Contains("the number 100, expected a whole number from 0 to 99") && !Contains("to 99 "));
 }
 
-TEST_CASE("what stands behind a number, or around it, is told") {
+TEST_CASE("messages name units, expressions and quotation marks around numbers") {
   const auto p = [](const std::string& value) {
     return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
   };
@@ -325,7 +325,7 @@ TEST_CASE("what stands behind a number, or around it, is told") {
         "'controllermanager'");
 }
 
-TEST_CASE("decimal commas in the matrices of computed torque are told") {
+TEST_CASE("decimal commas in the matrices of computed torque are refused") {
   const auto kp = [](const std::string& list) {
     return of_gains(joints + "Kp: " + list + "\nKd: [1, 1]\n");
   };
@@ -359,7 +359,7 @@ TEST_CASE("decimal commas in the matrices of computed torque are told") {
   CHECK_THAT(spinner("[1,5]"), Contains("a number for each of 1 joint with decimal points"));
 }
 
-TEST_CASE("placeholders that were not filled in are told") {
+TEST_CASE("placeholders without a value are named") {
   const auto p = [](const std::string& value) {
     return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
   };
@@ -411,7 +411,7 @@ TEST_CASE("placeholders that were not filled in are told") {
                  "robot_description: $(find arm)/arm.urdf\n") == "none");
 }
 
-TEST_CASE("characters that look like others are told") {
+TEST_CASE("characters that look like others are named") {
   const auto p = [](const std::string& value) {
     return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
   };
@@ -448,7 +448,7 @@ TEST_CASE("characters that look like others are told") {
              Contains("test:3:25: elbow_active_joint.p: the word 'many'"));
 }
 
-TEST_CASE("blanks that are none to YAML are told") {
+TEST_CASE("characters that look like blanks and are letters to YAML are named") {
   for (const auto& [odd, name] : {std::pair<std::string, std::string>{"\xC2\xA0",
                                                                       "a no-break space "
                                                                       "(U+00A0)"},
@@ -484,7 +484,7 @@ TEST_CASE("blanks that are none to YAML are told") {
         "test:3:3: a tab in the indentation, expected spaces");
 }
 
-TEST_CASE("waveforms below a joint of a controller are told where they belong") {
+TEST_CASE("messages about waveforms below a joint state where they belong") {
   const std::string expected =
       "expected 'waveforms' in the section itself, and the joints below it: waveforms: "
       "{elbow_active_joint: {amplitude: ..., frequency: ...}}";

@@ -302,5 +302,5 @@ TEST_CASE("who asks for a mimic joint is told which one it follows") {
   robot.joints[0].mimic = {.joint = "left_joint"};
   const Model<1, 2> model = robot.model<1, 2>();
   CHECK_THROWS_WITH(joint_index(model, "a_right"),
-                    "robot 'hand': joint 'a_right' mimics 'left_joint': ask for that");
+                    "robot 'hand': joint 'a_right' mimics 'left_joint': name that joint");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What is wrong with a URDF is said in one line with file, element, reason and figures.
+/// @file An error of a URDF is one line with file, element, reason and figures.
 #include <articula/urdf/urdf.hpp>
 
 #include <console_bridge/console.h>
@@ -39,8 +39,7 @@ std::string refusal(const std::string& source, const UrdfOptions& options = {}) 
 
 /// The end of a message about a mass that is missing.
 const std::string kinematic =
-    "; without dynamics, load_kinematic_urdf (KINEMATIC in CMake) loads the robot and leaves out "
-    "all masses";
+    "; to load the robot without masses and dynamics, use load_kinematic_urdf (KINEMATIC in CMake)";
 
 /// A pendulum whose joint has that inside.
 std::string with_joint(const std::string& inside, const std::string& type = "continuous") {
@@ -82,29 +81,29 @@ TEST_CASE("The file is named") {
 
 TEST_CASE("Text that is not XML") {
   CHECK(refusal("<") == "URDF:1: a tag has no name");
-  CHECK(refusal("<robot name=r>") == "URDF:1: an attribute's value is not between quotes");
-  CHECK(refusal("<robot\n name=\"r") == "URDF:2: an attribute's value is not between quotes");
+  CHECK(refusal("<robot name=r>") == "URDF:1: an attribute's value is not in quotes");
+  CHECK(refusal("<robot\n name=\"r") == "URDF:2: an attribute's value is not in quotes");
   CHECK(refusal("<robot a>") == "URDF:1: an attribute has no value");
   CHECK(refusal("<robot name='r'>\n\n<link name='a'/>") ==
         "URDF:3: <robot> of line 1 is not closed");
-  CHECK(refusal("<robot name='r'></robot></link>") == "URDF:1: </link> closes what was not opened");
+  CHECK(refusal("<robot name='r'></robot></link>") == "URDF:1: </link> closes no open element");
   CHECK(refusal("<robot name='r'>\n<link name='a'>\n\n</robot>") ==
-        "URDF:4: </robot> stands where <link> of line 2 is to be closed");
+        "URDF:4: </robot> is found, but <link> of line 2 is open");
   CHECK(refusal("<!-- <robot>") == "URDF:1: a comment is not closed");
-  CHECK(refusal("<![CDATA[ <robot>") == "URDF:1: a CDATA part is not closed");
+  CHECK(refusal("<![CDATA[ <robot>") == "URDF:1: a CDATA section is not closed");
   CHECK(refusal("<?xml version='1.0'>") == "URDF:1: a <? is not closed by ?>");
   CHECK(refusal("<!ELEMENT robot><robot/>") ==
-        "URDF:1: a <! that begins no comment, CDATA part or document type");
+        "URDF:1: <! begins neither a comment, a CDATA section nor a document type");
   CHECK(refusal("<robot\n name='r' name='s'/>") == "URDF:2: the attribute 'name' is given twice");
   CHECK(refusal(pendulum() + "\n" + pendulum()) ==
-        "URDF:2: a second element at the top; XML has one");
-  CHECK(refusal(pendulum() + "\n\n>") == "URDF:3: there is text outside of the robot");
+        "URDF:2: there is a second top element; XML allows one");
+  CHECK(refusal(pendulum() + "\n\n>") == "URDF:3: there is text outside of the top element");
   const auto file = std::filesystem::temp_directory_path() / "articula_no_xml_test.urdf";
   const std::string nul = ":1:";
   const std::string utf8 = ": a NUL character, expected UTF-8 text (UTF-16 is not supported)";
   for (const auto& [text, fault] :
-       {std::pair<std::string, std::string>{" \n", ": it is no XML: it has no tag"},
-        {"version 1", ": it is no XML: it has no tag"},
+       {std::pair<std::string, std::string>{" \n", ": this is not XML: it has no tag"},
+        {"version 1", ": this is not XML: it has no tag"},
         {std::string("\xFF\xFE<\0r\0", 6), nul + "4" + utf8},
         {std::string("<\0r\0", 4), nul + "2" + utf8},
         {std::string("\0<\0r", 4), nul + "1" + utf8}}) {
@@ -114,7 +113,7 @@ TEST_CASE("Text that is not XML") {
   std::filesystem::remove(file);
 }
 
-TEST_CASE("What a document type declares cannot be honoured, and is refused where it is used") {
+TEST_CASE("Declarations of a document type are refused where they are used") {
   const auto with = [](const std::string& declarations, const std::string& robot = pendulum()) {
     return refusal("<!DOCTYPE robot [" + declarations + "]>\n" + robot);
   };
@@ -122,28 +121,34 @@ TEST_CASE("What a document type declares cannot be honoured, and is refused wher
   CHECK(with(entity).empty());
   std::string used = pendulum();
   used.replace(used.find("\"2\""), 3, "\"&m;\"");
-  CHECK(with(entity, used) == "URDF:2: the entity &m; is used, but only XML's own are read");
+  CHECK(with(entity, used) ==
+        "URDF:2: the entity &m; is not supported: write its text (&amp; &lt; &gt; &quot; "
+        "&apos; are "
+        "supported)");
   CHECK(refusal("<robot name='r'>\n&m;</robot>") ==
-        "URDF:2: the entity &m; is used, but only XML's own are read");
+        "URDF:2: the entity &m; is not supported: write its text (&amp; &lt; &gt; &quot; "
+        "&apos; are "
+        "supported)");
   CHECK(with("<!ATTLIST joint type CDATA 'fixed'>") ==
-        "URDF:1: a document type has values of attributes, which are not read");
+        "URDF:1: values of attributes in a document type are not supported");
   CHECK(with("<!ATTLIST joint type CDATA #IMPLIED> <!ENTITY m '2'>").empty());
   CHECK(with("<!ENTITY % x '<!ENTITY m 2>'>").empty());
   CHECK(with("<!ENTITY % x ''> %x;") ==
-        "URDF:1: an entity of the document type is used, which is not read");
-  CHECK(with("<!ENTITY m ']>\n") == "URDF:1: a document type is not closed");
-  CHECK(refusal("<!DOCTYPE robot [\n") == "URDF:2: a document type is not closed");
+        "URDF:1: the use of an entity in a document type is not supported");
+  CHECK(with("<!ENTITY m ']>\n") == "URDF:1: the document type is not closed");
+  CHECK(refusal("<!DOCTYPE robot [\n") == "URDF:2: the document type is not closed");
   CHECK(refusal("<!DOCTYPE robot [<!--\n]>") == "URDF:1: a comment is not closed");
   CHECK(refusal("<robot name='r'><!DOCTYPE robot></robot>") ==
-        "URDF:1: a document type stands behind the beginning of the robot");
+        "URDF:1: the document type must stand before the top element");
   CHECK(refusal("<!DOCTYPE robot>\n<!DOCTYPE robot>\n" + pendulum()) ==
-        "URDF:2: a second document type; XML has one");
+        "URDF:2: there is a second document type; XML allows one");
   CHECK(refusal("<?x a=\"?>\"?>\n" + pendulum()) ==  // ends at the first ?>
-        "URDF:1: there is text outside of the robot");
+        "URDF:1: there is text outside of the top element");
 }
 
-TEST_CASE("What is left of xacro is named") {
-  const std::string advice = " is left of xacro: have it written out (xacro r.xacro > r.urdf)";
+TEST_CASE("Unexpanded xacro is refused") {
+  const std::string advice =
+      " is unexpanded xacro: run `xacro r.xacro > r.urdf` and load the result";
   CHECK(refusal(robot("<xacro:property name='m' value='2'/><xacro:arm/>")) ==
         "URDF: <xacro:property>" + advice);
   std::string text = pendulum();  // complete, but for what is to be added
@@ -156,9 +161,9 @@ TEST_CASE("What is left of xacro is named") {
         "URDF: link '$(arg p)rod': '$(arg p)rod'" + advice);
 }
 
-TEST_CASE("Elements with capitals are not left out in silence") {
+TEST_CASE("Links and joints with capital letters are refused") {
   CHECK(refusal(robot(base + solid("rod") + "<Joint name=\"pivot\" type=\"fixed\"/>")) ==
-        "URDF: <Joint name=\"pivot\">: it is written <joint>");
+        "URDF: <Joint name=\"pivot\">: write the element's name as <joint>");
 }
 
 TEST_CASE("Elements nested without end") {
@@ -167,25 +172,27 @@ TEST_CASE("Elements nested without end") {
   CHECK(refusal(deep) == "URDF:1: elements are nested more than 100 deep");
 }
 
-TEST_CASE("XML that is no robot") {
-  CHECK(refusal("<link name='a'/>") == "URDF: there is no <robot>, but <link>");
+TEST_CASE("XML without a robot") {
+  CHECK(refusal("<link name='a'/>") == "URDF: the top element must be <robot>, but is <link>");
   CHECK(refusal("<robot/>") == "URDF: No name given for the robot.");
   CHECK(refusal(robot("")) == "URDF: No link elements found in urdf file");
   CHECK(refusal(robot(base)) == "URDF: robot 'r': no joint moves");
 }
 
-TEST_CASE("Inertias that cannot be") {
+TEST_CASE("Inertias of no real body") {
   CHECK(
       refusal(inertial("0")) ==
       "URDF: link 'rod': the link has inertia but no mass (mass 0 kg, principal moments of inertia "
-      "1, 1, 1 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it");
+      "1, 1, 1 kg m^2); to accept it, set allow_unphysical (ALLOW_UNPHYSICAL in CMake)");
   CHECK(
       refusal(inertial("1", "2.5")) ==
       "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
-      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it");
+      "of inertia 1, 1, 2.5 kg m^2); to accept it, set allow_unphysical (ALLOW_UNPHYSICAL in "
+      "CMake)");
   CHECK(refusal(inertial("1", "1", "-1.5")) ==
         "URDF: link 'rod': the inertia is not positive definite (mass 1 kg, principal moments of "
-        "inertia -0.5, 1, 2.5 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it");
+        "inertia -0.5, 1, 2.5 kg m^2); to accept it, set allow_unphysical (ALLOW_UNPHYSICAL in "
+        "CMake)");
   const std::string bad =
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
       "izz='2.5'/></inertial>";
@@ -199,8 +206,8 @@ TEST_CASE("Inertias that cannot be") {
                     "link='rod'/><child link='tool'/></joint><joint name='weld2' "
                     "type='fixed'><parent link='rod'/><child link='flag'/></joint>")) ==
       "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
-      "of inertia 1, 1, 2.5 kg m^2); allow_unphysical (ALLOW_UNPHYSICAL in CMake) accepts it, "
-      "as it does 'tool', 'flag'");
+      "of inertia 1, 1, 2.5 kg m^2); to accept it and those of 'tool', 'flag', set "
+      "allow_unphysical (ALLOW_UNPHYSICAL in CMake)");
   CHECK(refusal(inertial("-1"), {.allow_unphysical = true}) ==
         "URDF: link 'rod': the mass is negative (-1 kg)");
   CHECK(refusal(pendulum("<link name='rod'/>")) ==
@@ -209,7 +216,7 @@ TEST_CASE("Inertias that cannot be") {
             kinematic);
 }
 
-TEST_CASE("Numbers that are none") {
+TEST_CASE("Texts that are not numbers") {
   for (const char* number : {"nan", "inf", "-inf", "1e999", "1,5", "0x10", "2 kg", "", "--1"}) {
     CAPTURE(number);
     CHECK(refusal(inertial(number)).find("rod") != std::string::npos);
@@ -230,7 +237,8 @@ TEST_CASE("Numbers that are none") {
   CHECK(refusal(with_joint("<axis xyz=\"1e200 0 0\"/>")).empty());  // a direction like any other
 }
 
-TEST_CASE("What is no number is named with its element, and never taken for a format of printf") {
+TEST_CASE(
+    "A text that is not a number is named with its element, and never used as a format of printf") {
   const std::string none = "' is not a finite number";
   std::map<std::string, std::string> messages = {
       {"pi/2", "'pi/2" + none + "; expressions are not computed"},
@@ -265,11 +273,13 @@ TEST_CASE("What is no number is named with its element, and never taken for a fo
         axis + "0," + none + "; write the number alone, 0");
   for (const std::string text : {"0,0,", "0,0,1"}) {
     CHECK(refusal(with_joint("<axis xyz=\"" + text + " 0 1\"/>")) ==
-          axis + text + none + "; numbers have blanks between them, and no commas");
+          axis + text + none + "; separate numbers by blanks, not by commas");
   }
   for (const std::string text : {"{{ m }}", "{% m %}", "<%= m %>"}) {
     CHECK(refusal(inertial(text)) ==
-          "URDF: link 'rod': '" + text + "' is a placeholder that a template tool was to fill in");
+          "URDF: link 'rod': '" + text +
+              "' is an unexpanded placeholder: run the template tool and load "
+              "the result");
   }
 }
 
@@ -278,10 +288,9 @@ TEST_CASE("An inertia that urdfdom cannot read is not left out") {
   CHECK(refusal(with_inertial("<mass/>")).find("[rod]") != std::string::npos);
 }
 
-TEST_CASE("Elements given twice that say different things") {
-  const std::string limit = "<limit effort=\"1\" velocity=\"1\"/>", other =
-                                                                        ", which says something "
-                                                                        "else than the first";
+TEST_CASE("Elements that occur twice and differ") {
+  const std::string limit = "<limit effort=\"1\" velocity=\"1\"/>",
+                    other = " differs from the first: remove one of them";
   for (const auto& [name, inside] :
        {std::pair<std::string, std::string>{"limit",
                                             limit + "<limit effort=\"2\" velocity=\"1\"/>"},
@@ -312,7 +321,7 @@ TEST_CASE("Elements given twice that say different things") {
   }
 }
 
-TEST_CASE("Joints that cannot be") {
+TEST_CASE("Impossible joints") {
   CHECK(refusal(with_joint("<axis xyz=\"0 0 0\"/>")) ==
         "URDF: joint 'pivot': the axis has length 0 (0 0 0)");
   CHECK(refusal(with_joint("<limit lower=\"1\" upper=\"-0.5\" effort=\"1\" velocity=\"1\"/>",
@@ -333,8 +342,7 @@ TEST_CASE("Joints that cannot be") {
   for (const char* type : {"planar", "floating"}) {
     CHECK(refusal(with_joint("", type)) ==
           "URDF: joint 'pivot': it is " + std::string(type) +
-              "; joints with one degree of freedom are supported (lock it, or choose a root beyond "
-              "it)");
+              ", but joints must have one degree of freedom: lock it, or choose a root beyond it");
   }
 }
 
@@ -348,7 +356,7 @@ TEST_CASE("Floating joints can be locked or left behind") {
   CHECK(refusal(text, {.locked = {{"float", 1}}}).find("floating") != std::string::npos);
 }
 
-TEST_CASE("Links that are no tree") {
+TEST_CASE("Links that do not form a tree") {
   const std::string a = solid("a"), b = solid("b"), c = solid("c");
   CHECK(refusal(robot(a + b + joint("i", "continuous", "a", "b") +
                       joint("j", "continuous", "a", "b"))) ==
@@ -364,15 +372,15 @@ TEST_CASE("Links that are no tree") {
   CHECK(refusal(robot(a + b)) ==
         "URDF: Failed to find root link: Two root links found: [a] and [b]");
   CHECK(refusal(robot(a + "<link name='b'>" + joint("i", "continuous", "a", "b") + "</link>")) ==
-        "URDF: Failed to find root link: Two root links found: [a] and [b]; perhaps because of "
-        "this: link 'b': <link>: the element <joint> is not known there and does not count");
+        "URDF: Failed to find root link: Two root links found: [a] and [b]; a possible "
+        "cause: link 'b': <link>: the element <joint> is unknown and is ignored");
   CHECK(refusal(robot(a + joint("i", "continuous", "a", "x"))) ==
-        "URDF: joint 'i': its child link 'x' is no <link> of the file; links: a");
+        "URDF: joint 'i': its child link 'x' is not a <link> of the file; links: a");
   CHECK(refusal(robot(a + solid("forearm") + joint("i", "continuous", "foreram", "a"))) ==
-        "URDF: joint 'i': its parent link 'foreram' is no <link> of the file; did you mean "
+        "URDF: joint 'i': its parent link 'foreram' is not a <link> of the file; did you mean "
         "'forearm'?");
   CHECK(refusal(robot(a + solid("FORE_ARM") + joint("i", "continuous", "FORE_AMR", "a"))) ==
-        "URDF: joint 'i': its parent link 'FORE_AMR' is no <link> of the file; did you mean "
+        "URDF: joint 'i': its parent link 'FORE_AMR' is not a <link> of the file; did you mean "
         "'FORE_ARM'?");
   CHECK_THAT(refusal(robot("<link/>" + a + joint("i", "continuous", "a", "x"))),
              Contains("No name given for the link"));
@@ -380,12 +388,12 @@ TEST_CASE("Links that are no tree") {
   // In time, though words as long as these could be compared letter by letter for minutes.
   const std::string long_name(60000, 'x'), other(60000, 'y');
   CHECK_THAT(refusal(robot(a + solid(long_name) + joint("i", "continuous", "a", other))),
-             Contains("'" + other + "' is no <link> of the file"));
+             Contains("'" + other + "' is not a <link> of the file"));
   CHECK(refusal(robot(a + "<joint name='i' type='fixed'/>")) ==
         "URDF: joint 'i': it has no child link");
 }
 
-TEST_CASE("Names that cannot be") {
+TEST_CASE("Invalid names") {
   const std::string a = solid("a"), long_name(64, 'x'), longest(63, 'x');
   CHECK(refusal(robot(a + a)) == "URDF: link 'a' is not unique.");
   CHECK(refusal(robot(a + solid("b") + solid("c") + joint("i", "continuous", "a", "b") +
@@ -395,7 +403,7 @@ TEST_CASE("Names that cannot be") {
         "URDF: joint '': the name is missing");
   CHECK(refusal(robot(base + solid(longest) + joint("i", "continuous", "base", longest))).empty());
   CHECK(refusal(robot(base + solid(long_name) + joint("i", "continuous", "base", long_name))) ==
-        "URDF: '" + long_name + "': the name has 64 characters; 63 are accepted");
+        "URDF: '" + long_name + "': the name has 64 characters; at most 63 are supported");
 }
 
 TEST_CASE("Names of odd characters") {
@@ -406,76 +414,75 @@ TEST_CASE("Names of odd characters") {
   }
 }
 
-TEST_CASE("Joints that mimic nobody") {
+TEST_CASE("Joints that mimic no free joint") {
   const auto mimics = [](const std::string& other, const UrdfOptions& options = {}) {
     return refusal(robot(base + solid("a") + solid("b") + solid("c") +
                          joint("i", "continuous", "base", "a") + joint("j", "fixed", "base", "c") +
                          joint("k", "continuous", "a", "b", "<mimic joint=\"" + other + "\"/>")),
                    options);
   };
-  CHECK(mimics("x") == "URDF: joint 'k': the joint that is to be mimicked does not exist (x)");
-  CHECK(mimics("j") ==
-        "URDF: joint 'k': the joint that is to be mimicked is fixed or a mimic itself (j)");
+  CHECK(mimics("x") == "URDF: joint 'k': the mimicked joint does not exist (x)");
+  CHECK(mimics("j") == "URDF: joint 'k': the mimicked joint is fixed or mimics another joint (j)");
   CHECK(mimics("k") == "URDF: joint 'k': it mimics itself");
   const std::string circle = joint("i", "continuous", "base", "a", "<mimic joint=\"k\"/>") +
                              joint("k", "continuous", "a", "b", "<mimic joint=\"i\"/>");
   CHECK(refusal(robot(base + solid("a") + solid("b") + circle)) ==
-        "URDF: joint 'k': it mimics itself, by way of 'i'");
+        "URDF: joint 'k': it mimics itself through 'i'");
   CHECK(
       mimics("i", {.root = "a"}) ==
-      "URDF: joint 'k': it mimics 'i', which is not between root and tip; lock 'i' where it is to "
-      "be, or choose root and tip with it between them");
+      "URDF: joint 'k': it mimics 'i', which is not between root and tip: lock 'i' at a position, "
+      "or choose root and tip so that it is between them");
 }
 
-TEST_CASE("A word that is not known is blamed for what is wrong where it stands") {
+TEST_CASE("An unknown word is named as a possible cause of an error in its element") {
   const std::string odd = "<limit lower='1' upper='-1' effort='1' velocity='1' uper='2'/>";
   const std::string fault = refusal(with_joint(odd, "revolute"));
-  CHECK_THAT(fault, Contains("pivot") && Contains("perhaps because of this: joint 'pivot'") &&
-                        Contains("uper"));
+  CHECK_THAT(fault,
+             Contains("pivot") && Contains("a possible cause: joint 'pivot'") && Contains("uper"));
   const std::string elsewhere =
       robot("<link name='base' foo='1'/>" + solid("rod") +
             joint("pivot", "revolute", "base", "rod",
                   "<limit lower='1' upper='-1' effort='1' velocity='1'/>"));
-  CHECK_THAT(refusal(elsewhere), !Contains("perhaps") && Contains("pivot"));
+  CHECK_THAT(refusal(elsewhere), !Contains("possible cause") && Contains("pivot"));
 }
 
-TEST_CASE("Options that name nothing") {
+TEST_CASE("Options with names that do not exist") {
   CHECK(refusal(pendulum(), {.root = "x"}) ==
-        "URDF: link 'x': it is to be the root, but does not exist; links: base, rod");
+        "URDF: root 'x': there is no such link; links: base, rod");
   CHECK(refusal(pendulum(), {.tip = "x"}) ==
-        "URDF: link 'x': it is to be the tip, but does not exist; links: base, rod");
+        "URDF: tip 'x': there is no such link; links: base, rod");
   CHECK(refusal(pendulum(), {.root = "rod", .tip = "base"}) ==
-        "URDF: link 'base': it is not beyond 'rod'");
+        "URDF: tip 'base': it is not a descendant of root 'rod'");
   CHECK(refusal(pendulum(), {.locked = {"x"}}) ==
-        "URDF: joint 'x': it is to be locked, but does not exist; joints: pivot");
+        "URDF: locked joint 'x': there is no such joint; joints: pivot");
   CHECK(refusal(pendulum(), {.locked = {"pivto"}}) ==
-        "URDF: joint 'pivto': it is to be locked, but does not exist; did you mean 'pivot'?");
+        "URDF: locked joint 'pivto': there is no such joint; did you mean 'pivot'?");
   CHECK(refusal(pendulum(), {.gravity = {0, 0, 1e60}}) ==
         "URDF: robot 'r': a number is NaN, infinite or too large (more than 1e50, or an angle of "
         "more than 1e9 rad) (gravity)");
 }
 
-TEST_CASE("Options that are no figures of use") {
+TEST_CASE("Options with unusable figures") {
   const auto tolerance = [](double value) {
     return refusal(pendulum(), {.right_angle_tolerance = value});
   };
   CHECK(tolerance(0.1).empty());
   CHECK(tolerance(0).empty());
-  CHECK(tolerance(0.2) == "URDF: right_angle_tolerance: it is 0.2, but must lie in 0 .. 0.1");
-  CHECK(tolerance(-1e-9) == "URDF: right_angle_tolerance: it is -1e-09, but must lie in 0 .. 0.1");
+  CHECK(tolerance(0.2) == "URDF: right_angle_tolerance 0.2 is not within 0 .. 0.1");
+  CHECK(tolerance(-1e-9) == "URDF: right_angle_tolerance -1e-09 is not within 0 .. 0.1");
   CHECK(tolerance(std::numeric_limits<double>::quiet_NaN()) ==
-        "URDF: right_angle_tolerance: it is nan, but must lie in 0 .. 0.1");
+        "URDF: right_angle_tolerance nan is not within 0 .. 0.1");
   CHECK(tolerance(std::numeric_limits<double>::infinity()) ==
-        "URDF: right_angle_tolerance: it is inf, but must lie in 0 .. 0.1");
+        "URDF: right_angle_tolerance inf is not within 0 .. 0.1");
   CHECK_THROWS_AS(read_urdf(pendulum(), {.right_angle_tolerance = 1}), UrdfError);
 
   CHECK(refusal(pendulum(), {.locked = {{"pivot", 0}, {"pivot", 1}}}) ==
-        "URDF: joint 'pivot': it is to be locked at 0 and at 1");
+        "URDF: joint 'pivot': it is locked at two positions, 0 and 1");
   CHECK(refusal(pendulum(), {.locked = {{"pivot", std::numeric_limits<double>::infinity()}}}) ==
         "URDF: joint 'pivot': it cannot be locked at inf");
 }
 
-TEST_CASE("Limits in ros2_control that cannot be") {
+TEST_CASE("Impossible limits in ros2_control") {
   const auto control = [](const std::string& inside) {
     std::string text = pendulum();
     return refusal(text.insert(text.rfind("</robot>"),
@@ -501,20 +508,18 @@ TEST_CASE("Limits in ros2_control that cannot be") {
                                        std::array{"-0.2", "-0.0", "(min -0.2, max -0)"}}) {
     CHECK(bounds(min, max) ==
           std::string("URDF: <ros2_control>: joint 'pivot': effort: its limits ") + said +
-              " leave one direction alone, and a joint has one limit for both: give min and max "
-              "of both signs, or <limits enable=\"false\"/>");
+              " exclude one direction, but a joint has one limit for both: give a min below 0 "
+              "and a max above 0, or <limits enable=\"false\"/>");
   }
-  CHECK_THAT(control("<param name=\"max\">0</param>"), Contains("(min -inf, max 0) leave one"));
+  CHECK_THAT(control("<param name=\"max\">0</param>"), Contains("(min -inf, max 0) exclude one"));
   CHECK(bounds("0.2", "-0.2") ==
-        "URDF: <ros2_control>: joint 'pivot': effort: 0 is not within its limits (min 0.2, max "
-        "-0.2)");
-  CHECK(bounds("{-2*pi}", "{2*pi}").empty());  // does not count, and a notice says so
+        "URDF: <ros2_control>: joint 'pivot': effort: its limits (min 0.2, max -0.2) exclude 0");
+  CHECK(bounds("{-2*pi}", "{2*pi}").empty());  // ignored, with a notice
   CHECK(control("<param name=\"max\">-5</param>") ==
-        "URDF: <ros2_control>: joint 'pivot': effort: 0 is not within its limits (min -inf, max "
-        "-5)");
+        "URDF: <ros2_control>: joint 'pivot': effort: its limits (min -inf, max -5) exclude 0");
 }
 
-TEST_CASE("Limits of positions in two places have something in common") {
+TEST_CASE("Limits of position in two elements must have a position in common") {
   const auto position = [](const char* min, const char* max,
                            const UrdfOptions& options = {.locked = {"turn"}}) {
     std::string text = robot(base + solid("rod") + solid("tool") +
@@ -534,10 +539,10 @@ TEST_CASE("Limits of positions in two places have something in common") {
   CHECK(
       position("3", "2") ==
       "URDF: joint 'pivot': its limits, 3 .. 2 in <ros2_control> and -1 .. 1 in <limit>, leave it "
-      "no place");
+      "no position");
   CHECK(position("3", "255") ==
         "URDF: joint 'pivot': its limits, 3 .. 255 in <ros2_control> and -1 .. 1 in <limit>, leave "
-        "it no place");
+        "it no position");
   // Joints that are held or left out need no limits.
   CHECK(position("3", "255", {.locked = {"pivot"}}).empty());
   CHECK(position("3", "255", {.root = "rod"}).empty());
@@ -547,13 +552,13 @@ TEST_CASE("A robot of another size is refused with the sizes and names") {
   const std::string arm = URDF_FILES "/arm.urdf", gripper = URDF_FILES "/gripper.urdf";
   CHECK_THROWS_WITH(load_urdf<4>(arm),
                     arm +
-                        ": robot 'arm': it has 3 joints: turn, shoulder, lift; <4> was asked for, "
-                        "<3> is right");
+                        ": robot 'arm': it has 3 joints: turn, shoulder, lift; load it with <3>, "
+                        "not <4>");
   CHECK_THROWS_WITH(load_urdf<2>(gripper),
                     gripper +
-                        ": robot 'gripper': it has 2 joints: wrist, left_knuckle; and joints "
-                        "that mimic one of them: left_slide, right_knuckle, right_curl; <2> "
-                        "was asked for, <2, 5> is right");
+                        ": robot 'gripper': it has 2 joints: wrist, left_knuckle; and mimic "
+                        "joints: left_slide, right_knuckle, right_curl; load it with <2, 5>, "
+                        "not <2>");
   CHECK_NOTHROW(load_urdf<2, 5>(gripper));
 }
 

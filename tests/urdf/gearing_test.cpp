@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a URDF tells of drives: transmissions, and where a simulation starts.
+/// @file Transmissions and initial values from a URDF.
 #include <articula/hardware/transmission/urdf_gearing.hpp>
 #include <articula/urdf/initial_values.hpp>
 #include <articula/urdf/urdf.hpp>
@@ -121,19 +121,20 @@ TEST_CASE("A simulation starts at the initial values of ros2_control") {
       "<state_interface name=\"velocity\"><param name=\"initial_value\">-2</param>"
       "</state_interface><state_interface name=\"effort\">"
       "<param name=\"initial_value\">7</param></state_interface></joint></ros2_control>");
-  const auto pendulum = model_of_urdf<1>(description);
+  const auto pendulum = load_urdf<1>(description);
   CHECK(initial_positions(pendulum, description)[0] == 0.375);
   CHECK(initial_velocities(pendulum, description)[0] == -2);
 
-  UrdfDescription silent = description;
-  silent.initial_values.clear();
-  silent.joints[0].type = JointType::revolute;
-  silent.joints[0].limits = {.lower = 0.5, .upper = 1};
-  const auto raised = model_of_urdf<1>(silent);
+  UrdfContents contents = *description;
+  contents.initial_values.clear();
+  contents.joints[0].type = JointType::revolute;
+  contents.joints[0].limits = {.lower = 0.5, .upper = 1};
+  const UrdfDescription silent(contents);
+  const auto raised = load_urdf<1>(silent);
   CHECK(initial_positions(raised, silent)[0] == 0.5);
   CHECK(initial_velocities(raised, silent)[0] == 0);
-  silent.joints[0].damping = -3;  // what is changed after the reading is looked at, too
-  CHECK_THROWS_WITH(model_of_urdf<1>(silent),
+  contents.joints[0].damping = -3;  // changed contents are checked again
+  CHECK_THROWS_WITH(UrdfDescription(contents),
                     Contains("'pivot'") && Contains("damping is negative") && Contains("-3"));
   CHECK_THROWS_WITH(
       described_with("<ros2_control name=\"c\"><joint name=\"pivot\"><state_interface "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Robots without masses are loaded for what needs none.
+/// @file Robots without masses load for functions that need no dynamics.
 #include <articula/control/forward_position.hpp>
 #include <articula/control/limits/limited.hpp>
 #include <articula/dynamics/dynamics.hpp>
@@ -72,9 +72,9 @@ TEST_CASE("Positions are controlled without masses") {
   CHECK(loop.state().position == JointVector<3>(0.5, 2.5, 0.01));
 }
 
-TEST_CASE("An ordinary load of a robot without masses says how to load it without") {
+TEST_CASE("The error about a robot without masses names load_kinematic_urdf") {
   const std::string advice =
-      "without dynamics, load_kinematic_urdf (KINEMATIC in CMake) loads the robot";
+      "without masses and dynamics, use load_kinematic_urdf (KINEMATIC in CMake)";
   CHECK_THAT(refusal(file), Contains("joint 'shoulder': the joint moves no link that has mass") &&
                                 Contains(advice));
   const std::string bare = pendulum("<link name=\"rod\"/>");
@@ -90,18 +90,18 @@ TEST_CASE("An ordinary load of a robot without masses says how to load it withou
       Contains("the lower limit is above the upper limit"));
 }
 
-TEST_CASE("Masses that are not to count leave no trace and no notice") {
+TEST_CASE("Skipped masses leave no trace and no notice") {
   const UrdfDescription drawn = read_urdf(file, {.kinematic = true});
-  CHECK(drawn.notices.empty());
-  for (const Link& link : drawn.links) CHECK(link.mass == 0);
+  CHECK(drawn->notices.empty());
+  for (const Link& link : drawn->links) CHECK(link.mass == 0);
   const UrdfDescription chain =
       read_urdf(URDF_FILES "/gripper.urdf", {.root = "palm", .kinematic = true});
-  for (const std::string& notice : chain.notices) {
+  for (const std::string& notice : chain->notices) {
     CHECK_THAT(notice, !Contains("inerti") && !Contains("gravity") && !Contains("kg"));
   }
 }
 
-TEST_CASE("What is wrong with masses that do not count is no reason to refuse a robot") {
+TEST_CASE("Invalid masses are no reason to refuse a kinematic robot") {
   for (const char* inside :
        {"", "<mass value=\"heavy\"/>", "<mass value=\"1\"/>", "<mass value=\"nan\"/>",
         "<mass value=\"-1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" "
@@ -117,8 +117,8 @@ TEST_CASE("What is wrong with masses that do not count is no reason to refuse a 
 TEST_CASE("A kinematic description makes no model with dynamics, a full one makes either") {
   CHECK_THROWS_WITH(
       (load_urdf<3, 4>(file, {.kinematic = true})),
-      Contains("massless.urdf: it was read as kinematic") && Contains("load_kinematic_urdf"));
+      Contains("massless.urdf: it was read without masses") && Contains("load_kinematic_urdf"));
   const UrdfDescription full = read_urdf(pendulum());
-  CHECK(kinematic_model_of_urdf<1>(full).joint_count == 1);
-  CHECK_THROWS_WITH(kinematic_model_of_urdf<2>(full), Contains("<2> was asked for, <1> is right"));
+  CHECK(load_kinematic_urdf<1>(full).joint_count == 1);
+  CHECK_THROWS_WITH(load_kinematic_urdf<2>(full), Contains("load it with <1>, not <2>"));
 }

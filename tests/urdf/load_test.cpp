@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a URDF says is what the model does.
+/// @file A model moves as its URDF describes.
 #include <articula/dynamics/dynamics.hpp>
 #include <articula/urdf/urdf.hpp>
 
@@ -13,6 +13,8 @@
 #include <iterator>
 #include <locale>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 using namespace articula;
@@ -53,14 +55,14 @@ TEST_CASE("Links stand where the URDF puts them") {
 
 TEST_CASE("Angles reach the model with all digits") {
   const UrdfDescription arm = read_urdf(arm_file);
-  for (const Joint& joint : arm.joints) {
+  for (const Joint& joint : arm->joints) {
     if (joint.name.view() != "shoulder") continue;
     CHECK(joint.orientation == Vector3<double>{-1.5707963, 0, 1.5707963});
   }
   const UrdfDescription upright = read_urdf(support::pendulum(
       support::solid("rod"),
       support::joint("pivot", "continuous", "base", "rod", "<origin rpy=\"0.3 1.569 -0.2\"/>")));
-  CHECK(upright.joints[0].orientation == Vector3<double>{0.3, 1.569, -0.2});
+  CHECK(upright->joints[0].orientation == Vector3<double>{0.3, 1.569, -0.2});
 }
 
 TEST_CASE("Weights act at the centres of mass") {
@@ -116,7 +118,7 @@ TEST_CASE("Transmissions are read in all dialects") {
   std::string text = support::pendulum();
   text.insert(text.rfind("</robot>"), drives);
   const UrdfDescription pendulum = read_urdf(text);
-  const auto& transmissions = pendulum.transmissions;
+  const auto& transmissions = pendulum->transmissions;
   REQUIRE(transmissions.size() == 3);
   CHECK(transmissions[0].name == "simple");
   CHECK(transmissions[0].type == "SimpleTransmission");
@@ -129,13 +131,13 @@ TEST_CASE("Transmissions are read in all dialects") {
   CHECK(transmissions[1].joints[0].mechanical_reduction == -1);
   CHECK(transmissions[2].type == "p");
   CHECK(transmissions[2].actuators[0].mechanical_reduction == 325.949);
-  REQUIRE(pendulum.notices.size() == 1);
-  CHECK(pendulum.notices[0] == "transmission 'wrist': joint 'missing' does not exist");
+  REQUIRE(pendulum->notices.size() == 1);
+  CHECK(pendulum->notices[0] == "transmission 'wrist': joint 'missing': there is no such joint");
 
-  CHECK(read_urdf(arm_file).transmissions.at(0).actuators.at(0).mechanical_reduction == 100.5);
+  CHECK(read_urdf(arm_file)->transmissions.at(0).actuators.at(0).mechanical_reduction == 100.5);
 }
 
-TEST_CASE("A root that is turned has another gravity, which is told unless it is given") {
+TEST_CASE("A rotated root is reported unless gravity is set") {
   const auto robot = [](const std::string& mount) {
     std::string text = support::pendulum();
     text.insert(text.find("<link"), "<link name='world'/>");
@@ -147,17 +149,16 @@ TEST_CASE("A root that is turned has another gravity, which is told unless it is
     return text;
   };
   const auto notices = [&](const std::string& mount, const UrdfOptions& options) {
-    return read_urdf(robot(mount), options).notices;
+    return read_urdf(robot(mount), options)->notices;
   };
   CHECK(notices("fixed", {}).empty());
-  CHECK(
-      notices("fixed", {.root = "base"}) ==
-      std::vector<std::string>{
-          "root 'base': it is turned against the file's root, and gravity is 0 0 -9.81 in its own "
-          "frame; what is 0 0 -9.81 in the file's is there 0 -9.81 0"});
+  CHECK(notices("fixed", {.root = "base"}) ==
+        std::vector<std::string>{
+            "root 'base': the file rotates its frame, but gravity is 0 0 -9.81 in it; to keep the "
+            "gravity of the file's root, set it to 0 -9.81 0"});
   CHECK(notices("fixed", {.root = "base", .gravity = {0, -9.8, 0}}).empty());
   const std::vector<std::string> turned{
-      "root 'base': joint 'mount' turns it, and gravity is 0 0 -9.81 in its own frame"};
+      "root 'base': joint 'mount' rotates its frame, but gravity is 0 0 -9.81 in it"};
   for (const char* type : {"revolute", "planar", "floating"}) {
     CAPTURE(type);
     CHECK(notices(type, {.root = "base"}) == turned);
@@ -179,8 +180,8 @@ TEST_CASE("A fixed joint need not be locked") {
   text.insert(text.rfind("</robot>"),
               "<link name='tool'/><joint name='weld' type='fixed'><parent link='rod'/>"
               "<child link='tool'/></joint>");
-  CHECK(read_urdf(text, {.locked = {"weld"}}).notices ==
-        std::vector<std::string>{"joint 'weld': it is to be locked, but is fixed anyway"});
+  CHECK(read_urdf(text, {.locked = {"weld"}})->notices ==
+        std::vector<std::string>{"joint 'weld': it is locked, but is fixed anyway"});
 }
 
 TEST_CASE("A file and its text give the same robot") {
@@ -194,7 +195,29 @@ TEST_CASE("A file and its text give the same robot") {
   CHECK(gravity(load_urdf<3>(std::filesystem::path(arm_file)), q) == expected);
 }
 
-TEST_CASE("A chain is cut out by its root and tip") {
+TEST_CASE("A description cannot be changed; changed contents are checked again") {
+  STATIC_REQUIRE(
+      std::is_const_v<std::remove_reference_t<decltype(*std::declval<UrdfDescription&>())>>);
+  UrdfContents contents = *read_urdf(support::pendulum());
+  contents.joints[0].damping = 7;
+  CHECK(UrdfDescription(contents)->joints[0].damping == 7);
+  contents.links[1].mass = -1;
+  CHECK_THROWS_WITH(UrdfDescription(contents), Catch::Contains("the mass is negative (-1 kg)"));
+  contents = *read_urdf(arm_file);
+  contents.right_angle_tolerance = 1;
+  CHECK_THROWS_WITH(UrdfDescription(contents), Catch::Contains("right_angle_tolerance 1"));
+}
+
+TEST_CASE("A file that is parsed once gives several robots") {
+  const UrdfDocument document = parse_urdf(arm_file);
+  CHECK(read_urdf(document)->notices == read_urdf(arm_file)->notices);
+  CHECK(load_urdf<2>(read_urdf(document, {.locked = {"lift"}})).joint_count == 2);
+  const UrdfDescription drawn = read_urdf(document, {.kinematic = true});
+  for (const Link& link : drawn->links) CHECK(link.mass == 0);
+  CHECK(load_kinematic_urdf<3>(drawn).joint_count == 3);
+}
+
+TEST_CASE("Root and tip select a chain") {
   const Model<2> chain = load_urdf<2>(arm_file, {.root = "column", .tip = "tool"});
   CHECK(joint_names(chain) == std::array<std::string_view, 2>{"shoulder", "lift"});
   CHECK(chain.links.front().name.view() == "column");
@@ -204,7 +227,7 @@ TEST_CASE("A chain is cut out by its root and tip") {
   CHECK(gravity(chain, q) == gravity(beyond, q));
 
   // Its root is turned by no joint, so nobody need be told about gravity.
-  CHECK(read_urdf(arm_file, {.root = "column"}).notices == read_urdf(arm_file).notices);
+  CHECK(read_urdf(arm_file, {.root = "column"})->notices == read_urdf(arm_file)->notices);
 
   // Off the chain are the left finger and all that it carries.
   const Model<2> wrist = load_urdf<2>(URDF_FILES "/gripper.urdf", {.tip = "left_finger"});
@@ -212,34 +235,33 @@ TEST_CASE("A chain is cut out by its root and tip") {
   CHECK(wrist.links.size() == 3);
 }
 
-TEST_CASE("A chain says what it leaves out of what its joints carry") {
+TEST_CASE("A chain reports the masses that its joints carry in the file and that it leaves out") {
   const auto about_tip = [](const UrdfOptions& options) {
-    std::vector<std::string> notices = read_urdf(URDF_FILES "/gripper.urdf", options).notices;
+    std::vector<std::string> notices = read_urdf(URDF_FILES "/gripper.urdf", options)->notices;
     std::erase_if(notices, [](const std::string& each) { return !each.starts_with("tip"); });
     return notices;
   };
   // The right finger, 0.12 kg, with its tip, 0.04 kg, and the left tip, 0.05 kg.
   CHECK(about_tip({.tip = "left_finger"}) ==
         std::vector<std::string>{
-            "tip 'left_finger': 0.21 kg that hang on the chain are left out, at joint "
-            "'right_knuckle' and 1 more; without a tip, and with all other joints locked, they are "
-            "carried along"});
+            "tip 'left_finger': the chain's joints carry 0.21 kg that are left out, at joint "
+            "'right_knuckle' and 1 more; to include them, set no tip and lock all other joints"});
   // What hangs on what stands still changes nothing, be that the root or held by a lock.
   const std::vector<std::string> left_tip{
-      "tip 'left_finger': 0.05 kg that hang on the chain are left out, at joint 'left_slide'; "
-      "without a tip, and with all other joints locked, they are carried along"};
+      "tip 'left_finger': the chain's joints carry 0.05 kg that are left out, at joint "
+      "'left_slide'; to include them, set no tip and lock all other joints"};
   CHECK(about_tip({.root = "palm", .tip = "left_finger"}) == left_tip);
   CHECK(about_tip({.tip = "left_finger", .locked = {"wrist"}}) == left_tip);
   CHECK(about_tip({}).empty());
-  CHECK(read_urdf(arm_file, {.tip = "tool"}).notices == read_urdf(arm_file).notices);
+  CHECK(read_urdf(arm_file, {.tip = "tool"})->notices == read_urdf(arm_file)->notices);
   using support::joint, support::robot, support::solid;
   const std::string arm_on_a_mast = robot(
       "<link name=\"base\"/>" + solid("other") + solid("mast") + solid("camera") + solid("arm") +
       joint("leader", "continuous", "base", "other") +
       joint("follower", "continuous", "base", "mast", "<mimic joint=\"leader\"/>") +
       joint("mount", "fixed", "mast", "camera") + joint("elbow", "continuous", "mast", "arm"));
-  CHECK(read_urdf(arm_on_a_mast, {.tip = "arm", .locked = {"leader"}}).notices.empty());
-  CHECK(read_urdf(arm_on_a_mast, {.tip = "arm", .locked = {"follower"}}).notices.empty());
+  CHECK(read_urdf(arm_on_a_mast, {.tip = "arm", .locked = {"leader"}})->notices.empty());
+  CHECK(read_urdf(arm_on_a_mast, {.tip = "arm", .locked = {"follower"}})->notices.empty());
 }
 
 TEST_CASE("Locked joints stay where they are put") {
@@ -310,10 +332,10 @@ TEST_CASE("Unphysical inertias are accepted when asked for, and reported") {
           "link 'flat': the inertia breaks the triangle inequality (mass 2 kg, principal "
           "moments of inertia 0.01, 0.02, 0.05 kg m^2)"));
   const UrdfDescription robot = read_urdf(file, {.allow_unphysical = true});
-  REQUIRE(robot.notices.size() == 3);
-  CHECK(robot.notices[0].starts_with("link 'flat': the inertia breaks the triangle inequality"));
-  CHECK(robot.notices[1].starts_with("link 'point': the inertia is not positive definite"));
-  CHECK(robot.notices[2].starts_with("link 'massless': the link has inertia but no mass"));
+  REQUIRE(robot->notices.size() == 3);
+  CHECK(robot->notices[0].starts_with("link 'flat': the inertia breaks the triangle inequality"));
+  CHECK(robot->notices[1].starts_with("link 'point': the inertia is not positive definite"));
+  CHECK(robot->notices[2].starts_with("link 'massless': the link has inertia but no mass"));
 
   const Model<2> model = load_urdf<2>(file, {.allow_unphysical = true});
   const JointMatrix<2> M = mass_matrix(model, {0, 0});
@@ -326,17 +348,17 @@ TEST_CASE("Limits that leave no room are reported") {
       support::solid("rod"),
       support::joint("pivot", "revolute", "base", "rod", "<limit effort=\"0\" velocity=\"0\"/>"));
   const UrdfDescription robot = read_urdf(file);
-  REQUIRE(robot.notices.size() == 3);
-  CHECK(robot.notices[0] == "joint 'pivot': it has no room to move, lower and upper limit are 0");
-  CHECK(robot.notices[1] == "joint 'pivot': its velocity limit is 0, so it must not move");
-  CHECK(robot.notices[2] == "joint 'pivot': its effort limit is 0, so it cannot be driven");
+  REQUIRE(robot->notices.size() == 3);
+  CHECK(robot->notices[0] == "joint 'pivot': it cannot move: its lower and upper limits are 0");
+  CHECK(robot->notices[1] == "joint 'pivot': its velocity limit is 0, so it must not move");
+  CHECK(robot->notices[2] == "joint 'pivot': its effort limit is 0, so it cannot be driven");
   CHECK(read_urdf(
             support::robot("<link name=\"base\"/>" + support::solid("rod") + support::solid("bob") +
                            support::joint("pivot", "revolute", "base", "rod",
                                           "<limit effort=\"0\" velocity=\"0\"/>") +
                            support::joint("knee", "continuous", "rod", "bob")),
             {.locked = {"pivot"}})
-            .notices.empty());
+            ->notices.empty());
 }
 
 TEST_CASE("A link that moves without a mass of its own is reported") {
@@ -345,11 +367,11 @@ TEST_CASE("A link that moves without a mass of its own is reported") {
     return read_urdf(support::robot(base + frame + support::solid("rod") +
                                     support::joint("i", first, "base", "frame") +
                                     support::joint("j", second, "frame", "rod")))
-        .notices;
+        ->notices;
   };
   CHECK(notices("continuous", "fixed") ==
-        std::vector<std::string>{"link 'frame': it has no <inertial>, so it counts as massless, "
-                                 "though joint 'i' moves it"});
+        std::vector<std::string>{"link 'frame': it has no <inertial> and is taken as massless, "
+                                 "but joint 'i' moves it"});
   CHECK(notices("continuous", "continuous").size() == 1);
   CHECK(notices("fixed", "continuous").empty());  // a mere frame
 }
@@ -369,7 +391,7 @@ TEST_CASE("Numbers are read the same in every locale") {
     message = error.what();
   }
   std::locale::global(before);
-  CHECK(arm.joints[0].origin.z == 0.1);
-  CHECK(arm.transmissions[0].actuators[0].mechanical_reduction == 100.5);
+  CHECK(arm->joints[0].origin.z == 0.1);
+  CHECK(arm->transmissions[0].actuators[0].mechanical_reduction == 100.5);
   CHECK(message.find("0.01, 0.02, 0.05") != std::string::npos);
 }

@@ -21,9 +21,9 @@ const std::string file = URDF_FILES "/gripper.urdf";
 struct Pair {
   Model<joints, bodies> coupled = load_urdf<joints, bodies>(file);
   Model<bodies> free = [] {
-    UrdfDescription description = read_urdf(file);
-    for (Joint& joint : description.joints) joint.mimic = {};
-    return model_of_urdf<bodies>(description);
+    UrdfContents contents = *read_urdf(file);
+    for (Joint& joint : contents.joints) joint.mimic = {};
+    return load_urdf<bodies>(UrdfDescription(contents));
   }();
 };
 
@@ -106,12 +106,12 @@ TEST_CASE("A joint stays where the joints that mimic it may be") {
   CHECK(limits.velocity == Approx(1.5 / 0.75));
   CHECK(limits.effort == 5);
 
-  UrdfDescription narrow = read_urdf(file);
+  UrdfContents narrow = *read_urdf(file);
   for (Joint& joint : narrow.joints) {
     if (joint.name.view() == "right_knuckle") joint.limits.lower = -0.4;
     if (joint.name.view() == "left_slide") joint.limits.velocity = 0.02;
   }
-  const auto gripper = model_of_urdf<joints, bodies>(narrow);
+  const auto gripper = load_urdf<joints, bodies>(UrdfDescription(narrow));
   CHECK(gripper.joints[1].limits.upper == Approx(0.45 / 0.75));
   CHECK(gripper.joints[1].limits.velocity == Approx(0.5));
 }

@@ -28,7 +28,7 @@ void check_file() {
   CAPTURE(file);
   const UrdfDescription description =
       read_urdf(file, {.allow_unphysical = R::description.allow_unphysical});
-  const auto theirs = model_of_urdf<Ours::joint_count, Ours::body_count>(description);
+  const auto theirs = load_urdf<Ours::joint_count, Ours::body_count>(description);
   CHECK(theirs.name == ours.name);
   CHECK(theirs.mechanism.gravity == ours.mechanism.gravity);
 

@@ -2,7 +2,7 @@
 /// @file Whether descriptions are the same, bit for bit.
 #pragma once
 
-#include <articula/urdf/description.hpp>
+#include <articula/urdf/read_urdf.hpp>
 
 #include <bit>
 #include <cstdint>
@@ -49,7 +49,8 @@ class Bits {
 
 /// True if a description known at compile time and one read at run time are the same.
 template <class Description>
-[[nodiscard]] bool same(const Description& a, const articula::UrdfDescription& b) {
+[[nodiscard]] bool same(const Description& a, const articula::UrdfDescription& description) {
+  const articula::UrdfContents& b = *description;
   if (!(a.name == b.name) || !((Bits{} << a.gravity) == (Bits{} << b.gravity)) ||
       a.allow_unphysical != b.allow_unphysical || a.kinematic != b.kinematic ||
       a.right_angle_tolerance != b.right_angle_tolerance || a.links.size() != b.links.size() ||

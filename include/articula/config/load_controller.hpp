@@ -13,7 +13,7 @@
 #include "articula/config/yaml/source.hpp"
 #include "articula/text/characters.hpp"
 #include "articula/text/file_error.hpp"
-#include "articula/text/meant_word.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -86,7 +86,7 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
     manager = &each;
   }
   if (manager != nullptr) return manager;
-  const std::string_view misspelt = meant_word("controller_manager", names);
+  const std::string_view misspelt = similar_word("controller_manager", names);
   throw FileError({.file = all.file}, "there is no controller_manager in it",
                   misspelt.empty() ? "one" : "one, in place of '" + shown(misspelt) + "'");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a robot is, as its author writes it.
+/// @file A robot's description: links, joints and gravity, known at compile time.
 #pragma once
 
 #include "articula/model/canonical_mechanism.hpp"
@@ -12,8 +12,8 @@
 
 namespace articula {
 
-/// A robot as its author writes it: a tree of links and joints in any order, with URDF's
-/// conventions.
+/// A robot's description as its author writes it: a tree of links and joints in any order, with
+/// URDF's conventions.
 ///
 ///     struct Pendulum {
 ///       static constexpr auto description = articula::RobotDescription{
@@ -23,6 +23,7 @@ namespace articula {
 ///           .joints = std::to_array<articula::Joint>({{.name = "pivot", ...}})};
 ///     };
 ///
+/// For a robot whose size is known at run time, use load_urdf.
 /// @tparam Links   number of links
 /// @tparam Joints  number of joints, the fixed ones included
 template <std::size_t Links, std::size_t Joints>
@@ -33,11 +34,11 @@ struct RobotDescription {
   std::array<Link, Links> links{};
   std::array<Joint, Joints> joints{};
   bool allow_unphysical = false;  ///< accept inertias that no real body has, see concerns_inertia
-  /// What dynamics takes for a right angle that was written with few digits, see canonical_form;
-  /// 0 takes every angle as it is written
+  /// Tolerance for right angles that are written with few digits, 0 .. 0.1, dimensionless, see
+  /// canonical_form; 0 uses every angle as it is written
   double right_angle_tolerance = default_right_angle_tolerance;
-  /// The masses are not known: those of the links do not count, and no dynamics are to be had (see
-  /// DynamicRobot). Kinematics, profiles and loops of positions and velocities need none
+  /// The masses are not known: those of the links are ignored, and functions that need dynamics do
+  /// not compile with the robot, see DynamicRobot
   bool kinematic = false;
 };
 
@@ -46,7 +47,7 @@ RobotDescription(Name, Vector3<double>, std::array<Link, Links>, std::array<Join
                  bool = false, double = default_right_angle_tolerance, bool = false)
     -> RobotDescription<Links, Joints>;
 
-// Without `.gravity`: compilers deduce from the initialisers' order, not from their names.
+// For descriptions without `.gravity`: compilers deduce from the order of initialisers alone.
 template <std::size_t Links, std::size_t Joints>
 RobotDescription(Name, std::array<Link, Links>, std::array<Joint, Joints>, bool = false,
                  double = default_right_angle_tolerance, bool = false)

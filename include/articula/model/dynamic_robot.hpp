@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which robots have dynamics, and how the compiler refuses them for the others.
+/// @file The concept of robots with dynamics, and the compiler error for other robots.
 #pragma once
 
 #include "articula/model/robot.hpp"
@@ -9,8 +9,8 @@
 
 namespace articula {
 
-/// True for a robot whose masses are not known: a RobotDescription says `.kinematic = true`, or it
-/// is a KinematicModel.
+/// True for a robot whose masses are not known: its description has `.kinematic = true`, or it is a
+/// KinematicModel.
 template <Robot R>
 inline constexpr bool is_kinematic =
     std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::kinematic;
@@ -21,22 +21,22 @@ concept DynamicRobot = Robot<R> && !is_kinematic<R>;
 
 namespace detail {
 
-/// Its instantiation is the error message where dynamics are asked of a robot that has none.
-/// @tparam R      the robot
-/// @tparam Asked  what was asked of it: an algorithm, or a class that needs one
-template <Robot R, class Asked>
+/// Its instantiation is the compiler error where dynamics are needed of a robot without masses.
+/// @tparam R     the robot
+/// @tparam User  the algorithm or class that needs its dynamics
+template <Robot R, class User>
 struct RobotHasNoMasses {
   static_assert(!is_kinematic<R>,
                 "articula: this robot is kinematic: it was described with .kinematic = true or "
                 "loaded by load_kinematic_urdf, so its masses are not known and it has no "
                 "dynamics. The first template argument of RobotHasNoMasses is the robot, the "
-                "second is what was asked of it.");
+                "second is the algorithm or class that needs dynamics.");
   static constexpr bool found = true;
 };
 
-/// True; what needs a robot's masses says `static_assert(detail::has_masses<R, Asked>)`.
-template <Robot R, class Asked>
-inline constexpr bool has_masses = RobotHasNoMasses<R, Asked>::found;
+/// True. An algorithm or class that needs masses has `static_assert(detail::has_masses<R, User>)`.
+template <Robot R, class User>
+inline constexpr bool has_masses = RobotHasNoMasses<R, User>::found;
 
 }  // namespace detail
 

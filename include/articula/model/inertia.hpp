@@ -7,8 +7,8 @@
 
 namespace articula {
 
-/// The ten inertial parameters of a rigid body about the origin of its frame: all that its motion
-/// can feel of its mass. They add up when bodies are welded together.
+/// The ten inertial parameters of a rigid body about the origin of its frame. They determine its
+/// dynamics, and they add up when bodies are welded together.
 template <class S>
 struct Inertia {
   S mass = S(0.0);            ///< m [kg]
@@ -20,8 +20,8 @@ struct Inertia {
   }
 };
 
-/// 2 (a . b) 1 - (a b^T + b a^T): how a first moment a turns up in the inertia about an origin that
-/// lies b away. With a = m b / 2 it is the parallel-axis term of a point mass m at b.
+/// 2 (a . b) 1 - (a b^T + b a^T): the contribution of a first moment a to the inertia about an origin
+/// at a distance b. With a = m b / 2 it is the parallel-axis term of a point mass m at b.
 template <class S>
 [[nodiscard]] constexpr Symmetric3<S> parallel_axis(const Vector3<S>& a, const Vector3<S>& b) {
   const Vector3<S> twice = b + b;
@@ -39,10 +39,10 @@ template <class S>
           dot(r.rows[1], ir[1]), dot(r.rows[1], ir[2]), dot(r.rows[2], ir[2])};
 }
 
-/// The same body's inertia seen from frame A, given that of frame B, with t the translation and h_A
-/// = R h_B: first moment h_A + m t, moment R I_B R^T + 2 (a . t) 1 - (a t^T + t a^T) where a = h_A
+/// A body's inertia in frame A from that in frame B, with the translation t and h_A = R h_B: first
+/// moment h_A + m t, moment R I_B R^T + 2 (a . t) 1 - (a t^T + t a^T) where a = h_A
 /// + m t / 2. Source: [Featherstone 2008, section 2.13], written out in blocks.
-/// @param ab       where B stands in A
+/// @param ab       the placement of B in A
 /// @param inertia  the body's inertia in B
 template <class S>
 [[nodiscard]] constexpr Inertia<S> moved(const Placement<S>& ab, const Inertia<S>& inertia) {

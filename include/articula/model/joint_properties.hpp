@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a joint has besides its place in the mechanism.
+/// @file The name, limits and friction of a joint that can be commanded.
 #pragma once
 
 #include "articula/core/name.hpp"
@@ -10,9 +10,8 @@
 
 namespace articula {
 
-/// What a joint that can be commanded has besides its place in the mechanism. With a joint that
-/// others mimic, limits, damping and friction are those of all of them together; soft limits and
-/// the effort limit are its own.
+/// The name, limits and friction of a joint that can be commanded. If other joints mimic it, its
+/// limits, damping and friction include theirs; its soft limits and effort limit do not.
 struct JointProperties {
   Name name{};
   JointType type = JointType::revolute;
@@ -23,6 +22,7 @@ struct JointProperties {
 
 namespace detail {
 
+/// The limits of a joint without those of its mimics.
 constexpr JointLimits own_limits(const Joint& joint) {
   JointLimits limits = joint.limits;
   if (joint.type == JointType::continuous) {
@@ -36,11 +36,11 @@ constexpr JointLimits own_limits(const Joint& joint) {
 
 }  // namespace detail
 
-/// The properties of a joint that mimics no other. For those that mimic it, it stays where they may
-/// be too, and it feels their damping and friction through the coupling (by equal power).
+/// The properties of a joint that mimics no other. Its limits are narrowed so that the joints which
+/// mimic it stay within theirs. Their damping and friction are added, converted by equal power.
 /// @param joints  all joints of the description
 /// @param joint   one of them
-/// @return        lower limit above the upper one if the limits of all have nothing in common
+/// @return        with lower limit above upper limit if the limits have no position in common
 [[nodiscard]] constexpr JointProperties properties_of(std::span<const Joint> joints,
                                                       const Joint& joint) {
   JointLimits limits = detail::own_limits(joint);
@@ -48,11 +48,11 @@ constexpr JointLimits own_limits(const Joint& joint) {
   for (const Joint& other : joints) {
     if (other.type == JointType::fixed || !(other.mimic.joint == joint.name)) continue;
     const auto [name, multiplier, offset] = other.mimic;
-    const double size = multiplier < 0 ? -multiplier : multiplier;
+    const double size = detail::magnitude(multiplier);
     damping += size * size * other.damping;
     friction += size * other.friction;
     const JointLimits own = detail::own_limits(other);
-    if (size == 0) {  // it stands at its offset
+    if (size == 0) {  // it stays at its offset
       if (offset >= own.lower && offset <= own.upper) continue;
       limits.lower = JointLimits::infinity;
       limits.upper = -JointLimits::infinity;

@@ -7,7 +7,7 @@
 
 namespace articula {
 
-/// A rigid link as URDF describes it. A link without mass and inertia is a mere frame.
+/// A rigid link as URDF describes it. A link without mass and inertia is only a frame.
 struct Link {
   Name name{};                            ///< unique among the links
   double mass = 0;                        ///< m [kg]

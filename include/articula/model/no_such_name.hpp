@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Why a joint or link that was asked for by name is not there.
+/// @file Messages about names of joints or links that a robot does not have.
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -20,19 +20,19 @@ template <class Elements>
   return list;
 }
 
-/// Why a model has no joint of that name to command: it mimics another, is fixed, or unknown.
-/// @param model  made by build_model
+/// The reason why a name is not that of a joint that can be commanded: the joint mimics another, is
+/// fixed, or does not exist.
+/// @param model  from build_model
 /// @param name   of none of its joints
-/// @return       one line with the robot, the name and what may be asked for instead
+/// @return       one line with the robot, the name and the names that exist
 template <class AnyModel>
 [[nodiscard]] std::string no_such_joint_text(const AnyModel& model, std::string_view name) {
   const std::string robot = message_of({"robot '", model.name.view(), "'"});
   const std::string joint = message_of({"joint '", name, "'"});
   for (std::size_t body = 0; body < model.moving_joints.size(); ++body) {
     if (model.moving_joints[body].view() != name) continue;
-    const auto followed = static_cast<std::size_t>(model.mechanism.couplings[body].joint);
-    return message_of(
-        {robot, ": ", joint, " mimics '", model.joints[followed].name.view(), "': ask for that"});
+    const Name& mimicked = model.joints[model.mechanism.couplings[body].joint].name;
+    return message_of({robot, ": ", joint, " mimics '", mimicked.view(), "': name that joint"});
   }
   const std::string choice = message_of({"; joints: ", listed_names(model.joints)});
   for (const LinkFrame& link : model.links) {
@@ -43,14 +43,8 @@ template <class AnyModel>
   return message_of({robot, " has no ", joint, choice});
 }
 
-/// Likewise for links.
-template <class AnyModel>
-[[nodiscard]] std::string no_such_link_text(const AnyModel& model, std::string_view name) {
-  return message_of({"robot '", model.name.view(), "' has no link '", name,
-                     "'; links: ", listed_names(model.links)});
-}
-
-/// No constant expressions: compilers name them where a constant asks for what is not there.
+/// These functions are not constant expressions: compilers name them where a constant has a wrong
+/// name.
 template <class AnyModel>
 [[noreturn]] void no_such_joint(const AnyModel& model, std::string_view name) {
   refuse({no_such_joint_text(model, name)});
@@ -58,7 +52,8 @@ template <class AnyModel>
 /// @copydoc no_such_joint
 template <class AnyModel>
 [[noreturn]] void no_such_link(const AnyModel& model, std::string_view name) {
-  refuse({no_such_link_text(model, name)});
+  refuse({"robot '", model.name.view(), "' has no link '", name,
+          "'; links: ", listed_names(model.links)});
 }
 
 }  // namespace articula::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How the compiler says what is wrong with a robot's description.
+/// @file The compiler error for a faulty description.
 #pragma once
 
 #include "articula/core/name.hpp"
@@ -11,8 +11,8 @@
 
 namespace articula::detail {
 
-/// Types that carry a name into the compiler's messages: g++ prints a Name as text, clang prints it
-/// as numbers but single characters as they are.
+/// Types that show a name in compiler errors: g++ prints a Name as text; clang prints it as numbers,
+/// but single characters as text.
 template <Name Text>
 struct Named {};
 template <char... Characters>
@@ -29,7 +29,7 @@ template <Name Text>
 #endif
 }
 
-/// Its instantiation is the error message for a description with a fault.
+/// Its instantiation is the compiler error for a description with a fault.
 /// @tparam Element  the link or joint at fault
 /// @tparam Broken   the rule that it breaks
 template <class Element, Rule Broken>
@@ -41,7 +41,8 @@ struct RobotIsNotPhysical {
                 ".kinematic = true.)");
 };
 
-/// Instantiates the message. (Deduced arguments are printed as values, given ones as expressions.)
+/// Instantiates the error. (Compilers print deduced arguments as values, explicit ones as
+/// expressions.)
 template <class Element, Rule Broken>
 consteval auto reject(Element, std::integral_constant<Rule, Broken>) {
   return RobotIsNotPhysical<Element, Broken>{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a robot is to the rest of the library: a type with a description, or a model.
+/// @file The concept of a robot: a type with a description, or a model.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"
@@ -26,7 +26,7 @@ inline constexpr bool is_model = false;
 template <int N, int Bodies, class LinkFrames, bool Kinematic>
 inline constexpr bool is_model<Model<N, Bodies, LinkFrames, Kinematic>> = true;
 
-/// The model of a described robot, made and checked by the compiler.
+/// The model of a described robot, checked by the compiler.
 template <DescribedRobot R>
 [[nodiscard]] consteval auto compile_model() {
   constexpr const auto& description = R::description;
@@ -49,12 +49,12 @@ inline constexpr auto compiled_model = compile_model<R>();
 
 }  // namespace detail
 
-/// A robot: known at compile time (DescribedRobot) or loaded at run time (a Model). All algorithms
-/// take either as their first argument.
+/// A robot: known at compile time (DescribedRobot) or loaded at run time (a Model). It is the first
+/// argument of all algorithms.
 template <class R>
 concept Robot = DescribedRobot<R> || detail::is_model<R>;
 
-/// The model of a robot: for a described robot the one that the compiler made, for a model itself.
+/// The model of a robot: of a described robot, the one made at compile time; of a model, itself.
 /// Real-time: yes.
 template <Robot R>
 [[nodiscard]] constexpr const auto& model_of(const R& robot) noexcept {
@@ -63,13 +63,6 @@ template <Robot R>
   } else {
     return robot;
   }
-}
-
-/// The value of a robot known at compile time: the default where a robot is asked for. A robot
-/// loaded at run time has no default.
-template <DescribedRobot R>
-[[nodiscard]] constexpr R described() noexcept {
-  return {};
 }
 
 /// The number of joints that can be commanded: those that move and mimic no other.
@@ -86,14 +79,14 @@ template <Robot R>
   return names;
 }
 
-/// Names live in their model: one that is about to vanish has none to give.
+/// Deleted for temporary models: the names refer to the model.
 template <Robot R>
   requires(!DescribedRobot<R>)
 auto joint_names(const R&& robot) = delete;
 
 /// The index of one of these joints by name.
-/// @throws std::invalid_argument if it is none of them, saying why: it is fixed, mimics another
-///         one, or the robot has no such joint
+/// @throws std::invalid_argument with the reason if it is none of them: the joint is fixed, mimics
+///         another one, or does not exist
 /// Real-time: no (throws).
 template <Robot R>
 [[nodiscard]] constexpr int joint_index(const R& robot, std::string_view name) {
@@ -103,9 +96,9 @@ template <Robot R>
   detail::no_such_joint(model_of(robot), name);
 }
 
-/// One property of every joint, such as `joint_values(robot, [](auto& j) { return j.damping;
-/// })`.
-/// @return the values in the order of the joints, N x 1
+/// One property of every joint, such as `joint_values(robot, [](auto& j) { return j.damping; })`.
+/// @param property  called with the JointProperties of each joint
+/// @return          the values in the order of the joints, N x 1
 /// Real-time: yes if `property` is.
 template <Robot R, class Property>
 [[nodiscard]] JointVector<joint_count<R>> joint_values(const R& robot, Property property) noexcept {

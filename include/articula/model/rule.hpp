@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The rules that make a description a robot.
+/// @file The rules that a description must obey.
 #pragma once
 
+#include <array>
 #include <string_view>
+#include <utility>
 
 namespace articula {
 
-/// What can be wrong with a link, a joint or the tree they form. The names are what a compiler
-/// prints.
+/// The possible faults of a link, a joint or the tree of all. Compiler errors print these names.
 enum class Rule {
   none,
   name_is_missing,
@@ -43,90 +44,67 @@ enum class Rule {
   shared_inertia_is_too_large,
 };
 
-/// True for the rules that a link's inertia breaks in files which are otherwise of use: the
-/// equations of motion can be evaluated, though no real body has that inertia.
+/// True for the rules about a link's inertia that `allow_unphysical` waives: no real body has such
+/// an inertia, but the equations of motion can be evaluated.
 [[nodiscard]] constexpr bool concerns_inertia(Rule rule) noexcept {
   return rule == Rule::link_has_inertia_but_no_mass ||
          rule == Rule::inertia_is_not_positive_definite ||
          rule == Rule::inertia_breaks_the_triangle_inequality;
 }
 
-/// True for the rules that need masses: those of links, and that every joint moves some. A kinematic
-/// robot may break them.
+/// True for the rules about mass, which a kinematic robot may break.
 [[nodiscard]] constexpr bool concerns_mass(Rule rule) noexcept {
   return concerns_inertia(rule) || rule == Rule::link_has_negative_mass ||
          rule == Rule::joint_moves_no_mass;
 }
 
-/// The broken rule in words, for messages at run time.
+/// The text of a broken rule, for messages at run time.
 [[nodiscard]] constexpr std::string_view to_string(Rule rule) noexcept {
-  switch (rule) {
-    case Rule::none:
-      return "no fault";
-    case Rule::name_is_missing:
-      return "the name is missing";
-    case Rule::name_is_used_twice:
-      return "the name is used twice";
-    case Rule::number_is_not_finite:
-      return "a number is NaN, infinite or too large (more than 1e50, or an angle of more than "
-             "1e9 rad)";
-    case Rule::link_has_negative_mass:
-      return "the mass is negative";
-    case Rule::link_has_inertia_but_no_mass:
-      return "the link has inertia but no mass";
-    case Rule::inertia_is_not_positive_definite:
-      return "the inertia is not positive definite";
-    case Rule::inertia_breaks_the_triangle_inequality:
-      return "the inertia breaks the triangle inequality";
-    case Rule::parent_link_does_not_exist:
-      return "the parent link does not exist";
-    case Rule::child_link_does_not_exist:
-      return "the child link does not exist";
-    case Rule::link_is_the_child_of_two_joints:
-      return "the link is the child of two joints";
-    case Rule::links_have_more_than_one_root:
-      return "the link hangs on no joint, and another link is the root";
-    case Rule::links_form_a_loop:
-      return "the link is part of a loop";
-    case Rule::robot_has_no_moving_joint:
-      return "no joint moves";
-    case Rule::fixed_joint_has_limits_or_damping:
-      return "the joint is fixed, and has limits, damping, friction or a drive; its type may be "
-             "missing";
-    case Rule::axis_has_length_zero:
-      return "the axis has length 0";
-    case Rule::lower_limit_is_above_upper_limit:
-      return "the lower limit is above the upper limit";
-    case Rule::velocity_limit_is_negative:
-      return "the velocity limit is negative";
-    case Rule::effort_limit_is_negative:
-      return "the effort limit is negative";
-    case Rule::acceleration_limit_is_not_positive:
-      return "the acceleration limit is not positive";
-    case Rule::jerk_limit_is_not_positive:
-      return "the jerk limit is not positive";
-    case Rule::soft_limits_leave_no_position:
-      return "the soft limits leave no position within the limits, or their rate is not positive";
-    case Rule::damping_is_negative:
-      return "the damping is negative";
-    case Rule::friction_is_negative:
-      return "the friction is negative";
-    case Rule::reflected_inertia_is_negative:
-      return "the reflected inertia is negative";
-    case Rule::joint_moves_no_mass:
-      return "the joint moves no link that has mass";
-    case Rule::mimicked_joint_does_not_exist:
-      return "the joint that is to be mimicked does not exist";
-    case Rule::mimicked_joint_is_not_free:
-      return "the joint that is to be mimicked is fixed or a mimic itself";
-    case Rule::mimics_leave_no_position:
-      return "the limits of the joint and of those that mimic it have nothing in common";
-    case Rule::rotors_are_shared_with_no_free_joint:
-      return "rotors are shared between joints of which one is fixed, a mimic, missing or the same";
-    case Rule::rotors_are_shared_twice:
-      return "the joint shares rotors with more than one other, or both joints name them";
-    case Rule::shared_inertia_is_too_large:
-      return "the shared inertia is larger than those of the two joints' drives allow";
+  constexpr auto texts = std::to_array<std::pair<Rule, std::string_view>>({
+      {Rule::none, "no fault"},
+      {Rule::name_is_missing, "the name is missing"},
+      {Rule::name_is_used_twice, "the name is used twice"},
+      {Rule::number_is_not_finite,
+       "a number is NaN, infinite or too large (more than 1e50, or an angle of more than 1e9 rad)"},
+      {Rule::link_has_negative_mass, "the mass is negative"},
+      {Rule::link_has_inertia_but_no_mass, "the link has inertia but no mass"},
+      {Rule::inertia_is_not_positive_definite, "the inertia is not positive definite"},
+      {Rule::inertia_breaks_the_triangle_inequality, "the inertia breaks the triangle inequality"},
+      {Rule::parent_link_does_not_exist, "the parent link does not exist"},
+      {Rule::child_link_does_not_exist, "the child link does not exist"},
+      {Rule::link_is_the_child_of_two_joints, "the link is the child of two joints"},
+      {Rule::links_have_more_than_one_root,
+       "the link is the child of no joint, but another link is the root"},
+      {Rule::links_form_a_loop, "the link is part of a loop"},
+      {Rule::robot_has_no_moving_joint, "no joint moves"},
+      {Rule::fixed_joint_has_limits_or_damping,
+       "the joint is fixed, but has limits, damping, friction or a drive; its type may be missing"},
+      {Rule::axis_has_length_zero, "the axis has length 0"},
+      {Rule::lower_limit_is_above_upper_limit, "the lower limit is above the upper limit"},
+      {Rule::velocity_limit_is_negative, "the velocity limit is negative"},
+      {Rule::effort_limit_is_negative, "the effort limit is negative"},
+      {Rule::acceleration_limit_is_not_positive, "the acceleration limit is not positive"},
+      {Rule::jerk_limit_is_not_positive, "the jerk limit is not positive"},
+      {Rule::soft_limits_leave_no_position,
+       "the soft limits leave no position within the limits, or their rate is not positive"},
+      {Rule::damping_is_negative, "the damping is negative"},
+      {Rule::friction_is_negative, "the friction is negative"},
+      {Rule::reflected_inertia_is_negative, "the reflected inertia is negative"},
+      {Rule::joint_moves_no_mass, "the joint moves no link that has mass"},
+      {Rule::mimicked_joint_does_not_exist, "the mimicked joint does not exist"},
+      {Rule::mimicked_joint_is_not_free, "the mimicked joint is fixed or mimics another joint"},
+      {Rule::mimics_leave_no_position,
+       "the limits of the joint and of those that mimic it have no position in common"},
+      {Rule::rotors_are_shared_with_no_free_joint,
+       "rotors are shared with a joint that is missing, fixed, a mimic or the joint itself"},
+      {Rule::rotors_are_shared_twice,
+       "the joint shares rotors with more than one other, or both joints name each other"},
+      {Rule::shared_inertia_is_too_large,
+       "the shared inertia c is too large: c^2 must not exceed the product of the two reflected "
+       "inertias"},
+  });
+  for (const auto& [each, text] : texts) {
+    if (each == rule) return text;
   }
   return "unknown rule";
 }

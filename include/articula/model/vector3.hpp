@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Vectors and matrices of space, for any scalar, also at compile time (Eigen 3.4 is not
-/// constexpr).
+/// @file Vectors and matrices in space over any scalar, usable at compile time (Eigen 3.4 is not).
 #pragma once
 
 #include <array>
 
 namespace articula {
 
-/// A vector of space. Unit and frame as the user of it says.
+namespace detail {
+
+[[nodiscard]] constexpr double magnitude(double x) noexcept { return x < 0 ? -x : x; }
+
+}  // namespace detail
+
+/// A vector in space. Its users state unit and frame.
 /// @tparam S  any type with +, - and *, made from a double
 template <class S>
 struct Vector3 {
@@ -77,7 +82,7 @@ struct Matrix3 {
   }
 };
 
-/// The product of the transposed matrix and a vector: for a rotation, the turn back.
+/// The product of the transposed matrix and a vector: for a rotation, the inverse rotation.
 template <class S>
 [[nodiscard]] constexpr Vector3<S> transposed_times(const Matrix3<S>& m,
                                                     const Vector3<S>& a) noexcept {
@@ -92,7 +97,7 @@ template <class S>
   return {{{constant<S>(m.rows[0]), constant<S>(m.rows[1]), constant<S>(m.rows[2])}}};
 }
 
-/// A symmetric 3 x 3 matrix by its upper triangle, as URDF writes an inertia.
+/// A symmetric 3 x 3 matrix by its upper triangle, as URDF defines an inertia.
 template <class S>
 struct Symmetric3 {
   S xx = S(0.0);

@@ -10,8 +10,8 @@
 
 namespace articula {
 
-/// The motion before a joint keeps its limits: six stretches at most, followed by the mixture of
-/// two motions of seven stretches each (StateToStateMotion).
+/// A motion between two states (StateToStateMotion): up to six stretches of braking_motion(), then a
+/// mixture of two motions of seven stretches each.
 using TransferMotion = JerkMotion<6 + 14>;
 
 /// Brings an acceleration beyond its limit back to the limit at full jerk. The motion takes no time

@@ -37,8 +37,13 @@ class StateToStateMotion {
       : target_(without_rounding(target, target.position, bounds)), bounds_(bounds) {
     const JointMotion from = without_rounding(start, target.position, bounds);
     starts_ = {limit_acceleration(from, bounds), braking_motion(from, bounds)};
-    if (!can_be_arrived_at(target_, bounds)) return;
     const double J = bounds.jerk, low = bounds.lowest_velocity, high = bounds.highest_velocity;
+    // Backwards in time, the target's velocity must keep its limits while its acceleration fades.
+    const double a = target_.acceleration, v = target_.velocity, bend = a / 2 / J * std::abs(a);
+    if (!within(bounds.lowest_acceleration, a, bounds.highest_acceleration) ||
+        !within(low, v, high) || !within(low, v - bend, high)) {
+      return;
+    }
     const bool is_fast = !within(low, starts_[0].end().velocity, high);
     const bool is_viable = starts_[1].size() == starts_[0].size();
     for (std::size_t way = is_fast ? 1 : 0; way < (is_viable ? 1 : 2); ++way) {
@@ -55,17 +60,6 @@ class StateToStateMotion {
         });
       }
     }
-  }
-
-  /// Whether a motion within the limits can end at a target. Real-time: yes.
-  [[nodiscard]] static bool can_be_arrived_at(const JointMotion& target,
-                                              const MotionBounds& bounds) noexcept {
-    // Backwards in time, the velocity must stay within its limits while the acceleration fades.
-    const double a = target.acceleration, v = target.velocity;
-    const double bend = a / 2 / bounds.jerk * std::abs(a);
-    const double low = bounds.lowest_velocity, high = bounds.highest_velocity;
-    return within(bounds.lowest_acceleration, a, bounds.highest_acceleration) &&
-           within(low, v, high) && within(low, v - bend, high);
   }
 
   /// Whether there is a motion to the target. Real-time: yes.

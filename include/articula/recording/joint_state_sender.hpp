@@ -43,10 +43,7 @@ class JointStateSender {
   ///         robot has no link of a name
   /// @throws std::system_error if the system refuses a socket
   explicit JointStateSender(const R& robot, const JointStateSenderOptions& options = {})
-      : robot_(robot),
-        extras_(robot, options.contents),
-        divisor_(options.divisor),
-        references_(options.references) {
+      : robot_(robot), extras_(robot, options.contents), options_(options) {
     if (options.divisor < 1) {
       detail::refuse({"joint state sender: divisor ", options.divisor, " is less than 1"});
     }
@@ -73,9 +70,9 @@ class JointStateSender {
   /// Real-time: no (allocates, calls the system).
   template <class Command>
   void write(const CycleRecord<joint_count<R>, Command>& record) {
-    if (records_++ % static_cast<std::uint64_t>(divisor_) != 0) return;
+    if (records_++ % static_cast<std::uint64_t>(options_.divisor) != 0) return;
     Json json = joint_state_json(robot_, record.time, record.state);
-    if (references_) add_references(robot_, json, record.reference);
+    if (options_.references) add_references(robot_, json, record.reference);
     add_extras(robot_, json, extras_, record.state);
     for (const std::string& text : split_json(json, longest_datagram)) {
       const auto sent = ::sendto(socket_, text.data(), text.size(), MSG_DONTWAIT,
@@ -92,8 +89,7 @@ class JointStateSender {
  private:
   [[no_unique_address]] R robot_;
   RecordExtras<R> extras_;
-  int divisor_;
-  bool references_;
+  JointStateSenderOptions options_;
   int socket_ = -1;
   sockaddr_in target_{};
   std::uint64_t records_ = 0;

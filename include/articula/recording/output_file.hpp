@@ -57,7 +57,7 @@ class OutputFile {
   };
 
   void keep_error(bool good) noexcept {
-    if (!good && error_ == 0) error_ = errno;
+    if (!good && error_ == 0) error_ = errno != 0 ? errno : EIO;
   }
 
   std::string path_;

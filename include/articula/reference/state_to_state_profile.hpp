@@ -68,23 +68,19 @@ class StateToStateProfile {
     if (!is_finite(from) || !is_finite(to)) {
       detail::refuse({"profile: start or target has a number that is not finite"});
     }
+    for (int j = 0; j < joint_count; ++j) {
+      if (StateToStateMotion(motion_of(from, j), motion_of(to, j), limits[j]).exists()) continue;
+      detail::refuse({"profile: joint '", model_of(robot).joints[j].name.view(),
+                      "' has no motion within its limits to the target velocity ", to.velocity[j],
+                      " and acceleration ", to.acceleration[j]});
+    }
     const auto found = plan(from, to, limits, minimum);
-    if (found) *this = *found;
+    if (!found) detail::refuse({"profile: the joints have no common duration within their limits"});
+    *this = *found;
     for (int j = 0; j < joint_count; ++j) {
       const JointProperties& joint = model_of(robot).joints[j];
-      if (!StateToStateMotion::can_be_arrived_at(motion_of(to, j), limits[j])) {
-        detail::refuse({"profile: target velocity ", to.velocity[j], " and acceleration ",
-                        to.acceleration[j], " of joint '", joint.name.view(),
-                        "' are not within its motion limits, or no motion within them ends there"});
-      }
-      if (!StateToStateMotion(motion_of(from, j), motion_of(to, j), limits[j]).exists()) {
-        detail::refuse({"profile: no motion was found for joint '", joint.name.view(), "' from ",
-                        from.position[j], " with velocity ", from.velocity[j], " to ",
-                        to.position[j], " with velocity ", to.velocity[j]});
-      }
-      if (!found) continue;
-      const ValueRange positions = motions_[j].positions();
       constexpr double rounding = 1e-9;  // [rad or m]
+      const ValueRange positions = motions_[j].positions();
       const bool below =
           positions.lowest < std::min(joint.limits.lower, from.position[j]) - rounding;
       if (!below &&
@@ -94,11 +90,6 @@ class StateToStateProfile {
       detail::refuse({"profile: between start and target joint '", joint.name.view(),
                       "' swings out to ", below ? positions.lowest : positions.highest,
                       ", outside its limits ", joint.limits.lower, " .. ", joint.limits.upper});
-    }
-    if (!found) {
-      detail::refuse(
-          {"profile: no motion was found in which all joints arrive together and keep "
-           "their limits"});
     }
   }
   /// For a robot known at compile time.

@@ -32,10 +32,10 @@ constexpr std::array<Link, 3> gripper_finger_links(Side side) {
   }};
 }
 
-/// The joints of one half of the gripper. All close it when they grow but the fingertip's, which
-/// turns back so that the tip keeps its direction.
-/// @param leader  the joint that the others follow
-constexpr std::array<Joint, 3> gripper_finger_joints(Side side, const Name& leader) {
+/// The joints of one half of the gripper. Positive positions close it. The fingertip's joint rotates
+/// the other way, so that the tip keeps its direction.
+/// @param mimicked  the joint that the others mimic
+constexpr std::array<Joint, 3> gripper_finger_joints(Side side, const Name& mimicked) {
   const Name own = side("outer_knuckle_joint");
   const JointLimits closing{.lower = 0, .upper = 0.8, .velocity = 2, .effort = 15};
   const JointLimits opening{.lower = -0.8, .upper = 0, .velocity = 2, .effort = 15};
@@ -48,7 +48,7 @@ constexpr std::array<Joint, 3> gripper_finger_joints(Side side, const Name& lead
        .axis = {0, -side.sign, 0},
        .limits = closing,
        .damping = 0.02,
-       .mimic = {.joint = own == leader ? Name() : leader}},
+       .mimic = {.joint = own == mimicked ? Name() : mimicked}},
       {.name = side("inner_knuckle_joint"),
        .type = JointType::revolute,
        .parent = "gripper_base_link",
@@ -57,7 +57,7 @@ constexpr std::array<Joint, 3> gripper_finger_joints(Side side, const Name& lead
        .axis = {0, -side.sign, 0},
        .limits = closing,
        .damping = 0.02,
-       .mimic = {.joint = leader}},
+       .mimic = {.joint = mimicked}},
       {.name = side("fingertip_joint"),
        .type = JointType::revolute,
        .parent = side("outer_knuckle"),
@@ -66,15 +66,15 @@ constexpr std::array<Joint, 3> gripper_finger_joints(Side side, const Name& lead
        .axis = {0, -side.sign, 0},
        .limits = opening,
        .damping = 0.02,
-       .mimic = {.joint = leader, .multiplier = -1}},
+       .mimic = {.joint = mimicked, .multiplier = -1}},
   }};
 }
 
 }  // namespace detail
 
-/// An arm with six revolute joints and an adaptive gripper: one drive closes both fingers through
-/// five joints that mimic its own, the seventh. At zero the arm stands upright, the gripper is
-/// open. Figures: made up for an arm with 0.9 m of reach, bodies taken as boxes and cylinders.
+/// An arm with six revolute joints and an adaptive gripper. The seventh joint closes both fingers;
+/// five joints mimic it. At zero the arm is upright and the gripper open. Figures: invented for an
+/// arm with 0.9 m of reach and bodies that are boxes and cylinders.
 struct GripperArm {
   static constexpr RobotDescription description{
       .name = "gripper_arm",

@@ -12,8 +12,8 @@
 
 namespace articula {
 
-/// The Willow Garage PR2 on a base that stands still: twenty joints (torso, head, laser, and eight
-/// in each arm, the last of them for the gripper) and ten that follow a gripper's. Figures: the
+/// The Willow Garage PR2 on a fixed base: twenty joints (torso, head, laser, and eight in each arm,
+/// the last of them for the gripper) and ten that mimic a gripper's. Figures: the
 /// public robot description (pr2_description), with the links that move mass, the base and the
 /// grippers' tool frames.
 struct Pr2 {

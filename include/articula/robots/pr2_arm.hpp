@@ -7,11 +7,12 @@
 
 #include <array>
 #include <numbers>
+#include <string_view>
 
 namespace articula::detail {
 
 /// The links of one arm of the PR2 with its gripper.
-/// @param upper_arm  the one that is not alike on both sides
+/// @param upper_arm  the link that differs between the sides
 constexpr auto pr2_arm_links(Side side, const Link& upper_arm) {
   return std::to_array<Link>({
       {.name = side("shoulder_pan_link"),
@@ -132,12 +133,27 @@ constexpr auto pr2_arm_links(Side side, const Link& upper_arm) {
   });
 }
 
-/// The joints of one arm of the PR2. All that the gripper has follow one of its fingers; as public
-/// descriptions have it, the right inner finger would be the only one to turn with a multiplier of
-/// -1, out of its limits. Here it mirrors the left one, as it does on the robot.
-/// @param pan   limits of the shoulder's pan joint, of which position alone is taken
-/// @param roll  likewise of the upper arm's roll joint
+/// The joints of one arm of the PR2. All joints of the gripper mimic that of one finger. In public
+/// descriptions the right inner finger has a multiplier of -1, which leaves its limits; here it
+/// mirrors the left one, as on the robot.
+/// @param pan   limits of the shoulder's pan joint; only the positions are used
+/// @param roll  limits of the upper arm's roll joint; only the positions are used
 constexpr auto pr2_arm_joints(Side side, const JointLimits& pan, const JointLimits& roll) {
+  const Name mimicked = side("gripper_l_finger_joint");
+  const auto finger = [&](std::string_view joint, std::string_view parent, std::string_view child,
+                          const Vector3<double>& origin, const Vector3<double>& axis,
+                          double damping) -> Joint {
+    const Name name = side(joint);
+    return {.name = name,
+            .type = JointType::revolute,
+            .parent = side(parent),
+            .child = side(child),
+            .origin = origin,
+            .axis = axis,
+            .limits = {.lower = 0, .upper = 0.548, .velocity = 0.5, .effort = 1000},
+            .damping = damping,
+            .mimic = {.joint = name == mimicked ? Name() : mimicked}};
+  };
   return std::to_array<Joint>({
       {.name = side("shoulder_pan_joint"),
        .type = JointType::revolute,
@@ -206,62 +222,21 @@ constexpr auto pr2_arm_joints(Side side, const JointLimits& pan, const JointLimi
       {.name = side("gripper_palm_joint"),
        .parent = side("wrist_roll_link"),
        .child = side("gripper_palm_link")},
-      {.name = side("gripper_l_finger_joint"),
-       .type = JointType::revolute,
-       .parent = side("gripper_palm_link"),
-       .child = side("gripper_l_finger_link"),
-       .origin = {0.07691, 0.01, 0},
-       .axis = {0, 0, 1},
-       .limits = {.lower = 0, .upper = 0.548, .velocity = 0.5, .effort = 1000},
-       .damping = 0.2},
-      {.name = side("gripper_l_finger_tip_joint"),
-       .type = JointType::revolute,
-       .parent = side("gripper_l_finger_link"),
-       .child = side("gripper_l_finger_tip_link"),
-       .origin = {0.09137, 0.00495, 0},
-       .axis = {0, 0, -1},
-       .limits = {.lower = 0, .upper = 0.548, .velocity = 0.5, .effort = 1000},
-       .damping = 0.01,
-       .mimic = {.joint = side("gripper_l_finger_joint")}},
-      {.name = side("gripper_l_parallel_root_joint"),
-       .type = JointType::revolute,
-       .parent = side("gripper_palm_link"),
-       .child = side("gripper_l_parallel_link"),
-       .origin = {0.05891, 0.031, 0},
-       .axis = {0, 0, 1},
-       .limits = {.lower = 0, .upper = 0.548, .velocity = 0.5, .effort = 1000},
-       .damping = 0.2,
-       .mimic = {.joint = side("gripper_l_finger_joint")}},
+      finger("gripper_l_finger_joint", "gripper_palm_link", "gripper_l_finger_link",
+             {0.07691, 0.01, 0}, {0, 0, 1}, 0.2),
+      finger("gripper_l_finger_tip_joint", "gripper_l_finger_link", "gripper_l_finger_tip_link",
+             {0.09137, 0.00495, 0}, {0, 0, -1}, 0.01),
+      finger("gripper_l_parallel_root_joint", "gripper_palm_link", "gripper_l_parallel_link",
+             {0.05891, 0.031, 0}, {0, 0, 1}, 0.2),
       {.name = side("gripper_motor_accelerometer_joint"),
        .parent = side("gripper_palm_link"),
        .child = side("gripper_motor_accelerometer_link")},
-      {.name = side("gripper_r_finger_joint"),
-       .type = JointType::revolute,
-       .parent = side("gripper_palm_link"),
-       .child = side("gripper_r_finger_link"),
-       .origin = {0.07691, -0.01, 0},
-       .axis = {0, 0, -1},
-       .limits = {.lower = 0, .upper = 0.548, .velocity = 0.5, .effort = 1000},
-       .damping = 0.2,
-       .mimic = {.joint = side("gripper_l_finger_joint")}},
-      {.name = side("gripper_r_finger_tip_joint"),
-       .type = JointType::revolute,
-       .parent = side("gripper_r_finger_link"),
-       .child = side("gripper_r_finger_tip_link"),
-       .origin = {0.09137, -0.00495, 0},
-       .axis = {0, 0, 1},
-       .limits = {.lower = 0, .upper = 0.548, .velocity = 0.5, .effort = 1000},
-       .damping = 0.01,
-       .mimic = {.joint = side("gripper_l_finger_joint")}},
-      {.name = side("gripper_r_parallel_root_joint"),
-       .type = JointType::revolute,
-       .parent = side("gripper_palm_link"),
-       .child = side("gripper_r_parallel_link"),
-       .origin = {0.05891, -0.031, 0},
-       .axis = {0, 0, -1},
-       .limits = {.lower = 0, .upper = 0.548, .velocity = 0.5, .effort = 1000},
-       .damping = 0.2,
-       .mimic = {.joint = side("gripper_l_finger_joint")}},
+      finger("gripper_r_finger_joint", "gripper_palm_link", "gripper_r_finger_link",
+             {0.07691, -0.01, 0}, {0, 0, -1}, 0.2),
+      finger("gripper_r_finger_tip_joint", "gripper_r_finger_link", "gripper_r_finger_tip_link",
+             {0.09137, -0.00495, 0}, {0, 0, 1}, 0.01),
+      finger("gripper_r_parallel_root_joint", "gripper_palm_link", "gripper_r_parallel_link",
+             {0.05891, -0.031, 0}, {0, 0, -1}, 0.2),
       {.name = side("gripper_tool_joint"),
        .parent = side("gripper_palm_link"),
        .child = side("gripper_tool_frame"),

@@ -13,7 +13,7 @@ namespace articula {
 
 /// The Quanser 2-DOF serial flexible-joint arm (Q2D): two vertical axes, shoulder and elbow, each
 /// driven through a joint with a spring that is locked here. Gravity has no effect on it unless it
-/// is tilted. Figures: the course's robot description; examples/q2d/q2d.urdf holds the same.
+/// is tilted. Figures: the course's robot description; examples/q2d/q2d.urdf has the same.
 struct Q2d {
   static constexpr RobotDescription description{
       .name = "q2d",

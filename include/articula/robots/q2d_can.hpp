@@ -12,7 +12,7 @@
 
 namespace articula {
 
-/// The Quanser arm on a CAN bus: what was tuned on Q2dSim runs here.
+/// The Quanser arm on a CAN bus. It accepts the controllers that run on Q2dSim.
 ///
 ///     Loop<Q2dCan, PidPlusGravity> loop;                      // on can0
 ///     Loop<Q2dCan, PidPlusGravity> loop(Q2dCan("vcan0"));
@@ -20,8 +20,8 @@ class Q2dCan : public CanHardware<Q2d, QuanserCodec<Q2d>, SocketCan> {
  public:
   /// @param interface  the CAN interface
   /// @param modules    the arm's joint modules
-  /// @param options    how patient the driver is
-  /// @throws std::invalid_argument if modules, options or the interface's name make no sense
+  /// @param options    time-outs of the driver
+  /// @throws std::invalid_argument if modules, options or the interface's name are invalid
   /// @throws std::runtime_error if the interface does not exist
   explicit Q2dCan(const std::string& interface = "can0",
                   const QuanserModules<2>& modules = q2d_modules,

@@ -8,13 +8,13 @@ namespace articula {
 
 /// The joint modules of the Quanser arm, shoulder then elbow: docs/quanser_protocol.md. Encoders
 /// with 4096 counts per turn behind gears of 100 and 80; the load's encoders have 65536 counts per
-/// turn. These figures are ours: check them on the arm at hand, see docs/hardware.md.
+/// turn. These figures are our own: check them on your arm, see docs/hardware.md.
 ///
-/// Motor and load may differ by 0.4 rad. The arm has a torsion spring between them where it is not
-/// locked, of 9 N m/rad in the shoulder and 4 N m/rad in the elbow (the maker's figures, not
-/// measured). Steps of 0.1 rad under the course's gains bend these springs by 0.33 rad at most, in
-/// simulation. On an arm with locked joints 0.05 rad is enough; steps of 1 rad with free springs
-/// need 0.8 rad.
+/// Motor and load may differ by 0.4 rad. Where a joint is not locked, it has a torsion spring
+/// between them: 9 N m/rad in the shoulder, 4 N m/rad in the elbow (the maker's figures, not
+/// measured). In simulation, steps of 0.1 rad under the course's gains twist these springs by at
+/// most 0.33 rad. With locked joints 0.05 rad is enough; steps of 1 rad with free springs need
+/// 0.8 rad.
 inline constexpr QuanserModules<2> q2d_modules{{
     {.node = 1,
      .motor_counts_per_turn = 4096,

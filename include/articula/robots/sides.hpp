@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What descriptions of robots with a left and a right side are put together with.
+/// @file Helpers for descriptions of robots with a left and a right side.
 #pragma once
 
 #include "articula/core/name.hpp"
@@ -10,12 +10,12 @@
 
 namespace articula::detail {
 
-/// A side of a robot, for parts that are written once and mirrored in the plane y = 0.
+/// A side of a robot, for parts that are described once and mirrored in the plane y = 0.
 struct Side {
-  std::string_view prefix;  ///< what the names of its parts begin with
+  std::string_view prefix;  ///< of the names of its parts
   double sign;              ///< of y: +1 to the left, -1 to the right
 
-  /// The name of a part of this side: prefix and name together, 63 characters at most.
+  /// The name of a part of this side: prefix and name, at most 63 characters.
   [[nodiscard]] constexpr Name operator()(std::string_view name) const {
     Name result = prefix;
     for (char c : name) result.characters[result.size++] = c;
@@ -23,7 +23,7 @@ struct Side {
   }
 };
 
-/// Arrays one after the other.
+/// The elements of all arrays, in order.
 template <class Element, std::size_t... Sizes>
 [[nodiscard]] constexpr auto joined(const std::array<Element, Sizes>&... parts) {
   std::array<Element, (Sizes + ...)> all{};

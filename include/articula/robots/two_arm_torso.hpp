@@ -63,8 +63,8 @@ constexpr std::array<Joint, 3> torso_arm_joints(Side side) {
 }  // namespace detail
 
 /// A fixed torso with two arms: shoulder pitch, shoulder roll and elbow on either side. At zero the
-/// arms hang down; x points forward, y to the left, and elbows bend forward. Limits: those that
-/// teaching material for small humanoids uses; the other figures are made up for arms of that size.
+/// arms hang down; x points forward, y to the left, and elbows bend forward. Limits: those of
+/// teaching material for small humanoids; the other figures are invented for arms of that size.
 struct TwoArmTorso {
   static constexpr RobotDescription description{
       .name = "two_arm_torso",

@@ -215,11 +215,13 @@ class Simulator {
   [[nodiscard]] JointVector<joint_count, T> spring_effort(
       const MultiModeCommand<joint_count, T>& command, const JointVector<joint_count, T>& q,
       const JointVector<joint_count, T>& v) const noexcept {
-    return for_each_joint<joint_count, T>([&](int j) noexcept {
-      const T effort = command.stiffness[j] * (command.position[j] - q[j]) +
-                       command.damping[j] * (command.velocity[j] - v[j]) + command.effort[j];
-      return select(is_finite(effort), clamp(effort, -limits_[j], limits_[j]), T(0));
-    });
+    JointVector<joint_count, T> effort = command.stiffness.cwiseProduct(command.position - q) +
+                                         command.damping.cwiseProduct(command.velocity - v) +
+                                         command.effort;
+    for (int j = 0; j < joint_count; ++j) {
+      effort[j] = select(is_finite(effort[j]), clamp(effort[j], -limits_[j], limits_[j]), T(0));
+    }
+    return effort;
   }
 
   void finish(const Motion<joint_count, S>& motion, const Vector& effort) noexcept {

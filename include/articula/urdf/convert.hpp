@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file From urdfdom's links and joints to articula's.
+/// @file Conversion of urdfdom's links and joints to articula's.
 #pragma once
 
 #include "articula/model/joint.hpp"
@@ -16,7 +16,7 @@ namespace articula {
 
 /// The limits of a joint: those of <limit>, narrowed by those of its commands in <ros2_control>,
 /// and the soft limits of <safety_controller>.
-/// @return  [rad, rad/s, N m] or [m, m/s, N]; what is not limited is infinite
+/// @return  [rad, rad/s, N m] or [m, m/s, N]; infinite where there is no limit
 /// Real-time: no (searches by name).
 [[nodiscard]] inline JointLimits joint_limits(const UrdfDocument& document,
                                               const urdf::Joint& joint) {
@@ -30,8 +30,8 @@ namespace articula {
       limits.upper = joint.limits->upper;
     }
   }
-  if (const auto found = document.command_limits.find(joint.name);
-      found != document.command_limits.end()) {
+  if (const auto found = document.control.limits.find(joint.name);
+      found != document.control.limits.end()) {
     const JointLimits& command = found->second;
     limits.velocity = std::min(limits.velocity, command.velocity);
     limits.effort = std::min(limits.effort, command.effort);
@@ -43,31 +43,32 @@ namespace articula {
     }
   }
   if (const auto soft = document.soft_limits.find(joint.name);
-      soft != document.soft_limits.end() && soft->second.lower <= limits.upper &&
-      soft->second.upper >= limits.lower) {  // else they do not count, see UrdfNotices
-    limits.soft_lower = soft->second.lower;
-    limits.soft_upper = soft->second.upper;
-    limits.soft_rate = soft->second.rate;
+      soft != document.soft_limits.end() && soft->second.soft_lower <= limits.upper &&
+      soft->second.soft_upper >= limits.lower) {  // else UrdfNotices reports them
+    limits.soft_lower = soft->second.soft_lower;
+    limits.soft_upper = soft->second.soft_upper;
+    limits.soft_rate = soft->second.soft_rate;
   }
   return limits;
 }
 
 namespace detail {
 
-/// A name, which has a largest length.
+/// @throws UrdfError if a name is too long
 [[nodiscard]] inline Name name_of(const UrdfDocument& document, const std::string& text) {
   if (text.size() > Name::capacity) {
     throw UrdfError(document.file, "'" + text + "': the name has " + std::to_string(text.size()) +
-                                       " characters; 63 are accepted");
+                                       " characters; at most 63 are supported");
   }
   return std::string_view(text);
 }
 
 [[nodiscard]] inline Vector3<double> vector_of(const urdf::Vector3& a) { return {a.x, a.y, a.z}; }
 
-[[nodiscard]] inline Link link_of(const UrdfDocument& document, const urdf::Link& link) {
+[[nodiscard]] inline Link link_of(const UrdfDocument& document, const urdf::Link& link,
+                                  bool without_mass) {
   Link result{.name = name_of(document, link.name)};
-  if (!link.inertial) return result;
+  if (without_mass || !link.inertial) return result;
   const urdf::Inertial& inertial = *link.inertial;
   result.mass = inertial.mass;
   result.center_of_mass = vector_of(inertial.origin.position);
@@ -92,12 +93,11 @@ namespace detail {
           document.file,
           "joint '" + joint.name + "': it is " +
               (joint.type == urdf::Joint::PLANAR ? "planar" : "floating") +
-              "; joints with one degree of freedom are supported (lock it, or choose a root "
-              "beyond it)");
+              ", but joints must have one degree of freedom: lock it, or choose a root beyond it");
   }
 }
 
-/// A joint that is fixed where it stands.
+/// A joint as fixed at its zero position.
 [[nodiscard]] inline Joint fixed_joint_of(const UrdfDocument& document, const urdf::Joint& joint) {
   return {.name = name_of(document, joint.name),
           .parent = name_of(document, joint.parent_link_name),
@@ -106,8 +106,8 @@ namespace detail {
           .orientation = document.joint_orientations.at(joint.name)};
 }
 
-/// A joint without whom it mimics, see leader_of, and with limits as they are, see
-/// LimitContradictions.
+/// A joint without its mimic, see resolve_mimic, and with unchecked limits, see
+/// check_command_limits.
 [[nodiscard]] inline Joint joint_of(const UrdfDocument& document, const urdf::Joint& joint) {
   Joint result = fixed_joint_of(document, joint);
   result.type = type_of(document, joint);
@@ -123,7 +123,7 @@ namespace detail {
 
 /// The roll, pitch, yaw of a rotation [rad].
 [[nodiscard]] inline Vector3<double> rpy_of(const Eigen::Matrix3d& r) {
-  // Roll from what yaw leaves over, so that the three fit together even where pitch is pi/2.
+  // Roll follows from r and yaw, so that the three are consistent even at a pitch of pi/2.
   const double yaw = std::atan2(r(1, 0), r(0, 0)), s = std::sin(yaw), c = std::cos(yaw);
   return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)),
           std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))), yaw};
@@ -137,19 +137,17 @@ namespace detail {
       .toRotationMatrix();
 }
 
-/// The joint, fixed at a position [rad or m].
+/// A joint as fixed at a position [rad or m].
 [[nodiscard]] inline Joint locked_joint_of(const UrdfDocument& document, const urdf::Joint& joint,
                                            double position) {
   Joint result = fixed_joint_of(document, joint);
   if (position == 0) return result;  // also planar and floating joints
   const Vector3<double> axis = vector_of(joint.axis);
   const double length = std::sqrt(dot(axis, axis));
-  if (type_of(document, joint) == JointType::fixed || !is_finite(position) || !(length > 0) ||
-      !is_finite(length)) {
+  if (type_of(document, joint) == JointType::fixed || !(length > 0) || !is_finite(length)) {
     throw UrdfError(document.file, "joint '" + joint.name + "': it cannot be locked at " +
                                        rounded_text(position) +
-                                       ": it is fixed, has no axis, or "
-                                       "that is no number");
+                                       ": it is fixed or its axis has no direction");
   }
   const Eigen::Vector3d along = Eigen::Vector3d(axis.x, axis.y, axis.z) / length;
   const Eigen::Matrix3d turn = rotation_of(result.orientation);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What is wrong with a description, in words and figures.
+/// @file Messages about faults of descriptions, with figures.
 #pragma once
 
 #include "articula/model/validation.hpp"
@@ -7,12 +7,15 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+#include <initializer_list>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace articula::detail {
 
-/// The principal moments of a link's inertia, ascending.
+/// A link's mass and the principal moments of its inertia, ascending.
 [[nodiscard]] inline std::string principal_moments_text(const Link& link) {
   const Symmetric3<double>& i = link.inertia;
   Eigen::Matrix3d matrix;
@@ -24,7 +27,7 @@ namespace articula::detail {
          rounded_text(moments[2]) + " kg m^2";
 }
 
-/// The figures that break a rule; empty if the rule says it all.
+/// The figures that break a rule; empty if it needs none.
 [[nodiscard]] inline std::string figures(const Link& link, Rule rule) {
   if (rule == Rule::link_has_negative_mass) return rounded_text(link.mass) + " kg";
   return concerns_inertia(rule) ? principal_moments_text(link) : "";
@@ -33,40 +36,37 @@ namespace articula::detail {
 /// @copydoc figures(const Link&, Rule)
 [[nodiscard]] inline std::string figures(const Joint& joint, Rule rule) {
   const JointLimits& limits = joint.limits;
+  const std::string range =
+      "lower " + rounded_text(limits.lower) + ", upper " + rounded_text(limits.upper);
+  const std::initializer_list<std::pair<Rule, double>> numbers = {
+      {Rule::velocity_limit_is_negative, limits.velocity},
+      {Rule::effort_limit_is_negative, limits.effort},
+      {Rule::acceleration_limit_is_not_positive, limits.acceleration},
+      {Rule::jerk_limit_is_not_positive, limits.jerk},
+      {Rule::damping_is_negative, joint.damping},
+      {Rule::friction_is_negative, joint.friction},
+      {Rule::reflected_inertia_is_negative, joint.reflected_inertia},
+      {Rule::shared_inertia_is_too_large, joint.shared_rotors.inertia}};
+  for (const auto& [each, number] : numbers) {
+    if (each == rule) return rounded_text(number);
+  }
   switch (rule) {
     case Rule::axis_has_length_zero:
-      return rounded_text(joint.axis.x) + " " + rounded_text(joint.axis.y) + " " +
-             rounded_text(joint.axis.z);
+      return "0 0 0";
     case Rule::lower_limit_is_above_upper_limit:
-      return "lower " + rounded_text(limits.lower) + ", upper " + rounded_text(limits.upper);
-    case Rule::velocity_limit_is_negative:
-      return rounded_text(limits.velocity);
-    case Rule::effort_limit_is_negative:
-      return rounded_text(limits.effort);
-    case Rule::acceleration_limit_is_not_positive:
-      return rounded_text(limits.acceleration);
-    case Rule::jerk_limit_is_not_positive:
-      return rounded_text(limits.jerk);
+      return range;
     case Rule::soft_limits_leave_no_position:
       return "soft_lower " + rounded_text(limits.soft_lower) + ", soft_upper " +
              rounded_text(limits.soft_upper) + ", soft_rate " + rounded_text(limits.soft_rate) +
-             ", lower " + rounded_text(limits.lower) + ", upper " + rounded_text(limits.upper);
-    case Rule::damping_is_negative:
-      return rounded_text(joint.damping);
-    case Rule::friction_is_negative:
-      return rounded_text(joint.friction);
-    case Rule::reflected_inertia_is_negative:
-      return rounded_text(joint.reflected_inertia);
+             ", " + range;
     case Rule::joint_moves_no_mass:
-      return "lock it, or give link '" + std::string(joint.child.view()) + "' a mass";
+      return "lock it, or give link '" + std::string(joint.child) + "' a mass";
     case Rule::mimicked_joint_does_not_exist:
     case Rule::mimicked_joint_is_not_free:
-      return std::string(joint.mimic.joint.view());
+      return std::string(joint.mimic.joint);
     case Rule::rotors_are_shared_with_no_free_joint:
     case Rule::rotors_are_shared_twice:
-      return std::string(joint.shared_rotors.joint.view());
-    case Rule::shared_inertia_is_too_large:
-      return rounded_text(joint.shared_rotors.inertia);
+      return std::string(joint.shared_rotors.joint);
     default:
       return "";
   }
@@ -78,18 +78,18 @@ namespace articula::detail {
                                             std::span<const Joint> joints) {
   std::string kind = "robot", details;
   if (fault.rule == Rule::robot_has_no_moving_joint)
-    links = {}, joints = {};                                          // it has its own name
+    links = {}, joints = {};  // a link or joint may have the robot's name
   if (fault.rule == Rule::number_is_not_finite) details = "gravity";  // a robot's only numbers
-  if (const int i = index_of(joints, fault.element); i >= 0) {
+  const auto joint = std::ranges::find(joints, fault.element, &Joint::name);
+  if (joint != joints.end()) {
     kind = "joint";
-    details = figures(joints[static_cast<std::size_t>(i)], fault.rule);
+    details = figures(*joint, fault.rule);
   }
-  // Links and joints may share a name. The rules of links come first, so a link at fault wins.
-  const int i = index_of(links, fault.element);
-  if (i >= 0 &&
-      (kind == "robot" || broken_rule(links[static_cast<std::size_t>(i)]) == fault.rule)) {
+  // A link and a joint may have the same name. The rules of links are checked first.
+  const auto link = std::ranges::find(links, fault.element, &Link::name);
+  if (link != links.end() && (kind == "robot" || broken_rule(*link) == fault.rule)) {
     kind = "link";
-    details = figures(links[static_cast<std::size_t>(i)], fault.rule);
+    details = figures(*link, fault.rule);
   }
   return kind + " '" + std::string(fault.element.view()) +
          "': " + std::string(to_string(fault.rule)) + (details.empty() ? "" : " (" + details + ")");

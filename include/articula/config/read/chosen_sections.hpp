@@ -6,7 +6,7 @@
 #include "articula/config/read/section.hpp"
 #include "articula/text/characters.hpp"
 #include "articula/text/file_error.hpp"
-#include "articula/text/meant_word.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <algorithm>
 #include <cstddef>

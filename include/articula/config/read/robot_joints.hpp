@@ -7,7 +7,7 @@
 #include "articula/model/robot.hpp"
 #include "articula/text/characters.hpp"
 #include "articula/text/file_error.hpp"
-#include "articula/text/meant_word.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -6,8 +6,8 @@
 #include "articula/config/yaml/node.hpp"
 #include "articula/config/yaml/scalar.hpp"
 #include "articula/text/file_error.hpp"
-#include "articula/text/meant_word.hpp"
 #include "articula/text/numbers.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -6,9 +6,9 @@
 #include "articula/config/yaml/scalar.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/text/file_error.hpp"
-#include "articula/text/meant_word.hpp"
 #include "articula/text/number_hint.hpp"
 #include "articula/text/placeholder.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <cmath>
 #include <cstddef>

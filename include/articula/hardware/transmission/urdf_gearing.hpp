@@ -26,7 +26,7 @@ namespace articula {
 ///         Drives(), gearing_of<SimpleTransmission>(urdf, "shoulder_transmission"), ...);
 ///
 /// @tparam T           the transmission
-/// @param description  of the URDF
+/// @param description  from read_urdf
 /// @param name         of the <transmission>
 /// @throws std::invalid_argument with the name, if the transmission does not exist, has another type
 ///         or another number of joints or actuators, or if their roles are incomplete
@@ -34,9 +34,9 @@ namespace articula {
 template <Transmission T>
   requires requires { T::urdf_name; }
 [[nodiscard]] Gearing<T> gearing_of(const UrdfDescription& description, std::string_view name) {
-  const std::string where = description.file + ": transmission '" + std::string(name) + "'";
-  const auto found = std::ranges::find(description.transmissions, name, &UrdfTransmission::name);
-  if (found == description.transmissions.end()) {
+  const std::string where = description->file + ": transmission '" + std::string(name) + "'";
+  const auto found = std::ranges::find(description->transmissions, name, &UrdfTransmission::name);
+  if (found == description->transmissions.end()) {
     detail::refuse({where, " does not exist"});
   }
   // The last part of, for example, "transmission_interface/SimpleTransmission".

@@ -42,11 +42,9 @@ struct FollowerOptions {
 ///   its points, a trajectory may accelerate harder than stops.
 ///
 /// So no sample passes a position limit, to the last bit. A joint that begins outside its limits
-/// moves no further out. A stop does not exceed the velocity limit, or its initial velocity. The
-/// reference's effort stays. The follower only computes references; the controller holds the joints
-/// and compensates gravity.
-///
-/// For motions that need neither tolerances nor replacement, sample a Trajectory directly.
+/// moves no further out. Stops keep the velocity limit and the reference's effort. The controller
+/// holds the joints and compensates gravity. For motions that need neither tolerances nor
+/// replacement, sample a Trajectory directly.
 /// @tparam Capacity  largest number of points of a trajectory
 template <Robot R, int Capacity = 32>
 class TrajectoryFollower {

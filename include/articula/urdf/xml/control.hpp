@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What <ros2_control> says about joints, which urdfdom skips: limits, mimics, initial values.
+/// @file Limits and initial values in <ros2_control>, which urdfdom does not read.
 #pragma once
 
 #include "articula/model/joint.hpp"
 #include "articula/text/numbers.hpp"
-#include "articula/urdf/xml/transmission.hpp"
+#include "articula/urdf/xml/notice_list.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>
@@ -12,153 +12,142 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace articula {
 
-/// Where a joint starts in a simulation, as far as it is told.
+/// The position and velocity of a joint at the start of a simulation.
 struct UrdfInitialValues {
   std::optional<double> position{};  ///< [rad or m]
   std::optional<double> velocity{};  ///< [rad/s or m/s]
 };
 
-/// Limits of a command that leave it nothing.
+/// Limits of a command that allow no motion or effort.
 struct LimitContradiction {
   std::string kind{};    ///< velocity, effort, torque or force
   std::string bounds{};  ///< min and max, as a text
-  std::string reason{};  ///< why they cannot be, and what to do
+  std::string reason{};  ///< what is wrong and what to do
+};
+
+/// The contents of <ros2_control> by joint, and the limits in <limit> that urdfdom does not read.
+struct UrdfControl {
+  std::map<std::string, JointLimits> limits{};  ///< of the commands
+  std::multimap<std::string, LimitContradiction> contradictions{};
+  std::map<std::string, UrdfInitialValues> initial_values{};
 };
 
 namespace detail {
 
-/// Reads what <ros2_control> says about joints, and what <limit> says that urdfdom passes over.
+/// Reads a UrdfControl.
 class ControlReader {
  public:
-  explicit ControlReader(const std::string& file) : file_(file) {}
+  ControlReader(const std::string& file, NoticeList& notices) : file_(file), notices_(notices) {}
 
-  void read(const XmlElement& robot) {
-    for_each_child(robot, "joint", [this](const auto& e) { add_rates(e); });
+  /// @throws UrdfError if a number is not one or a joint has no name
+  [[nodiscard]] UrdfControl read(const XmlElement& robot) {
+    for_each_child(robot, "joint", [this](const auto& joint) { read_rates(joint); });
     for_each_child(robot, "ros2_control", [this](const XmlElement& control) {
-      for_each_child(control, "joint", [this](const auto& e) {
-        add_limits(e);
-        add_mimic(e);
-        add_initial_values(e);
+      for_each_child(control, "joint", [this](const XmlElement& joint) {
+        const std::string name = attribute(joint, "name");
+        if (name.empty()) throw UrdfError(file_, "<ros2_control>: a joint has no name");
+        owner_ = "<ros2_control>: joint '" + name + "': ";
+        read_limits(joint, name);
+        read_initial_values(joint, name);
       });
     });
+    return std::move(result_);
   }
 
-  std::map<std::string, JointLimits> limits{};                      ///< of the commands, by joint
-  std::multimap<std::string, LimitContradiction> contradictions{};  ///< between them, likewise
-  std::vector<std::string> notices{};                               ///< what of them does not count
-  std::map<std::string, UrdfInitialValues> initial_values{};        ///< by joint
-  std::map<std::string, std::string> mimics{};  ///< whom, by joint; empty: nobody
-
  private:
+  static constexpr double infinity = JointLimits::infinity;
+
   /// The bounds of a command.
   struct Bounds {
     std::optional<double> min{}, max{};
   };
 
-  /// A number, "inf" for none, or what does not count: files of UR arms have {-2*pi} where xacro
-  /// wanted ${-2*pi}.
-  /// @param strict  throws at any other text, as a limit of position, velocity or effort must be one
+  /// A number or "inf"; nothing for an expression in braces: files of UR arms have {-2*pi} where
+  /// xacro needs ${-2*pi}.
+  /// @param strict  whether to throw at any other text
   [[nodiscard]] std::optional<double> bound_of(const std::string& text, const std::string& where,
                                                bool strict) {
-    constexpr double infinity = JointLimits::infinity;
     if (text == "inf" || text == "+inf" || text == ".inf") return infinity;
     if (text == "-inf" || text == "-.inf") return -infinity;
     const bool in_braces = text.starts_with('{') && text.ends_with('}');
     if (!in_braces && (strict || number_of(text))) return number_in(file_, where, text);
-    notices.push_back(where + ": '" + text + "' is no number and does not count");
+    notices_.add(where + ": '" + text + "' is not a number and is ignored");
     return std::nullopt;
   }
 
-  /// <param name="min"> and "max" of a command.
-  [[nodiscard]] Bounds bounds_of(const XmlElement& command, const std::string& where,
-                                 bool strict = true) {
-    Bounds bounds;
-    for_each_child(command, "param", [&](const XmlElement& param) {
-      const std::string which = attribute(param, "name");
-      if (which == "min") bounds.min = bound_of(text_of(param), where + " min", strict);
-      if (which == "max") bounds.max = bound_of(text_of(param), where + " max", strict);
-    });
-    return bounds;
-  }
-
-  /// Whether an element has <limits enable="false"/>, capital letters or not. A notice says so.
+  /// Whether an element has <limits enable="false"/>, in any case.
   [[nodiscard]] bool is_disabled(const XmlElement& element, const std::string& where) {
-    const XmlElement* switch_off = element.FirstChildElement("limits");
-    if (!switch_off || lower_case(attribute(*switch_off, "enable")) != "false") return false;
-    notices.push_back(where +
-                      ": <limits enable=\"false\"/>: no min and max count there; <limit> does");
+    const XmlElement* enable = element.FirstChildElement("limits");
+    if (!enable || lower_case(attribute(*enable, "enable")) != "false") return false;
+    notices_.add(where +
+                 "<limits enable=\"false\"/>: min and max are ignored there, and <limit> "
+                 "is used");
     return true;
   }
 
-  /// The limits of the commands that a joint takes.
-  void add_limits(const XmlElement& joint) {
-    const std::string name = attribute(joint, "name");
-    if (name.empty()) throw UrdfError(file_, "<ros2_control>: a joint has no name");
-    const std::string owner = "<ros2_control>: joint '" + name + "': ";
-    JointLimits& narrowed = limits[name];
-    if (is_disabled(joint, "<ros2_control>: joint '" + name + "'")) return;
+  /// Reads the limits of a joint's commands.
+  void read_limits(const XmlElement& joint, const std::string& name) {
+    JointLimits& limits = result_.limits[name];
+    if (is_disabled(joint, owner_)) return;
     for_each_child(joint, "command_interface", [&](const XmlElement& command) {
-      const std::string kind = attribute(command, "name");
-      const std::string where = owner + kind;
-      if (is_disabled(command, where)) return;
+      const std::string kind = attribute(command, "name"), where = owner_ + kind;
+      if (is_disabled(command, where + ": ")) return;
+      const bool is_effort = kind == "torque" || kind == "force";  // synonyms of effort
+      const bool is_rate = kind == "acceleration" || kind == "jerk";
+      const bool strict = kind == "position" || kind == "velocity" || kind == "effort";
+      if (!strict && !is_effort && !is_rate) return;
+      Bounds bounds;
+      for_each_child(command, "param", [&](const XmlElement& param) {
+        const std::string which = attribute(param, "name");
+        if (which == "min") bounds.min = bound_of(text_of(param), where + " min", strict);
+        if (which == "max") bounds.max = bound_of(text_of(param), where + " max", strict);
+      });
       if (kind == "position") {
-        const Bounds bounds = bounds_of(command, where);
-        if (bounds.min) narrowed.lower = std::max(narrowed.lower, *bounds.min);
-        if (bounds.max) narrowed.upper = std::min(narrowed.upper, *bounds.max);
-      } else if (kind == "velocity") {
-        narrow_signed(narrowed.velocity, name, kind, bounds_of(command, where));
-      } else if (kind == "effort") {
-        narrow_signed(narrowed.effort, name, kind, bounds_of(command, where));
-      } else if (kind == "torque" || kind == "force") {  // other words for it
-        narrow_signed(narrowed.effort, name, kind, bounds_of(command, where, false));
-      } else if (kind == "acceleration") {
-        narrow_by_size(narrowed.acceleration, where, bounds_of(command, where, false));
-      } else if (kind == "jerk") {
-        narrow_by_size(narrowed.jerk, where, bounds_of(command, where, false));
+        if (bounds.min) limits.lower = std::max(limits.lower, *bounds.min);
+        if (bounds.max) limits.upper = std::min(limits.upper, *bounds.max);
+      } else if (is_rate) {
+        narrow_by_size(kind == "jerk" ? limits.jerk : limits.acceleration, where, bounds);
+      } else {
+        narrow_signed(kind == "velocity" ? limits.velocity : limits.effort, name, kind, bounds);
       }
     });
   }
 
-  /// Narrows a limit that holds in both directions. The narrower bound counts; a notice says so
-  /// where they differ. Bounds that leave one direction alone, or none, contradict it.
+  /// Narrows a limit that holds in both directions to the smaller bound. Bounds that exclude one
+  /// direction, or 0, are contradictions.
   void narrow_signed(double& limit, const std::string& joint, const std::string& kind,
                      const Bounds& bounds) {
-    constexpr double infinity = JointLimits::infinity;
     const double lower = bounds.min.value_or(-infinity), upper = bounds.max.value_or(infinity);
     const std::string text = "min " + number_text(lower) + ", max " + number_text(upper);
-    if (lower > 0 || upper < 0) {
-      contradictions.insert({joint, {kind, text, "0 is not within its limits (" + text + ")"}});
-      return;
-    }
+    const auto contradict = [&](const std::string& reason) {
+      result_.contradictions.insert({joint, {kind, text, reason}});
+    };
+    if (lower > 0 || upper < 0) return contradict("its limits (" + text + ") exclude 0");
     if ((lower == 0) != (upper == 0)) {
-      contradictions.insert(
-          {joint,
-           {kind, text,
-            "its limits (" + text +
-                ") leave one direction alone, and a joint has one limit for both: give min and "
-                "max of both signs, or <limits enable=\"false\"/>"}});
-      return;
+      return contradict("its limits (" + text +
+                        ") exclude one direction, but a joint has one limit for both: give a min "
+                        "below 0 and a max above 0, or <limits enable=\"false\"/>");
     }
-    narrow(limit, "<ros2_control>: joint '" + joint + "': " + kind, lower, upper);
+    narrow(limit, owner_ + kind, lower, upper);
   }
 
-  /// Likewise for accelerations and jerks, whose bounds are sizes: where one is left out, it is
-  /// the other one. 0 does not count, for no joint could move; a notice says so.
+  /// Narrows a limit of acceleration or jerk, whose bounds count by their size: a missing bound
+  /// equals the other one. A bound of 0 is ignored, because the joint could not move.
   void narrow_by_size(double& limit, const std::string& where, const Bounds& bounds) {
     if (!bounds.min && !bounds.max) return;
     const double lower = bounds.min.value_or(bounds.max.value_or(0));
     const double upper = bounds.max.value_or(lower);
     if (lower == 0 || upper == 0) {
-      notices.push_back(where + ": a limit of 0 does not count, for the joint could not move");
+      notices_.add(where + ": a limit of 0 is ignored, because the joint could not move");
       if (lower == upper) return;
     }
     const auto note_sign = [&](const char* which, double bound) {
-      notices.push_back(where + ": " + which + " " + number_text(bound) + " counts as its size, " +
-                        number_text(std::abs(bound)) + ", in both directions");
+      notices_.add(where + ": the size of " + which + " " + number_text(bound) + ", " +
+                   number_text(std::abs(bound)) + ", is used in both directions");
     };
     if (bounds.min && *bounds.min > 0) note_sign("min", *bounds.min);
     if (bounds.max && *bounds.max < 0) note_sign("max", *bounds.max);
@@ -169,14 +158,14 @@ class ControlReader {
     const double below = std::abs(lower), above = std::abs(upper);
     const double size = std::min(below, above);
     if (below != above) {
-      notices.push_back(where + ": min " + number_text(lower) + " and max " + number_text(upper) +
-                        " differ; " + number_text(size) + " counts in both directions");
+      notices_.add(where + ": min " + number_text(lower) + " and max " + number_text(upper) +
+                   " differ; " + number_text(size) + " is used in both directions");
     }
     limit = std::min(limit, size);
   }
 
-  /// The acceleration, deceleration and jerk of <limit>, which URDF 1.2 has.
-  void add_rates(const XmlElement& joint) {
+  /// Reads acceleration, deceleration and jerk of <limit>, which URDF 1.2 defines.
+  void read_rates(const XmlElement& joint) {
     const XmlElement* limit = joint.FirstChildElement("limit");
     const std::string name = attribute(joint, "name");
     for (const char* rate : {"acceleration", "deceleration", "jerk"}) {
@@ -184,42 +173,34 @@ class ControlReader {
       if (!text) continue;
       const auto value = number_of(text);
       if (value && *value > 0) {
-        double& narrowed = rate[0] == 'j' ? limits[name].jerk : limits[name].acceleration;
+        JointLimits& limits = result_.limits[name];
+        double& narrowed = rate[0] == 'j' ? limits.jerk : limits.acceleration;
         narrowed = std::min(narrowed, *value);
       } else {
-        notices.push_back("joint '" + one_line(name) + "': <limit>: " + rate + " '" + text +
-                          "' is no number > 0 and does not count");
+        notices_.add("joint '" + one_line(name) + "': <limit>: " + rate + " '" + text +
+                     "' is not a number > 0 and is ignored");
       }
     }
   }
 
-  /// <joint mimic="false"> and, as in older versions, <param name="mimic">.
-  void add_mimic(const XmlElement& joint) {
-    const std::string name = attribute(joint, "name");
-    if (lower_case(attribute(joint, "mimic")) == "false") mimics[name] = "";
-    for_each_child(joint, "param", [&](const XmlElement& param) {
-      if (attribute(param, "name") == "mimic") mimics[name] = text_of(param);
-    });
-  }
-
-  /// <param name="initial_value"> of the joint's <state_interface>s.
-  void add_initial_values(const XmlElement& joint) {
-    const std::string name = attribute(joint, "name");
+  /// Reads <param name="initial_value"> of the joint's <state_interface>s.
+  void read_initial_values(const XmlElement& joint, const std::string& name) {
     for_each_child(joint, "state_interface", [&](const XmlElement& state) {
       const std::string kind = attribute(state, "name");
+      if (kind != "position" && kind != "velocity") return;
       for_each_child(state, "param", [&](const XmlElement& param) {
         if (attribute(param, "name") != "initial_value") return;
-        if (kind != "position" && kind != "velocity") return;
-        const double value =
-            number_in(file_, "<ros2_control>: joint '" + name + "': initial_value of " + kind,
-                      text_of(param));
-        UrdfInitialValues& values = initial_values[name];
-        (kind == "position" ? values.position : values.velocity) = value;
+        UrdfInitialValues& values = result_.initial_values[name];
+        (kind == "position" ? values.position : values.velocity) =
+            number_in(file_, owner_ + "initial_value of " + kind, text_of(param));
       });
     });
   }
 
   const std::string& file_;
+  NoticeList& notices_;
+  UrdfControl result_{};
+  std::string owner_{};  ///< the joint, for messages
 };
 
 }  // namespace detail

@@ -1,41 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What is odd in <ros2_control>.
+/// @file Notices about mistakes in <ros2_control>.
 #pragma once
 
-#include "articula/text/meant_word.hpp"
-#include "articula/text/numbers.hpp"
-#include "articula/urdf/xml/control_words.hpp"
-#include "articula/urdf/xml/grouped_lines.hpp"
+#include "articula/text/similar_word.hpp"
+#include "articula/urdf/xml/notice_list.hpp"
+#include "articula/urdf/xml/unknown_words.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>
 #include <array>
-#include <initializer_list>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace articula::detail {
 
-/// Looks for what is odd in the <ros2_control>s of a robot: words that are not known there, which
-/// may be limits under another name; what ros2_control itself refuses; and joints that cannot take
-/// commands. A line each.
+/// Checks the <ros2_control>s of a robot for unknown words, which may be misspelt limits; for what
+/// ros2_control itself refuses; and for joints that cannot take commands.
 class ControlCheck {
  public:
-  explicit ControlCheck(const XmlElement& robot) {
+  explicit ControlCheck(NoticeList& notices) : notices_(notices) {}
+
+  void check(const XmlElement& robot) {
     for_each_child(robot, "joint", [this](const XmlElement& joint) {
       joints_.try_emplace(attribute(joint, "name"), &joint);
     });
-    for_each_child(robot, "ros2_control", [this](const XmlElement& e) { look_at_component(e); });
+    for_each_child(robot, "ros2_control", [this](const XmlElement& e) { check_component(e); });
   }
 
-  [[nodiscard]] std::vector<std::string> take() const { return lines_.take(); }
-
  private:
-  void add(const std::string& text) { lines_.add(owner_, text); }
+  void add(const std::string& text) { notices_.add(owner_, text); }
 
-  void look_at_component(const XmlElement& component) {
+  void check_component(const XmlElement& component) {
     const std::string name = one_line(attribute(component, "name"));
     const std::string here = "<ros2_control>" + (name.empty() ? "" : " '" + name + "'") + ": ";
     owner_ = here;
@@ -45,39 +43,36 @@ class ControlCheck {
     check_truth(component, "is_async");
     for (const char* count : {"rw_rate", "thread_priority"}) check_count(component, count);
     if (const XmlElement* hardware = component.FirstChildElement("hardware")) {
-      const XmlElement* plugin = hardware->FirstChildElement("plugin");
-      if (!plugin || text_of(*plugin).empty()) add("its <hardware> has no <plugin>");
+      check_plugin(*hardware, "its <hardware>");
       check_words(*hardware, "");
       check_params(*hardware, "<hardware>");
     }
-    for (const char* kind : {"joint", "sensor", "gpio"}) {
-      for_each_child(component, kind, [&](const XmlElement& part) {
-        owner_ = here + kind + " '" + one_line(attribute(part, "name")) + "': ";
-        if (std::string_view(kind) == "joint") {
-          owner_ = "<ros2_control>: joint '" + one_line(attribute(part, "name")) + "': ";
-          look_at_joint(component, part);
-        }
-        look_at_part(part);
+    for (const std::string kind : {"joint", "sensor", "gpio"}) {
+      for_each_child(component, kind.c_str(), [&](const XmlElement& part) {
+        owner_ = (kind == "joint" ? "<ros2_control>: " : here) + kind + " '" +
+                 one_line(attribute(part, "name")) + "': ";
+        if (kind == "joint") check_joint(component, part);
+        check_part(part);
       });
     }
     for_each_child(component, "transmission", [&](const XmlElement& transmission) {
       owner_ = "transmission '" + one_line(attribute(transmission, "name")) + "': ";
-      look_at_transmission(component, transmission);
+      check_transmission(component, transmission);
     });
   }
 
-  /// A joint, a sensor or a <gpio>.
-  void look_at_part(const XmlElement& part) {
+  /// Checks a joint, a sensor or a <gpio>.
+  void check_part(const XmlElement& part) {
     const std::string kind = part.Value();
     check_words(part, "");
     check_attribute(part, "name", {});
     check_params(part, "<" + kind + ">");
     check_enable(part, "");
-    for (const char* interface : {"command_interface", "state_interface"}) {
-      for_each_child(part, interface, [&](const XmlElement& element) {
+    for (const std::string interface : {"command_interface", "state_interface"}) {
+      for_each_child(part, interface.c_str(), [&](const XmlElement& element) {
         const std::string name = one_line(attribute(element, "name"));
-        const std::string where = "<" + std::string(interface) + " name=\"" + name + "\">";
-        if (name.empty()) add("a <" + std::string(interface) + "> has no name");
+        const std::string where = "<" + interface + " name=\"" + name + "\">";
+        if (name.empty()) add("a <" + interface + "> has no name");
         check_words(element, where + ": ");
         check_params(element, where);
         check_enable(element, where + ": ");
@@ -86,99 +81,103 @@ class ControlCheck {
     }
   }
 
-  /// Limits that nobody reads.
+  /// Reports limits that are not read.
   void check_limits(const XmlElement& interface, const std::string& where) {
     static constexpr std::array<std::string_view, 7> limited = {
         "position", "velocity", "effort", "torque", "force", "acceleration", "jerk"};
     const std::string name = attribute(interface, "name");
     const bool is_command = interface.Value() == std::string_view("command_interface");
-    const bool has_limits = std::find(limited.begin(), limited.end(), name) != limited.end();
+    const bool has_limits = std::ranges::find(limited, name) != limited.end();
     for_each_child(interface, "param", [&](const XmlElement& param) {
       const std::string word = attribute(param, "name");
-      const bool is_bound = word == "min" || word == "max";
-      if (is_bound && is_command && has_limits) return;
-      if (is_bound && is_command) {
+      if (word != "min" && word != "max") return check_param(word, is_command && has_limits, where);
+      if (!is_command) {
+        add(where + ": its " + word + " is ignored; limits are read from commands");
+      } else if (!has_limits) {
         add(where + ": its " + word +
-            " does not count; limits are read for position, velocity, "
-            "effort (or torque, force), acceleration and jerk" +
+            " is ignored; limits are read for position, velocity, effort (or torque, force), "
+            "acceleration and jerk" +
             did_you_mean(name, limited));
-      } else if (is_bound) {
-        add(where + ": its " + word + " does not count; limits are those of commands");
-      } else {
-        check_param(word, is_command && has_limits, where);
       }
     });
   }
 
-  /// A <param> whose name is none of those that are read.
-  /// @param any  whether any is odd there; else only those that seem to be limits
+  /// Reports a <param> whose name is not read.
+  /// @param any  whether any such name is reported there; else only those that seem to be limits
   void check_param(const std::string& word, bool any, const std::string& where) {
     static constexpr std::array<std::string_view, 4> known = {"min", "max", "initial_value",
                                                               "data_type"};
-    if (word.empty() || std::find(known.begin() + 2, known.end(), word) != known.end()) return;
+    if (word.empty() || word == "initial_value" || word == "data_type") return;
     const std::string small = lower_case(word);
     const auto has = [&small](std::string_view part) {
       return small.find(part) != std::string::npos;
     };
     const std::string_view bound = has("max") || has("upper")   ? "max"
                                    : has("min") || has("lower") ? "min"
-                                                                : std::string_view();
+                                                                : "";
     if (!any && bound.empty() && !has("limit")) return;
-    const std::string_view meant = bound.empty() ? meant_word(word, known) : bound;
-    add(where + ": the parameter '" + one_line(word) + "' is not known there and does not count" +
-        (meant.empty() || !any ? "" : "; did you mean '" + std::string(meant) + "'?"));
+    add(where + ": the parameter '" + one_line(word) + "' is unknown and is ignored" +
+        (!any            ? ""
+         : bound.empty() ? did_you_mean(word, known)
+                         : "; did you mean '" + std::string(bound) + "'?"));
   }
 
-  void look_at_joint(const XmlElement& component, const XmlElement& joint) {
+  void check_joint(const XmlElement& component, const XmlElement& joint) {
     const std::string name = attribute(joint, "name");
+    const bool takes_commands = joint.FirstChildElement("command_interface");
     check_truth(joint, "mimic");
-    const auto [seen, first] = components_.try_emplace(name, &component);
-    if (!first && joint.FirstChildElement("command_interface")) {
-      add(seen->second == &component
-              ? "it stands there twice"
-              : "it stands in two <ros2_control>; the narrower limits count");
+    const auto [first, is_new] = components_.try_emplace(name, &component);
+    if (!is_new && takes_commands) {
+      add(first->second == &component
+              ? "it occurs twice"
+              : "it occurs in two <ros2_control>; the narrower limits are used");
     }
+    const std::string mimic = lower_case(attribute(joint, "mimic"));
+    std::optional<std::string> mimicked_there;  // of older versions; empty: none
+    if (mimic == "false") mimicked_there = "";
     for_each_child(joint, "param", [&](const XmlElement& param) {
       check_param(attribute(param, "name"), false, "<joint>");
+      if (attribute(param, "name") == "mimic") mimicked_there = text_of(param);
     });
     const auto found = joints_.find(name);
-    if (found == joints_.end()) return;  // UrdfNotices says so
+    if (found == joints_.end()) {
+      if (is_new) notices_.add(owner_ + "there is no such joint");
+      return;
+    }
     const XmlElement& mechanics = *found->second;
-    const bool takes_commands = joint.FirstChildElement("command_interface");
     if (attribute(mechanics, "type") == "fixed") {
       add(takes_commands ? "it is fixed, so its commands move nothing" : "it is fixed");
     }
-    const std::string mimic = lower_case(attribute(joint, "mimic"));
-    const XmlElement* follows = mechanics.FirstChildElement("mimic");
-    if (!follows && mimic == "true") {
-      add("mimic=\"true\", but it has no <mimic>, so it follows nobody");
+    const XmlElement* mimics = mechanics.FirstChildElement("mimic");
+    const std::string mimicked = mimics ? attribute(*mimics, "joint") : "";
+    if (mimicked_there.value_or(mimicked) != mimicked) {
+      notices_.add(owner_ + "mimic '" + (mimic == "false" ? mimic : *mimicked_there) +
+                   "' is ignored: only <mimic> in the joint itself is read");
     }
-    if (!follows || mimic == "false") return;
-    const std::string leader = attribute(*follows, "joint");
-    if (takes_commands) add("it mimics '" + one_line(leader) + "', so its commands do not count");
-    if (!names_joint(component, leader)) {
-      add("it mimics '" + one_line(leader) + "', which does not stand there");
-    }
+    if (!mimics && mimic == "true") add("mimic=\"true\", but the joint has no <mimic>");
+    if (!mimics || mimic == "false") return;
+    const std::string text = "it mimics '" + one_line(mimicked) + "', ";
+    if (takes_commands) add(text + "so its commands are ignored");
+    if (!has_joint(component, mimicked)) add(text + "which is not in its <ros2_control>");
   }
 
-  void look_at_transmission(const XmlElement& component, const XmlElement& transmission) {
+  void check_transmission(const XmlElement& component, const XmlElement& transmission) {
     check_attribute(transmission, "name", {});
-    const XmlElement* plugin = transmission.FirstChildElement("plugin");
-    if (!plugin || text_of(*plugin).empty()) add("it has no <plugin>");
-    for (const char* kind : {"joint", "actuator"}) {
-      for_each_child(transmission, kind, [&](const XmlElement& end) {
+    check_plugin(transmission, "it");
+    for (const std::string kind : {"joint", "actuator"}) {
+      for_each_child(transmission, kind.c_str(), [&](const XmlElement& end) {
         for (const char* word : {"name", "role"}) {
-          if (attribute(end, word).empty()) add("a <" + std::string(kind) + "> has no " + word);
+          if (attribute(end, word).empty()) add("a <" + kind + "> has no " + word);
         }
         const std::string name = attribute(end, "name");
-        if (kind[0] == 'j' && joints_.contains(name) && !names_joint(component, name)) {
-          add("joint '" + one_line(name) + "' is no joint of its <ros2_control>");
+        if (kind == "joint" && joints_.contains(name) && !has_joint(component, name)) {
+          add("joint '" + one_line(name) + "' is not in its <ros2_control>");
         }
       });
     }
   }
 
-  [[nodiscard]] static bool names_joint(const XmlElement& component, const std::string& name) {
+  [[nodiscard]] static bool has_joint(const XmlElement& component, const std::string& name) {
     bool found = false;
     for_each_child(component, "joint", [&](const XmlElement& joint) {
       found = found || attribute(joint, "name") == name;
@@ -187,57 +186,61 @@ class ControlCheck {
   }
 
   void check_words(const XmlElement& element, const std::string& where) {
-    for (const std::string& text : unknown_control_words(element)) add(where + text);
+    report_unknown_words(element, control_words(), false,
+                         [&](const std::string& text) { add(where + text); });
+  }
+
+  void check_plugin(const XmlElement& element, const std::string& subject) {
+    const XmlElement* plugin = element.FirstChildElement("plugin");
+    if (!plugin || text_of(*plugin).empty()) add(subject + " has no <plugin>");
   }
 
   void check_params(const XmlElement& element, const std::string& where) {
     for_each_child(element, "param", [&](const XmlElement& param) {
       const std::string name = one_line(attribute(param, "name"));
       if (name.empty()) {
-        add(where + ": a <param> has no name, so it does not count");
+        add(where + ": a <param> has no name and is ignored");
       } else if (text_of(param).empty()) {
-        add(where + ": the parameter '" + name + "' says nothing");
+        add(where + ": the parameter '" + name + "' is empty");
       }
     });
   }
 
-  /// @param choice  what the attribute may say; anything but nothing if that is empty
-  void check_attribute(const XmlElement& element, const char* name,
-                       std::initializer_list<std::string_view> choice) {
-    const std::string text = attribute(element, name);
-    if (text.empty()) return add("it has no " + std::string(name));
-    if (choice.size() == 0) return;
-    if (std::find(choice.begin(), choice.end(), text) != choice.end()) return;
+  /// @param choice  the texts that the attribute may have; any but an empty one if there is none
+  void check_attribute(const XmlElement& element, const std::string& name,
+                       const std::vector<std::string_view>& choice) {
+    const std::string text = attribute(element, name.c_str());
+    if (text.empty()) return add("it has no " + name);
+    if (choice.empty() || std::ranges::find(choice, text) != choice.end()) return;
     std::string list;
     for (const std::string_view each : choice) list.append(list.empty() ? "" : ", ").append(each);
-    add(std::string(name) + " '" + one_line(text) + "' is none of " + list);
+    add(name + " '" + one_line(text) + "' is none of " + list);
   }
 
   void check_truth(const XmlElement& element, const char* name, const std::string& where = "") {
     const char* text = element.Attribute(name);
     if (!text || lower_case(text) == "true" || lower_case(text) == "false") return;
-    add(where + name + " '" + one_line(text) + "' is neither true nor false and does not count");
+    add(where + name + " '" + one_line(text) + "' is neither true nor false and is ignored");
   }
 
   void check_count(const XmlElement& element, const char* name) {
-    const char* text = element.Attribute(name);
-    if (!text || std::string_view(text).find_first_not_of("0123456789 ") == std::string_view::npos)
-      return;
-    add(std::string(name) + " '" + one_line(text) + "' is no whole number >= 0");
+    const std::string text = attribute(element, name);
+    if (text.find_first_not_of("0123456789 ") == std::string::npos) return;
+    add(std::string(name) + " '" + one_line(text) + "' is not a whole number >= 0");
   }
 
   void check_enable(const XmlElement& element, const std::string& where) {
     const XmlElement* limits = element.FirstChildElement("limits");
     if (!limits) return;
-    if (!limits->Attribute("enable")) add(where + "<limits> has no enable, so the limits count");
+    if (!limits->Attribute("enable")) add(where + "<limits> has no enable, so the limits are used");
     check_words(*limits, where);
     check_truth(*limits, "enable", where + "<limits>: ");
   }
 
+  NoticeList& notices_;
   std::map<std::string, const XmlElement*> joints_{};      ///< of the robot, by name
   std::map<std::string, const XmlElement*> components_{};  ///< <ros2_control>, by joint
-  GroupedLines lines_{};
-  std::string owner_{};  ///< the element that is looked at, for the lines
+  std::string owner_{};                                    ///< the element, for notices
 };
 
 }  // namespace articula::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The words that URDF knows where it tells of mechanics.
+/// @file The attributes and child elements that URDF and <ros2_control> define.
 #pragma once
 
 #include <algorithm>
@@ -8,29 +8,28 @@
 
 namespace articula::detail {
 
-/// What may stand in an element.
+/// The attributes and children that an element may have.
 struct KnownWords {
   std::string_view element{};
   std::vector<std::string_view> attributes{};
   std::vector<std::string_view> children{};
 };
 
-/// The words of the elements about mechanics, from URDF's specification and urdfdom; null for other
-/// elements, into which nobody looks. <origin>'s quat_xyzw, which newer versions have, is not among
-/// them: it is not read here, and whoever writes it should know.
+/// The elements about mechanics, from URDF's specification and urdfdom. <origin>'s quat_xyzw of
+/// newer versions is absent on purpose: this library does not read it, so a notice names it.
 /// Sources: https://wiki.ros.org/urdf/XML; xsd/urdf.xsd of https://github.com/ros/urdfdom
-[[nodiscard]] inline const KnownWords* known_words(std::string_view element) {
-  static const std::vector<KnownWords> all = {
+[[nodiscard]] inline const std::vector<KnownWords>& mechanics_words() {
+  static const std::vector<KnownWords> table = {
       {"joint",
        {"name", "type"},
        {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic", "safety_controller",
         "calibration",
-        // other programs' own
+        // of other programs
         "gazebo", "ros2_control", "transmission", "sensor"}},
       {"link",
        {"name", "type"},
        {"inertial", "visual", "collision",
-        // other programs' own
+        // of other programs
         "gazebo", "ros2_control", "transmission", "sensor", "material"}},
       {"parent", {"link"}, {}},
       {"child", {"link"}, {}},
@@ -50,9 +49,34 @@ struct KnownWords {
       {"mass", {"value"}, {}},
       {"inertia", {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {}},
   };
-  const auto found = std::find_if(
-      all.begin(), all.end(), [&](const KnownWords& words) { return words.element == element; });
-  return found == all.end() ? nullptr : &*found;
+  return table;
+}
+
+/// The elements in <ros2_control>.
+/// Source: https://control.ros.org, hardware_interface of ros2_control
+[[nodiscard]] inline const std::vector<KnownWords>& control_words() {
+  static const std::vector<std::string_view> parts = {"command_interface", "state_interface",
+                                                      "param", "limits"};
+  static const std::vector<KnownWords> table = {
+      {"ros2_control",
+       {"name", "type", "rw_rate", "is_async", "thread_priority"},
+       {"hardware", "properties", "joint", "sensor", "gpio", "transmission"}},
+      {"hardware", {}, {"plugin", "group", "param"}},
+      {"joint", {"name", "mimic"}, parts},
+      {"sensor", {"name"}, parts},
+      {"gpio", {"name"}, parts},
+      {"command_interface", {"name", "data_type", "size"}, {"param", "limits"}},
+      {"state_interface", {"name", "data_type", "size"}, {"param", "limits"}},
+      {"limits", {"enable"}, {}},
+  };
+  return table;
+}
+
+/// An element's entry in a table; null for elements that the table does not describe.
+[[nodiscard]] inline const KnownWords* find_words(const std::vector<KnownWords>& table,
+                                                  std::string_view element) {
+  const auto found = std::ranges::find(table, element, &KnownWords::element);
+  return found == table.end() ? nullptr : &*found;
 }
 
 }  // namespace articula::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Texts in a URDF that are to be numbers and are none.
+/// @file Check of the attributes of a URDF that must be numbers.
 #pragma once
 
 #include "articula/text/number_hint.hpp"
@@ -7,47 +7,41 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace articula::detail {
 
-/// Makes sure that what stands for numbers is of the characters of numbers. urdfdom would refuse
-/// the rest as well, but some versions (3.0 is one) take a text that they refuse for a format of
-/// printf, so that a mass of "%s%s" ends the program.
-/// @param where  the link or joint, for the message
+/// Checks that attributes which urdfdom reads as numbers have the characters of numbers. Some
+/// versions of urdfdom (3.0 is one) use a text that they refuse as a format of printf, so that a
+/// mass of "%s%s" would crash the program.
+/// @param owner  the link or joint, for the message
 /// @throws UrdfError with the element, the attribute and the text
-inline void check_numbers(const std::string& file, const std::string& where,
+inline void check_numbers(const std::string& file, const std::string& owner,
                           const XmlElement& element) {
-  // What urdfdom reads as numbers; what else stands there is nobody's concern.
   constexpr std::array<std::string_view, 7> elements = {"origin", "axis",    "limit", "dynamics",
                                                         "mass",   "inertia", "mimic"};
   constexpr std::array<std::string_view, 17> attributes = {
       "xyz",     "rpy",      "lower",      "upper",  "effort", "velocity",
       "damping", "friction", "multiplier", "offset", "value",  "ixx",
       "ixy",     "ixz",      "iyy",        "iyz",    "izz"};
-  constexpr std::string_view space = " \t\r\n";
-  const std::string_view kind = element.Value();
-  const bool has_numbers = std::find(elements.begin(), elements.end(), kind) != elements.end();
+  const std::string kind = element.Value();
+  const bool has_numbers = std::ranges::find(elements, kind) != elements.end();
   for (auto each = element.FirstAttribute(); each && has_numbers; each = each->Next()) {
     const std::string name = each->Name();
-    if (std::find(attributes.begin(), attributes.end(), name) == attributes.end()) continue;
+    if (std::ranges::find(attributes, name) == attributes.end()) continue;
     std::string_view text = each->Value();
-    while (text.find_first_not_of(space) != std::string_view::npos) {
-      text.remove_prefix(text.find_first_not_of(space));
-      const std::string word(text.substr(0, text.find_first_of(space)));
-      text.remove_prefix(word.size());
+    for (std::string word(take_word(text)); !word.empty(); word = take_word(text)) {
       if (word.find_first_not_of("0123456789.+-eE") == std::string::npos) continue;
-      throw UrdfError(file, where + ": <" + std::string(kind) + ">: " + name + ": " +
-                                quoted_text(word) + " is not a finite number" +
-                                (std::count(word.begin(), word.end(), ',') > 1
-                                     ? "; numbers have blanks between them, and no commas"
-                                     : number_hint(word)));
+      throw UrdfError(
+          file,
+          owner + "<" + kind + ">: " + name + ": " + quoted_text(word) + " is not a finite number" +
+              (std::ranges::count(word, ',') > 1 ? "; separate numbers by blanks, not by commas"
+                                                 : number_hint(word)));
     }
   }
   for_each_child(element, nullptr,
-                 [&](const XmlElement& child) { check_numbers(file, where, child); });
+                 [&](const XmlElement& child) { check_numbers(file, owner, child); });
 }
 
 }  // namespace articula::detail

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A first look at the tags of an XML text.
+/// @file Check of the tags of an XML text before TinyXML parses it.
 #pragma once
 
+#include "articula/text/numbers.hpp"
 #include "articula/urdf/xml/error.hpp"
 
 #include <algorithm>
@@ -14,51 +15,51 @@
 
 namespace articula::detail {
 
-/// Looks at the tags of an XML text before TinyXML does, which descends by recursion, so that deep
-/// nesting would exhaust the stack, reads over attributes without quotes and the like, and ends
-/// document types and processing instructions at the first '>': those become blanks.
-class TagReader {
+/// Checks the tags of an XML text before TinyXML parses it. TinyXML recurses, so deep nesting would
+/// exhaust the stack; it accepts attributes without quotes; and it ends document types and
+/// processing instructions at the first '>'. This class replaces the latter two by blanks.
+class TagChecker {
  public:
-  static constexpr std::size_t deepest = 100;  ///< nesting of elements that is accepted
+  static constexpr std::size_t max_depth = 100;  ///< of nested elements
 
-  explicit TagReader(std::string& text) : text_(text) {}
+  TagChecker(const std::string& file, std::string& text) : file_(file), text_(text) {}
 
-  /// What is wrong, empty if nothing is.
-  [[nodiscard]] std::string fault() {
+  /// @throws UrdfError with the line and the fault
+  void check() {
     for (;;) {
       const std::size_t start = at_;
       at_ = std::min(view().find('<', start), text_.size());
       if (open_.empty()) {
-        const std::size_t text = view().find_first_not_of(space, start == 0 ? skip_mark() : start);
+        const bool has_mark = start == 0 && view().starts_with("\xEF\xBB\xBF");  // of UTF-8
+        const std::size_t text = view().find_first_not_of(white_space, has_mark ? 3 : start);
         if (text < at_) {
           at_ = text;
-          return "there is text outside of the robot";
+          fail("there is text outside of the top element");
         }
       }
-      if (std::string fault = references(start, at_); !fault.empty()) return fault;
+      check_references(start);
       if (at_ == text_.size()) break;
-      if (std::string fault = tag(); !fault.empty()) return fault;
-      if (open_.size() > deepest) return "elements are nested more than 100 deep";
+      read_tag();
+      if (open_.size() > max_depth) fail("elements are nested more than 100 deep");
     }
-    return open_.empty() ? "" : innermost() + " is not closed";
+    if (!open_.empty()) fail(innermost() + " is not closed");
   }
 
-  /// The line that was read last, from 1.
-  [[nodiscard]] int line() const { return line_of(at_); }
-
  private:
-  static constexpr std::string_view space = " \t\r\n";
-
   struct OpenElement {
     std::string_view name;
     std::size_t begin;
   };
 
-  [[nodiscard]] int line_of(std::size_t place) const {
-    const auto end = static_cast<std::ptrdiff_t>(std::min(place, text_.size()));
-    return 1 + static_cast<int>(std::count(text_.begin(), text_.begin() + end, '\n'));
+  [[noreturn]] void fail(const std::string& fault) const {
+    throw UrdfError({.file = file_, .line = line_of(at_)}, fault);
   }
-  /// The element that is to be closed next, in words.
+
+  [[nodiscard]] int line_of(std::size_t position) const {
+    const std::string_view before = view().substr(0, position);
+    return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+  }
+  /// The element to be closed next, for messages.
   [[nodiscard]] std::string innermost() const {
     return "<" + std::string(open_.back().name) + "> of line " +
            std::to_string(line_of(open_.back().begin));
@@ -70,157 +71,142 @@ class TagReader {
     at_ += expected.size();
     return true;
   }
-  [[nodiscard]] bool take_until(std::string_view end) {
+  void skip_past(std::string_view end, const char* fault) {
     const std::size_t found = view().find(end, at_);
-    if (found == std::string_view::npos) return false;
+    if (found == std::string_view::npos) fail(fault);
     at_ = found + end.size();
-    return true;
   }
-  void skip_space() { at_ = std::min(view().find_first_not_of(space, at_), text_.size()); }
-  [[nodiscard]] bool take_name() {
+  void skip_space() { at_ = std::min(view().find_first_not_of(white_space, at_), text_.size()); }
+  [[nodiscard]] std::string_view take_name(const char* fault) {
     const std::size_t start = at_;
     at_ = std::min(view().find_first_of(" \t\r\n=/<>\"'", at_), text_.size());
-    return at_ > start;
+    if (at_ == start) fail(fault);
+    return view().substr(start, at_ - start);
   }
-  /// A text between quotes.
-  [[nodiscard]] bool take_literal() {
-    return take("\"") ? take_until("\"") : take("'") && take_until("'");
+  /// Skips a text in quotes.
+  void skip_literal(const char* fault) {
+    const std::string_view quote = view().substr(at_, 1);
+    if (quote != "\"" && quote != "'") fail(fault);
+    ++at_;
+    skip_past(quote, fault);
   }
-  /// Where the text begins behind UTF-8's byte order mark.
-  [[nodiscard]] std::size_t skip_mark() const { return view().starts_with("\xEF\xBB\xBF") ? 3 : 0; }
-  /// Lines keep their numbers.
+  /// Replaces the text up to here by blanks, so that lines keep their numbers.
   void blank(std::size_t begin) {
     for (std::size_t k = begin; k < at_; ++k) {
-      if (space.find(text_[k]) == std::string_view::npos) text_[k] = ' ';
+      if (white_space.find(text_[k]) == std::string_view::npos) text_[k] = ' ';
     }
   }
 
-  /// Entities stand for what a document type says, which is not read; TinyXML would take the
-  /// reference for text.
-  [[nodiscard]] std::string references(std::size_t begin, std::size_t end) {
+  /// Refuses entities that a document type declares, from `begin` to here: TinyXML would read the
+  /// reference as text.
+  void check_references(std::size_t begin) {
     constexpr std::array<std::string_view, 5> known = {"amp", "lt", "gt", "quot", "apos"};
-    const std::string_view text = view().substr(begin, end - begin);
+    const std::string_view text = view().substr(begin, at_ - begin);
     for (std::size_t k = text.find('&'); k != std::string_view::npos; k = text.find('&', k + 1)) {
       const std::size_t last = text.find_first_of(" \t\r\n<>&\"';", k + 1);
-      // An ampersand that begins no reference is read as itself, though XML wants it as &amp;
+      // An ampersand that begins no reference stands for itself, although XML demands &amp;
       if (last == std::string_view::npos || text[last] != ';') continue;
       const std::string_view name = text.substr(k + 1, last - k - 1);
       if (name.empty() || name.starts_with('#')) continue;
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      if (std::ranges::find(known, name) != known.end()) continue;
       at_ = begin + k;
-      return "the entity &" + std::string(name) + "; is used, but only XML's own are read";
+      fail("the entity &" + std::string(name) +
+           "; is not supported: write its text (&amp; &lt; &gt; &quot; &apos; are supported)");
     }
-    return "";
   }
 
-  /// Reads one tag, comment or the like, which begins here.
-  [[nodiscard]] std::string tag() {
+  /// Reads the tag, comment, instruction or document type that begins here.
+  void read_tag() {
     const std::size_t start = at_;
-    if (take("<!--")) return take_until("-->") ? "" : "a comment is not closed";
-    if (take("<![CDATA[")) return take_until("]]>") ? "" : "a CDATA part is not closed";
+    if (take("<!--")) return skip_past("-->", "a comment is not closed");
+    if (take("<![CDATA[")) return skip_past("]]>", "a CDATA section is not closed");
     if (take("<?")) {
-      const bool is_declaration =
-          take("xml") && at_ < text_.size() && space.find(text_[at_]) != std::string_view::npos;
-      if (!take_until("?>")) return "a <? is not closed by ?>";
+      const bool is_declaration = take("xml") && at_ < text_.size() &&
+                                  white_space.find(text_[at_]) != std::string_view::npos;
+      skip_past("?>", "a <? is not closed by ?>");
       if (!is_declaration || view().find('>', start) + 1 != at_) blank(start);
-      return "";
+      return;
     }
     if (take("<!DOCTYPE")) {
-      if (has_root_) return "a document type stands behind the beginning of the robot";
-      if (has_type_) return "a second document type; XML has one";
+      if (has_root_) fail("the document type must stand before the top element");
+      if (has_type_) fail("there is a second document type; XML allows one");
       has_type_ = true;
-      std::string fault = document_type();
-      if (fault.empty()) blank(start);
-      return fault;
+      read_document_type();
+      return blank(start);
     }
-    if (take("<!")) return "a <! that begins no comment, CDATA part or document type";
+    if (take("<!")) fail("<! begins neither a comment, a CDATA section nor a document type");
     if (take("</")) {
-      const std::size_t begin = at_;
-      if (!take_name()) return "a closing tag has no name";
-      const std::string_view name = view().substr(begin, at_ - begin);
+      const std::string_view name = take_name("a closing tag has no name");
       const std::string tag = "</" + std::string(name) + ">";
-      if (open_.empty()) return tag + " closes what was not opened";
-      if (name != open_.back().name)
-        return tag + " stands where " + innermost() + " is to be closed";
+      if (open_.empty()) fail(tag + " closes no open element");
+      if (name != open_.back().name) fail(tag + " is found, but " + innermost() + " is open");
       open_.pop_back();
       skip_space();
-      return take(">") ? "" : "a closing tag has no end";
+      if (!take(">")) fail("a closing tag has no end");
+      return;
     }
     ++at_;
-    if (open_.empty() && has_root_) return "a second element at the top; XML has one";
+    if (open_.empty() && has_root_) fail("there is a second top element; XML allows one");
     has_root_ = true;
-    return opening_tag();
+    read_opening_tag();
   }
 
-  /// The rest of a document type, with what it declares.
-  [[nodiscard]] std::string document_type() {
-    constexpr const char* open = "a document type is not closed";
-    bool declares = false, has_defaults = false;
+  /// Reads the rest of a document type with its declarations.
+  void read_document_type() {
+    constexpr const char* unclosed = "the document type is not closed";
+    bool in_declarations = false, in_attributes = false;
     while (at_ < text_.size()) {
       const char c = text_[at_];
       if (take("<!--")) {
-        if (!take_until("-->")) return "a comment is not closed";
+        skip_past("-->", "a comment is not closed");
       } else if (take("<?")) {
-        if (!take_until("?>")) return "a <? is not closed by ?>";
+        skip_past("?>", "a <? is not closed by ?>");
       } else if (c == '"' || c == '\'') {
-        if (has_defaults) return "a document type has values of attributes, which are not read";
-        if (!take_literal()) return open;
-      } else if (declares && c == '%' && at_ + 1 < text_.size() &&
-                 space.find(text_[at_ + 1]) == std::string_view::npos) {
-        return "an entity of the document type is used, which is not read";
+        if (in_attributes) fail("values of attributes in a document type are not supported");
+        skip_literal(unclosed);
+      } else if (in_declarations && c == '%' && at_ + 1 < text_.size() &&
+                 white_space.find(text_[at_ + 1]) == std::string_view::npos) {
+        fail("the use of an entity in a document type is not supported");
       } else if (take("<!ATTLIST")) {
-        has_defaults = true;
+        in_attributes = true;
       } else {
         ++at_;
-        if (c == '[') declares = true;
-        if (c == ']') declares = false;
-        if (c == '>') has_defaults = false;
-        if (c == '>' && !declares) return "";
+        if (c == '[') in_declarations = true;
+        if (c == ']') in_declarations = false;
+        if (c == '>') in_attributes = false;
+        if (c == '>' && !in_declarations) return;
       }
     }
-    return open;
+    fail(unclosed);
   }
 
-  [[nodiscard]] std::string opening_tag() {
+  void read_opening_tag() {
     const std::size_t begin = at_;
-    if (!take_name()) return "a tag has no name";
-    const OpenElement element{view().substr(begin, at_ - begin), begin};
+    const OpenElement element{take_name("a tag has no name"), begin};
     std::set<std::string_view> names;
     for (;;) {
       skip_space();
-      if (take("/>")) return "";
-      if (take(">")) {
-        open_.push_back(element);
-        return "";
-      }
-      std::size_t start = at_;
-      if (!take_name()) return "a tag has no end";
-      const std::string_view name = view().substr(start, at_ - start);
+      if (take("/>")) return;
+      if (take(">")) return open_.push_back(element);
+      const std::string_view name = take_name("a tag has no end");
       if (!names.insert(name).second) {
-        return "the attribute '" + std::string(name) + "' is given twice";
+        fail("the attribute '" + std::string(name) + "' is given twice");
       }
       skip_space();
-      if (!take("=")) return "an attribute has no value";
+      if (!take("=")) fail("an attribute has no value");
       skip_space();
-      start = at_;
-      if (!take_literal()) return "an attribute's value is not between quotes";
-      if (std::string fault = references(start, at_); !fault.empty()) return fault;
+      const std::size_t value = at_;
+      skip_literal("an attribute's value is not in quotes");
+      check_references(value);
     }
   }
 
+  const std::string& file_;
   std::string& text_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0;  ///< index of the next character
   std::vector<OpenElement> open_{};
   bool has_root_ = false;
   bool has_type_ = false;
 };
-
-/// Checks the tags of an XML text. What TinyXML would misread and nobody needs becomes blanks.
-/// @throws UrdfError with the line
-inline void check_tags(const std::string& file, std::string& text) {
-  TagReader reader(text);
-  const std::string fault = reader.fault();
-  if (!fault.empty()) throw UrdfError({.file = file, .line = reader.line()}, fault);
-}
 
 }  // namespace articula::detail

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The transmissions of a URDF, which urdfdom skips.
+/// @file The <transmission>s of a URDF, which urdfdom does not read.
 #pragma once
 
-#include "articula/text/numbers.hpp"
+#include "articula/urdf/xml/notice_list.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,11 +18,11 @@ struct UrdfTransmissionEnd {
   std::string name{};
   double mechanical_reduction = 1;  ///< turns of the actuator per turn of the joint
   std::string role{};               ///< such as "joint1", "actuator2"
-  double offset = 0;  ///< of a joint: where it is when the actuators are at 0 [rad or m]
+  double offset = 0;  ///< of a joint: its position when the actuators are at 0 [rad or m]
 };
 
-/// How actuators drive joints. articula's efforts and positions are those of the joints; this is
-/// for drivers, see gearing_of.
+/// The gearing between actuators and joints. articula's efforts and positions are those of the
+/// joints; drivers need the gearing, see gearing_of.
 struct UrdfTransmission {
   std::string name{};
   std::string type{};  ///< such as "transmission_interface/SimpleTransmission"
@@ -31,79 +32,77 @@ struct UrdfTransmission {
 
 namespace detail {
 
-/// A number of a file.
-/// @throws UrdfError if the text is none
-[[nodiscard]] inline double number_in(const std::string& file, const std::string& where,
-                                      const std::string& text) {
-  const auto number = number_of(text);
-  if (!number) throw UrdfError(file, where + ": '" + text + "' is not a finite number");
-  return *number;
+/// The text of an attribute, or of a child element of that name.
+[[nodiscard]] inline std::optional<std::string> attribute_or_child(const XmlElement& element,
+                                                                   const char* name) {
+  if (const char* text = element.Attribute(name)) return text;
+  const XmlElement* child = element.FirstChildElement(name);
+  return child ? std::optional(text_of(*child)) : std::nullopt;
 }
 
-/// Reads the transmissions of one file.
-class TransmissionReader {
- public:
-  explicit TransmissionReader(const std::string& file) : file_(file) {}
-
-  void read(const XmlElement& robot) {
-    for_each_child(robot, "transmission", [this](const auto& e) { add_transmission(e); });
-    for_each_child(robot, "ros2_control", [this](const XmlElement& control) {
-      for_each_child(control, "transmission", [this](const auto& e) { add_transmission(e); });
-    });
-  }
-
-  std::vector<UrdfTransmission> transmissions{};
-
- private:
-  /// The text that an element states as an attribute or in a child element.
-  [[nodiscard]] static std::optional<std::string> statement(const XmlElement& element,
-                                                            const char* name) {
-    if (const char* text = element.Attribute(name)) return text;
-    const XmlElement* child = element.FirstChildElement(name);
-    return child ? std::optional(text_of(*child)) : std::nullopt;
-  }
-
-  [[nodiscard]] double reduction(const XmlElement& element, const std::string& where,
-                                 double otherwise) const {
+/// Reads one <transmission> in any dialect: its ends are <joint> and <actuator>, or elements such
+/// as <flexJoint>, <leftActuator>. A reduction of the whole transmission is that of its actuators.
+[[nodiscard]] inline UrdfTransmission read_transmission(const std::string& file,
+                                                        const XmlElement& element) {
+  UrdfTransmission transmission{.name = attribute(element, "name"),
+                                .type = attribute(element, "type")};
+  const std::string where = "transmission '" + transmission.name + "': ";
+  const auto reduction = [&](const XmlElement& from, double otherwise) {
     for (const char* name : {"mechanicalReduction", "mechanical_reduction"}) {
-      if (const auto text = statement(element, name))
-        return number_in(file_, where + ": " + name, *text);
+      if (const auto text = attribute_or_child(from, name)) {
+        return number_in(file, where + name, *text);
+      }
     }
     return otherwise;
-  }
+  };
+  const auto end_of = [&](const XmlElement& end, double otherwise) -> UrdfTransmissionEnd {
+    const auto offset = attribute_or_child(end, "offset");
+    return {.name = attribute(end, "name"),
+            .mechanical_reduction = reduction(end, otherwise),
+            .role = attribute_or_child(end, "role").value_or(""),
+            .offset = offset ? number_in(file, where + "offset", *offset) : 0};
+  };
+  const double whole = reduction(element, 1);
+  for_each_child(element, nullptr, [&](const XmlElement& child) {
+    const std::string_view kind = child.Value();
+    if (kind == "type" || kind == "plugin") transmission.type = text_of(child);
+    if (attribute(child, "name").empty()) return;
+    if (kind.ends_with("ctuator")) transmission.actuators.push_back(end_of(child, whole));
+    if (kind.ends_with("oint")) transmission.joints.push_back(end_of(child, 1));
+  });
+  return transmission;
+}
 
-  /// @param otherwise  reduction of an end that states none
-  [[nodiscard]] UrdfTransmissionEnd end_of(const XmlElement& element, const std::string& where,
-                                           double otherwise) const {
-    const auto offset = statement(element, "offset");
-    return {.name = attribute(element, "name"),
-            .mechanical_reduction = reduction(element, where, otherwise),
-            .role = statement(element, "role").value_or(""),
-            .offset = offset ? number_in(file_, where + ": offset", *offset) : 0};
-  }
-
-  /// All dialects: the ends are <joint> and <actuator>, or such as <flexJoint>, <leftActuator>. A
-  /// reduction of the whole transmission is that of its actuators.
-  void add_transmission(const XmlElement& element) {
-    UrdfTransmission transmission{.name = attribute(element, "name"),
-                                  .type = attribute(element, "type")};
-    const std::string where = "transmission '" + transmission.name + "'";
-    const double whole = reduction(element, where, 1);
-    for_each_child(element, nullptr, [&](const XmlElement& child) {
-      const std::string_view kind = child.Value();
-      if (kind == "type" || kind == "plugin") transmission.type = text_of(child);
-      if (attribute(child, "name").empty()) return;
-      if (kind.ends_with("ctuator")) {
-        transmission.actuators.push_back(end_of(child, where, whole));
-      } else if (kind.ends_with("oint")) {
-        transmission.joints.push_back(end_of(child, where, 1));
+/// The transmissions of a robot, those in <ros2_control> last. Joints that do not exist and
+/// reductions of 0 are notices.
+[[nodiscard]] inline std::vector<UrdfTransmission> read_transmissions(const std::string& file,
+                                                                      const XmlElement& robot,
+                                                                      NoticeList& notices) {
+  std::vector<UrdfTransmission> all;
+  const auto read_from = [&](const XmlElement& parent) {
+    for_each_child(parent, "transmission",
+                   [&](const XmlElement& e) { all.push_back(read_transmission(file, e)); });
+  };
+  read_from(robot);
+  for_each_child(robot, "ros2_control", read_from);
+  std::set<std::string> joints;
+  for_each_child(robot, "joint", [&](const auto& e) { joints.insert(attribute(e, "name")); });
+  for (const UrdfTransmission& transmission : all) {
+    const std::string where = "transmission '" + one_line(transmission.name) + "': ";
+    const auto check = [&](const std::string& kind, const UrdfTransmissionEnd& end) {
+      const std::string owner = where + kind + " '" + one_line(end.name) + "': ";
+      if (kind == "joint" && !joints.contains(end.name)) {
+        notices.add(owner + "there is no such joint");
       }
-    });
-    transmissions.push_back(std::move(transmission));
+      if (end.mechanical_reduction == 0) {
+        notices.add(owner + "its mechanical reduction is 0, so it moves nothing");
+      }
+    };
+    for (const UrdfTransmissionEnd& end : transmission.joints) check("joint", end);
+    for (const UrdfTransmissionEnd& end : transmission.actuators) check("actuator", end);
   }
-
-  const std::string& file_;
-};
+  return all;
+}
 
 }  // namespace detail
 }  // namespace articula

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Words in a URDF that nobody reads, for they may be misspelt.
+/// @file Notices about attributes and elements that URDF does not define and that may be misspelt.
 #pragma once
 
-#include "articula/text/meant_word.hpp"
-#include "articula/urdf/xml/grouped_lines.hpp"
+#include "articula/text/similar_word.hpp"
 #include "articula/urdf/xml/known_words.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
@@ -14,67 +13,47 @@
 
 namespace articula::detail {
 
-/// Collects the attributes and child elements of a robot's links and joints that URDF does not
-/// know: urdfdom passes them over in silence. Each word has one line, with the first link or joint
-/// that has it and how many others do. Elements that tell nothing of mechanics are not looked into.
-class UnknownWords {
- public:
-  explicit UnknownWords(const XmlElement& robot) {
-    for (const char* kind : {"link", "joint"}) {
-      for_each_child(robot, kind, [&](const XmlElement& element) {
-        owner_ = std::string(kind) + " '" + one_line(attribute(element, "name")) + "': ";
-        look_at(element);
-      });
+/// Reports each attribute and child of an element that a table does not list. urdfdom and
+/// ros2_control ignore them without a message. Words with a colon and xmlns belong to other
+/// programs.
+/// @param descend  whether to check the children as well
+/// @param report   called with a text for each unknown word
+template <class Report>
+void report_unknown_words(const XmlElement& element, const std::vector<KnownWords>& table,
+                          bool descend, Report report) {
+  const KnownWords* known = find_words(table, element.Value());
+  if (!known) return;
+  const auto is_known = [&](const std::string& word, const std::vector<std::string_view>& words,
+                            const std::string& shown_word) {
+    if (std::ranges::find(words, word) != words.end()) return true;
+    if (word.find(':') == std::string::npos && word != "xmlns") {
+      report("<" + std::string(element.Value()) + ">: the " + shown_word +
+             " is unknown and is ignored" + did_you_mean(word, words));
     }
+    return false;
+  };
+  for (auto each = element.FirstAttribute(); each; each = each->Next()) {
+    const std::string name = each->Name();
+    is_known(name, known->attributes, "attribute '" + name + "'");
   }
+  for_each_child(element, nullptr, [&](const XmlElement& child) {
+    const std::string name = child.Value();
+    const bool is_defined = is_known(name, known->children, "element <" + name + ">");
+    if (is_defined && descend) report_unknown_words(child, table, descend, report);
+  });
+}
 
-  [[nodiscard]] std::vector<std::string> take() const { return lines_.take(); }
-
- private:
-  void look_at(const XmlElement& element) {
-    const KnownWords* known = known_words(element.Value());
-    if (!known) return;
-    const auto is_known = [](const auto& words, std::string_view word) {
-      return std::find(words.begin(), words.end(), word) != words.end();
-    };
-    for (auto each = element.FirstAttribute(); each; each = each->Next()) {
-      const std::string name = each->Name();
-      if (is_known(known->attributes, name)) continue;
-      add(*known, name, "attribute '", meant_word(name, known->attributes), "'");
-    }
-    for_each_child(element, nullptr, [&](const XmlElement& child) {
-      const std::string name = child.Value();
-      if (is_known(known->children, name)) return look_at(child);
-      add(*known, name, "element <", meant_word(name, known->children), ">");
-    });
-  }
-
-  /// Words with a colon belong to others, and xmlns says to whom.
-  void add(const KnownWords& place, const std::string& word, const std::string& open,
-           std::string_view meant, const char* close) {
-    if (word.find(':') != std::string::npos || word == "xmlns") return;
-    std::string line = "<" + std::string(place.element) + ">: the " + open + word + close +
-                       " is not known there and does not count";
-    if (!meant.empty()) {
-      line += std::string("; did you mean ") + open.back() + std::string(meant) + close + "?";
-    }
-    lines_.add(owner_, line);
-  }
-
-  GroupedLines lines_{};
-  std::string owner_{};  ///< the link or joint, for the lines
-};
-
-/// What may be behind a fault, as an addition to its message: the first word that is not known in a
-/// link or joint that the message names.
-[[nodiscard]] inline std::string perhaps_because_of(const std::vector<std::string>& unknown_words,
-                                                    std::string_view message) {
-  for (const std::string& line : unknown_words) {  // link 'name': ...
+/// A possible cause of an error, as an addition to its message: the first unknown word in a link or
+/// joint that the message names.
+/// @param unknown_words  notices such as "link 'arm': <link>: the attribute ..."
+[[nodiscard]] inline std::string possible_cause(const std::vector<std::string>& unknown_words,
+                                                std::string_view message) {
+  for (const std::string& line : unknown_words) {
     const std::size_t begin = line.find('\'') + 1;
     const std::string name = line.substr(begin, line.find('\'', begin) - begin);
     if (message.find("'" + name + "'") != std::string_view::npos ||
         message.find("[" + name + "]") != std::string_view::npos) {
-      return "; perhaps because of this: " + line;
+      return "; a possible cause: " + line;
     }
   }
   return "";

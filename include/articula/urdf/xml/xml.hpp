@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The XML of a URDF, with the library that urdfdom itself uses: TinyXML, or TinyXML-2 from
+/// @file Access to the XML of a URDF by the library that urdfdom uses: TinyXML, or TinyXML-2 from
 /// urdfdom 4 on.
 #pragma once
 
+#include "articula/text/numbers.hpp"
 #include "articula/text/placeholder.hpp"
 #include "articula/urdf/xml/error.hpp"
 #include "articula/urdf/xml/tags.hpp"
 
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -35,7 +37,17 @@ using XmlPrinter = TiXmlPrinter;
 inline void remove(XmlElement& parent, XmlElement& child) { parent.RemoveChild(&child); }
 #endif
 
-/// Calls `use` with each child element of that name, of any name if it is null.
+/// The finite number that a text of a file holds.
+/// @param where  element and attribute, for the message
+/// @throws UrdfError if the text is not a finite number
+[[nodiscard]] inline double number_in(const std::string& file, const std::string& where,
+                                      const std::string& text) {
+  const auto number = number_of(text);
+  if (!number) throw UrdfError(file, where + ": '" + text + "' is not a finite number");
+  return *number;
+}
+
+/// Calls `use` with each child element of that name; of any name if it is null.
 template <class Use>
 void for_each_child(const XmlElement& parent, const char* name, Use use) {
   const auto first = name ? parent.FirstChildElement(name) : parent.FirstChildElement();
@@ -45,7 +57,7 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
   }
 }
 
-/// An attribute's text, empty if there is none.
+/// An attribute's text; empty if there is none.
 [[nodiscard]] inline std::string attribute(const XmlElement& element, const char* name) {
   const char* text = element.Attribute(name);
   return text ? text : "";
@@ -56,81 +68,86 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
   return text;
 }
 
-/// A name as a message shows it.
+/// A text on one line, for messages.
 [[nodiscard]] inline std::string one_line(std::string text) {
   for (char& c : text) c = c == '\t' || c == '\r' || c == '\n' ? ' ' : c;
   return text;
 }
 
-/// An element's text without white space around it, empty if there is none.
+/// Calls `use` with each link, then with each joint of a robot, and with the beginning of messages
+/// about it, such as "joint 'elbow': ".
+template <class Use>
+void for_each_part(const XmlElement& robot, Use use) {
+  for (const char* kind : {"link", "joint"}) {
+    for_each_child(robot, kind, [&](const XmlElement& part) {
+      use(part, std::string(kind) + " '" + one_line(attribute(part, "name")) + "': ");
+    });
+  }
+}
+
+/// An element's text without white space around it; empty if there is none.
 [[nodiscard]] inline std::string text_of(const XmlElement& element) {
   std::string text;
   for (const auto* node = element.FirstChild(); node; node = node->NextSibling()) {
-    if (node->ToText()) text += node->Value();  // what else there is are comments
+    if (node->ToText()) text += node->Value();  // the other nodes are comments
   }
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+  return std::string(trimmed(text));
 }
 
 /// Parses XML into a document and returns its <robot>.
-/// @throws UrdfError if it is not XML or no robot
+/// @throws UrdfError if the text is not XML or has no <robot>
 inline XmlElement& parse_xml(const std::string& file, std::string text, XmlDocument& document) {
-  if (text.find('<') == std::string::npos) throw UrdfError(file, "it is no XML: it has no tag");
-  check_tags(file, text);
+  if (text.find('<') == std::string::npos) throw UrdfError(file, "this is not XML: it has no tag");
+  TagChecker(file, text).check();
   document.Parse(text.c_str());
   if (document.Error()) {
     throw UrdfError({.file = file, .line = error_line(document)}, error_text(document));
   }
   XmlElement* robot = document.FirstChildElement("robot");
-  if (!robot) {
-    const XmlElement* top = document.FirstChildElement();
-    throw UrdfError(file, "there is no <robot>" +
-                              (top ? ", but <" + std::string(top->Value()) + ">" : std::string()));
-  }
-  return *robot;
+  if (robot) return *robot;
+  const XmlElement* top = document.FirstChildElement();
+  throw UrdfError(file, "the top element must be <robot>" +
+                            (top ? ", but is <" + std::string(top->Value()) + ">" : std::string()));
 }
 
 inline constexpr const char* xacro_advice =
-    " is left of xacro: have it written out (xacro r.xacro > r.urdf)";
+    " is unexpanded xacro: run `xacro r.xacro > r.urdf` and load the result";
 
-/// @throws UrdfError if there is an element that xacro would have replaced, wherever it is: the
-///         robot without it would be another one
+/// @throws UrdfError if any element is one that xacro expands: without it the robot would differ
 inline void refuse_xacro(const std::string& file, const XmlElement& element) {
   const std::string name = element.Value();
   if (name.starts_with("xacro:")) throw UrdfError(file, "<" + name + ">" + xacro_advice);
   for_each_child(element, nullptr, [&](const XmlElement& child) { refuse_xacro(file, child); });
 }
 
-/// @throws UrdfError if an attribute holds what xacro or a template tool would have replaced
-/// @param where  element of the robot, for the message
-inline void refuse_placeholders(const std::string& file, const std::string& where,
+/// @throws UrdfError if an attribute holds a placeholder of xacro or of a template tool
+/// @param owner  the link or joint, for the message
+inline void refuse_placeholders(const std::string& file, const std::string& owner,
                                 const XmlElement& element) {
   for (auto each = element.FirstAttribute(); each; each = each->Next()) {
     const std::string text = each->Value();
     const std::string_view placeholder = bracketed_placeholder_in(text);
     if (placeholder.empty()) continue;
-    throw UrdfError(file, where + ": '" + text + "'" +
+    throw UrdfError(file, owner + "'" + text + "'" +
                               (placeholder.starts_with('$')
                                    ? xacro_advice
-                                   : " is a placeholder that a template tool was to fill in"));
+                                   : " is an unexpanded placeholder: run the template tool and "
+                                     "load the result"));
   }
   for_each_child(element, nullptr,
-                 [&](const XmlElement& child) { refuse_placeholders(file, where, child); });
+                 [&](const XmlElement& child) { refuse_placeholders(file, owner, child); });
 }
 
 /// Removes all child elements but those named.
 inline void keep_only(XmlElement& parent, std::initializer_list<std::string_view> names) {
   for (XmlElement* child = parent.FirstChildElement(); child;) {
     XmlElement* next = child->NextSiblingElement();
-    bool keep = false;
-    for (std::string_view name : names) keep = keep || name == child->Value();
-    if (!keep) remove(parent, *child);
+    if (std::ranges::find(names, child->Value()) == names.end()) remove(parent, *child);
     child = next;
   }
 }
 
-/// Takes the masses out of a robot.
+/// Removes the masses of a robot.
 inline void remove_inertials(XmlElement& robot) {
   for (XmlElement* link = robot.FirstChildElement("link"); link;
        link = link->NextSiblingElement("link")) {
@@ -138,16 +155,15 @@ inline void remove_inertials(XmlElement& robot) {
   }
 }
 
-/// Leaves of a robot what its mechanics need: what urdfdom would refuse elsewhere, such as a colour
-/// that is not defined, is no concern of ours.
-/// @throws UrdfError if one is written <Link> or so, which would be left out in silence
+/// Keeps only the elements about mechanics, so that urdfdom cannot refuse the file for others, such
+/// as an undefined colour.
+/// @throws UrdfError if a <link> or <joint> has capital letters: urdfdom would ignore it
 inline void keep_mechanics(const std::string& file, XmlElement& robot) {
   for_each_child(robot, nullptr, [&](const XmlElement& child) {
-    const std::string lower = lower_case(child.Value());
-    if (lower != child.Value() && (lower == "link" || lower == "joint")) {
-      throw UrdfError(file, "<" + std::string(child.Value()) + " name=\"" +
-                                attribute(child, "name") + "\">: it is written <" + lower + ">");
-    }
+    const std::string name = child.Value(), lower = lower_case(name);
+    if (lower == name || (lower != "link" && lower != "joint")) return;
+    throw UrdfError(file, "<" + name + " name=\"" + attribute(child, "name") +
+                              "\">: write the element's name as <" + lower + ">");
   });
   keep_only(robot, {"link", "joint"});
   for (XmlElement* child = robot.FirstChildElement(); child; child = child->NextSiblingElement()) {

@@ -44,15 +44,17 @@ namespace articula::detail {
 /// True if one word is likely to be a misspelling of the other: they have letters in common and
 /// differ by at most two.
 [[nodiscard]] inline bool is_near(std::string_view a, std::string_view b) {
+  const std::size_t longer = std::max(a.size(), b.size());
+  if (longer > std::min(a.size(), b.size()) + 2) return false;
   const std::size_t distance = edit_distance(a, b);
-  return distance <= 2 && distance < std::max(a.size(), b.size());
+  return distance <= 2 && distance < longer;
 }
 
 /// The known word that an unknown word probably stands for; empty if no word is near, or if several
 /// words are equally near.
 /// @param words  the known words, a range of strings; the result refers to one of them
 template <class Words>
-[[nodiscard]] std::string_view meant_word(std::string_view unknown, const Words& words) {
+[[nodiscard]] std::string_view similar_word(std::string_view unknown, const Words& words) {
   std::string_view meant;
   std::size_t nearest = unknown.size() + 3;
   for (const std::string_view word : words) {
@@ -68,7 +70,7 @@ template <class Words>
 /// "; did you mean 'p'?" for the end of a message about an unknown word; empty if no word is near.
 template <class Words>
 [[nodiscard]] std::string did_you_mean(std::string_view unknown, const Words& words) {
-  const std::string_view meant = meant_word(unknown, words);
+  const std::string_view meant = similar_word(unknown, words);
   return meant.empty() ? "" : "; did you mean '" + shown(meant) + "'?";
 }
 
