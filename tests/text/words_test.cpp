@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/text/file_error.hpp>
-#include <articula/text/meant_word.hpp>
 #include <articula/text/number_hint.hpp>
 #include <articula/text/placeholder.hpp>
+#include <articula/text/similar_word.hpp>
 
 #include <array>
 #include <string>
@@ -42,9 +42,9 @@ TEST_CASE("the meant word is the nearest one, if there is one") {
                                        {"damping", ""},
                                        {"", ""}}) {
     CAPTURE(unknown);
-    CHECK(meant_word(unknown, words) == meant);
+    CHECK(similar_word(unknown, words) == meant);
   }
-  CHECK(meant_word("ac", std::vector<std::string>{"ab", "ad"}).empty());  // equally near
+  CHECK(similar_word("ac", std::vector<std::string>{"ab", "ad"}).empty());  // equally near
   CHECK(one_of_words("kp", words) == "one of p, i, d, i_clamp, joints; did you mean 'p'?");
   CHECK(one_of_words("iclamp", words, 2) == "one of i_clamp, p, ...; did you mean 'i_clamp'?");
   CHECK(choice_of("x", "keys", words) == "; keys: p, i, d, i_clamp, joints");
