@@ -100,7 +100,7 @@ class Pack {
   }
   [[gnu::always_inline]] friend Pack abs(const Pack& a) noexcept { return select(a < 0, -a, a); }
   [[gnu::always_inline]] friend auto is_finite(const Pack& a) noexcept {
-    return a - a == 0;  // of infinities and NaN the difference is NaN
+    return a - a == 0;  // NOLINT(misc-redundant-expression): NaN for infinities and NaN
   }
 
   [[gnu::always_inline]] friend Pack sqrt(const Pack& a) noexcept {

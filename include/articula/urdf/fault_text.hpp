@@ -36,7 +36,7 @@ namespace articula::detail {
 /// @copydoc figures(const Link&, Rule)
 [[nodiscard]] inline std::string figures(const Joint& joint, Rule rule) {
   const JointLimits& limits = joint.limits;
-  const std::string range =
+  std::string range =
       "lower " + rounded_text(limits.lower) + ", upper " + rounded_text(limits.upper);
   const std::initializer_list<std::pair<Rule, double>> numbers = {
       {Rule::velocity_limit_is_negative, limits.velocity},

@@ -36,7 +36,7 @@ struct SectionChoice {
 /// @param notes  receives a line on each section that is left out, if there is no name
 /// @throws FileError if there is none
 [[nodiscard]] inline std::vector<ConfigSection> chosen_sections(const ConfigSections& all,
-                                                                SectionChoice choice,
+                                                                const SectionChoice& choice,
                                                                 std::vector<std::string>& notes) {
   std::string_view name = choice.name;
   while (name.starts_with('/')) name.remove_prefix(1);

@@ -45,7 +45,7 @@ class ConfigSource : public detail::TextSource {
   /// @param values  of placeholders
   [[nodiscard]] static ConfigSource text(std::string_view yaml, const std::string& name = "YAML",
                                          ConfigValues values = {}) {
-    return ConfigSource(std::move(name), std::string(yaml), std::move(values));
+    return ConfigSource(name, std::string(yaml), std::move(values));
   }
 
   /// The values of placeholders.

@@ -105,8 +105,7 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
   return symbolic::Assembler<Capacity>::assemble(graph, outputs);
 }
 
-/// A capacity for the programs of most algorithms: at least twice the size of those of this
-/// library.
+/// A capacity that is at least twice the size of the programs of this library.
 template <DescribedRobot R>
 [[nodiscard]] consteval symbolic::ProgramSize usual_capacity() {
   constexpr auto bodies = static_cast<std::size_t>(ModelOf<R>::body_count);
@@ -114,8 +113,7 @@ template <DescribedRobot R>
       .instructions = 384 * bodies, .constants = 32 * bodies, .outputs = (12 + bodies) * bodies};
 }
 
-/// The program of an algorithm. The algorithm runs a second time only if the capacity was too
-/// small.
+/// The program of an algorithm. It runs a second time only if the capacity was too small.
 template <class Algorithm, DescribedRobot R, Frames frames>
 [[nodiscard]] consteval auto compile() {
   constexpr auto program = trace<Algorithm, R, frames, usual_capacity<R>()>();
