@@ -167,10 +167,10 @@ class CommandLimiter<R, MultiModeCommand<joint_count<R>>> : public LimiterOfEffo
 
   Vector limit(const ControlInput<N>& in, MultiModeCommand<N>& command,
                LimitReport<N>& report) noexcept {
-    const CommandLimits<N>& limits = this->limits;
+    const CommandLimits<N>& kept = this->limits;
     const MultiModeCommand<N> asked = command;
-    command.position = asked.position.cwiseMax(limits.lower).cwiseMin(limits.upper);
-    command.velocity = asked.velocity.cwiseMax(-limits.velocity).cwiseMin(limits.velocity);
+    command.position = asked.position.cwiseMax(kept.lower).cwiseMin(kept.upper);
+    command.velocity = asked.velocity.cwiseMax(-kept.velocity).cwiseMin(kept.velocity);
     command.stiffness = asked.stiffness.cwiseMax(0);
     command.damping = asked.damping.cwiseMax(0);
     const Vector total = spring_pull(command, in.state) + asked.effort;
@@ -180,8 +180,8 @@ class CommandLimiter<R, MultiModeCommand<joint_count<R>>> : public LimiterOfEffo
       report[j].velocity = report[j].velocity || command.velocity[j] != asked.velocity[j];
       report[j].stiffness = command.stiffness[j] != asked.stiffness[j];
       report[j].damping = command.damping[j] != asked.damping[j];
-      if (effort[j] == total[j] && std::abs(asked.effort[j]) <= limits.effort[j]) continue;
-      set_total(command, in.state, j, effort[j], limits.effort[j]);
+      if (effort[j] == total[j] && std::abs(asked.effort[j]) <= kept.effort[j]) continue;
+      set_total(command, in.state, j, effort[j], kept.effort[j]);
     }
     return effort;
   }

@@ -7,6 +7,7 @@
 #include "articula/control/safety/damping_effort.hpp"
 #include "articula/control/safety/safe_command.hpp"
 #include "articula/control/switching/controller_tuple.hpp"
+#include "articula/control/switching/group_state.hpp"
 #include "articula/control/switching/joint_group.hpp"
 #include "articula/control/switching/switch_board.hpp"
 #include "articula/core/controller.hpp"
@@ -79,7 +80,7 @@ class Groups : public ControllerTuple<Controllers...> {
       }
     }
     std::size_t entry = 0;
-    for_each_switch([&](const auto& own, std::size_t g) noexcept {
+    for_each_switch(*this, [&](const auto& own, std::size_t g) noexcept {
       for (const ControllerInfo& info : own.list()) {
         board_.entries[entry].name = info.name;
         board_.entries[entry++].place = static_cast<int>(g);
@@ -100,12 +101,8 @@ class Groups : public ControllerTuple<Controllers...> {
   void start(const Input& in) noexcept {
     this->for_each([&](auto& controller, std::size_t g) noexcept {
       Group& group = groups_[g];
-      group.since = group.divisor;
-      group.braked_cycles = 0;
-      group.status = ControllerStatus::active;
-      group.passes_cut = false;
-      group.cut.setZero();
-      const Reference own = reference_of(group, in);
+      group.start();
+      const Reference own = group.reference(in);
       start_controller(controller, Input{in.state, own, group.divisor * in.period, in.applied});
     });
   }
@@ -130,7 +127,7 @@ class Groups : public ControllerTuple<Controllers...> {
   /// update. Real-time: yes.
   SwitchOutcome request(const SwitchRequest& request) noexcept {
     std::size_t entry = 0;
-    for_each_switch([&](const auto& own, std::size_t) noexcept {
+    for_each_switch(*this, [&](const auto& own, std::size_t) noexcept {
       for (const auto& of : own.board().entries) {
         board_.entries[entry].active = of.active;
         board_.entries[entry++].anew = of.anew;
@@ -138,7 +135,7 @@ class Groups : public ControllerTuple<Controllers...> {
     });
     const SwitchOutcome outcome = board_.plan(request);
     entry = 0;
-    for_each_switch([&](auto& own, std::size_t) noexcept {
+    for_each_switch(*this, [&](auto& own, std::size_t) noexcept {
       for (auto& of : own.board().entries) {
         of.active = board_.entries[entry].active;
         of.anew = board_.entries[entry++].anew;
@@ -151,7 +148,7 @@ class Groups : public ControllerTuple<Controllers...> {
   [[nodiscard]] std::array<ControllerInfo, controller_count> list() const noexcept {
     std::array<ControllerInfo, controller_count> all;
     std::size_t entry = 0;
-    for_each_switch([&](const auto& own, std::size_t) noexcept {
+    for_each_switch(*this, [&](const auto& own, std::size_t) noexcept {
       for (const ControllerInfo& info : own.list()) {
         all[entry] = {board_.entries[entry].name, info.status};
         ++entry;
@@ -172,38 +169,17 @@ class Groups : public ControllerTuple<Controllers...> {
  private:
   using Vector = JointVector<joint_count>;
   using Reference = JointReference<joint_count>;
-
-  struct Group {
-    Vector joints = Vector::Zero();  ///< 1 for the group's joints
-    Vector cut = Vector::Zero();     ///< of the controller's command in the cycle of its last call
-    int divisor = 1;
-    int since = 1;            ///< cycles since the last call
-    int braked_cycles = 0;    ///< in a row without a reference or brake
-    bool due = false;         ///< it is called in the next cycle, whatever the divisor
-    bool passes_cut = false;  ///< it was called in the last cycle, and its command was used
-    ControllerStatus status = ControllerStatus::active;
-  };
-
-  [[nodiscard]] static Vector select(const Group& group, const Vector& values,
-                                     const Vector& others = Vector::Zero()) noexcept {
-    return (group.joints.array() != 0).select(values, others);
-  }
-
-  [[nodiscard]] static Reference reference_of(const Group& group, const Input& in) noexcept {
-    const auto& [position, velocity, acceleration, effort] = in.reference;
-    return {select(group, position, in.state.position), select(group, velocity, in.state.velocity),
-            select(group, acceleration), select(group, effort)};
-  }
+  using Group = detail::GroupState<joint_count>;
 
   /// @tparam has_reference  whether the reference of all joints is finite
   template <bool has_reference>
   [[nodiscard]] Outcome<Command> cycle(const Input& in) noexcept {
     this->for_each([&](auto& controller, std::size_t g) noexcept {
       Group& group = groups_[g];
-      if (group.passes_cut) group.cut = select(group, in.cut);
+      if (group.passes_cut) group.cut = group.select(in.cut);
       group.passes_cut = false;
       if (group.due || group.since >= group.divisor) {
-        const Reference own = reference_of(group, in);
+        const Reference own = group.reference(in);
         const Input inner{in.state, own, group.since * in.period, in.applied, group.cut};
         const bool updates = has_reference || is_finite(own);
         const Outcome<Command> outcome =
@@ -216,7 +192,7 @@ class Groups : public ControllerTuple<Controllers...> {
         } else if (!group.passes_cut && group.braked_cycles <= detail::borne_cycles) {
           ++group.braked_cycles;
         }
-        command_ = merged(group.passes_cut ? outcome.command : safe(group, in), group);
+        command_ = group.merged(group.passes_cut ? outcome.command : safe(group, in), command_);
         group.since = 0;
         group.due = outcome.verdict != Verdict::fine;
       }
@@ -239,20 +215,6 @@ class Groups : public ControllerTuple<Controllers...> {
     return update_controller(controller, in);
   }
 
-  /// The command of all groups with one group's own part in it.
-  [[nodiscard]] Command merged(const Command& own, const Group& group) const noexcept {
-    Command all = command_;
-    const auto take = [&](auto member) { all.*member = select(group, own.*member, all.*member); };
-    if constexpr (requires { own.position; }) take(&Command::position);
-    if constexpr (requires { own.velocity; }) take(&Command::velocity);
-    if constexpr (requires { own.effort; }) take(&Command::effort);
-    if constexpr (requires { own.stiffness; }) {
-      take(&Command::stiffness);
-      take(&Command::damping);
-    }
-    return all;
-  }
-
   /// The safe command for a group that has failed. Other groups go on moving, so it is not enough to
   /// carry the weight: the motion of its own joints, and no others', decays as in Standby.
   [[nodiscard]] Command safe(const Group& group, const Input& in) const noexcept {
@@ -260,17 +222,14 @@ class Groups : public ControllerTuple<Controllers...> {
     if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {
       const double time = std::max(damping_time, 2 * in.period);
       const Vector effort =
-          damping_effort(robot_, in.state.position, select(group, in.state.velocity), time);
+          damping_effort(robot_, in.state.position, group.select(in.state.velocity), time);
       if (is_finite(effort)) command = within_effort_limits(robot_, Command{effort});
     }
     return command;
   }
 
   /// Calls function(switch, place) for every group that has one.
-  void for_each_switch(auto function) noexcept { visit_switches(*this, function); }
-  void for_each_switch(auto function) const noexcept { visit_switches(*this, function); }
-
-  static void visit_switches(auto& groups, auto& function) noexcept {
+  static void for_each_switch(auto& groups, auto function) noexcept {
     groups.for_each([&](auto& controller, std::size_t g) noexcept {
       using C = std::remove_cvref_t<decltype(controller)>;
       if constexpr (detail::switch_size < C >> 0) function(switch_in(controller), g);
