@@ -131,13 +131,13 @@ void describe(const articula::UrdfDocument& document, articula::UrdfOptions opti
   std::string reason;
   try {
     return describe(articula::read_urdf(document, options));
-  } catch (const articula::UrdfError& error) {
+  } catch (const articula::FileError& error) {
     reason = error.what();
   }
   options.kinematic = true;
   try {
     describe(articula::read_urdf(document, options));
-  } catch (const articula::UrdfError&) {  // the masses are not the only fault
+  } catch (const articula::FileError&) {  // the masses are not the only fault
     throw std::runtime_error(reason);
   }
   std::printf("load_urdf refuses it: %s\n", reason.c_str());

@@ -29,7 +29,7 @@ const std::string base = "<link name=\"base\"/>";
 std::string refusal(const std::string& source, const UrdfOptions& options = {}) {
   try {
     static_cast<void>(load_urdf<1>(source, options));
-  } catch (const UrdfError& error) {
+  } catch (const FileError& error) {
     const std::string message = error.what();
     CHECK(message.find('\n') == std::string::npos);
     return message;
@@ -474,7 +474,7 @@ TEST_CASE("Options with unusable figures") {
         "URDF: right_angle_tolerance nan is not within 0 .. 0.1");
   CHECK(tolerance(std::numeric_limits<double>::infinity()) ==
         "URDF: right_angle_tolerance inf is not within 0 .. 0.1");
-  CHECK_THROWS_AS(read_urdf(pendulum(), {.right_angle_tolerance = 1}), UrdfError);
+  CHECK_THROWS_AS(read_urdf(pendulum(), {.right_angle_tolerance = 1}), FileError);
 
   CHECK(refusal(pendulum(), {.locked = {{"pivot", 0}, {"pivot", 1}}}) ==
         "URDF: joint 'pivot': it is locked at two positions, 0 and 1");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Feeds the URDF loader with anything. It must answer with a robot or a UrdfError, and with
+/// @file Feeds the URDF loader with anything. It must answer with a robot or a FileError, and with
 /// nothing else.
 #include <articula/urdf/urdf.hpp>
 
@@ -14,7 +14,7 @@ void load(std::string_view text, const articula::UrdfOptions& options) {
   try {
     const articula::Model<N> model = articula::load_urdf<N>(text, options);
     if (model.links.empty()) __builtin_trap();
-  } catch (const articula::UrdfError&) {  // the right answer
+  } catch (const articula::FileError&) {  // the right answer
   }
 }
 
@@ -29,7 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   load<2>(text, {.root = "a", .allow_unphysical = true});
   try {
     static_cast<void>(articula::load_kinematic_urdf<1>(text));
-  } catch (const articula::UrdfError&) {  // the right answer
+  } catch (const articula::FileError&) {  // the right answer
   }
   load<1>(text, {.tip = "b", .locked = {{"i", 0.5}}, .allow_unphysical = true});
   return 0;

@@ -29,7 +29,7 @@ constexpr const char* file = URDF_FILES "/massless.urdf";
 std::string refusal(const UrdfSource& source, const UrdfOptions& options = {}) {
   try {
     static_cast<void>(read_urdf(source, options));
-  } catch (const UrdfError& error) {
+  } catch (const FileError& error) {
     return error.what();
   }
   return "";

@@ -387,7 +387,7 @@ TEST_CASE("Numbers are read the same in every locale") {
   std::string message;
   try {
     static_cast<void>(read_urdf(URDF_FILES "/unphysical.urdf"));
-  } catch (const UrdfError& error) {
+  } catch (const FileError& error) {
     message = error.what();
   }
   std::locale::global(before);

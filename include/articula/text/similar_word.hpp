@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -96,12 +97,13 @@ template <class Words>
                                        std::size_t most = static_cast<std::size_t>(-1)) {
   std::vector<std::string_view> order(words.begin(), words.end());
   if (order.size() > most) {
-    const auto share = [&](std::string_view word) {  // of other letters [%]
-      return 100 * edit_distance(unknown, word) /
-             std::max({word.size(), unknown.size(), std::size_t{1}});
-    };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::string_view a, std::string_view b) { return share(a) < share(b); });
+    std::multimap<std::size_t, std::string_view> by_share;  // of other letters [%]
+    for (const std::string_view word : order) {
+      const std::size_t longer = std::max({word.size(), unknown.size(), std::size_t{1}});
+      by_share.emplace(100 * edit_distance(unknown, word) / longer, word);
+    }
+    order.clear();
+    for (const auto& [share, word] : by_share) order.push_back(word);
   }
   return "one of " + list_of(order, most) + did_you_mean(unknown, words);
 }

@@ -54,10 +54,10 @@ namespace articula {
 
 namespace detail {
 
-/// @throws UrdfError if a name is too long
+/// @throws FileError if a name is too long
 [[nodiscard]] inline Name name_of(const UrdfDocument& document, const std::string& text) {
   if (text.size() > Name::capacity) {
-    throw UrdfError(document.file, "'" + text + "': the name has " + std::to_string(text.size()) +
+    throw FileError(document.file, "'" + text + "': the name has " + std::to_string(text.size()) +
                                        " characters; at most 63 are supported");
   }
   return std::string_view(text);
@@ -89,7 +89,7 @@ namespace detail {
     case urdf::Joint::FIXED:
       return JointType::fixed;
     default:
-      throw UrdfError(
+      throw FileError(
           document.file,
           "joint '" + joint.name + "': it is " +
               (joint.type == urdf::Joint::PLANAR ? "planar" : "floating") +
@@ -145,7 +145,7 @@ namespace detail {
   const Vector3<double> axis = vector_of(joint.axis);
   const double length = std::sqrt(dot(axis, axis));
   if (type_of(document, joint) == JointType::fixed || !(length > 0) || !is_finite(length)) {
-    throw UrdfError(document.file, "joint '" + joint.name + "': it cannot be locked at " +
+    throw FileError(document.file, "joint '" + joint.name + "': it cannot be locked at " +
                                        rounded_text(position) +
                                        ": it is fixed or its axis has no direction");
   }

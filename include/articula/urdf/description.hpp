@@ -4,9 +4,9 @@
 
 #include "articula/model/canonical_mechanism.hpp"
 #include "articula/model/validation.hpp"
+#include "articula/text/file_error.hpp"
 #include "articula/urdf/fault_text.hpp"
 #include "articula/urdf/xml/control.hpp"
-#include "articula/urdf/xml/error.hpp"
 #include "articula/urdf/xml/transmission.hpp"
 
 #include <map>
@@ -52,19 +52,19 @@ struct UrdfContents {
 /// size is known at run time; for a robot known at compile time, use RobotDescription.
 class UrdfDescription {
  public:
-  /// @throws UrdfError with element, reason and figures if the contents break a Rule, or if the
+  /// @throws FileError with element, reason and figures if the contents break a Rule, or if the
   ///         tolerance for right angles is not within 0 .. 0.1
   explicit UrdfDescription(UrdfContents contents) : contents_(std::move(contents)) {
     const double tolerance = contents_.right_angle_tolerance;
     if (!(tolerance >= 0 && tolerance <= 0.1)) {
-      throw UrdfError(contents_.file, "right_angle_tolerance " + detail::rounded_text(tolerance) +
+      throw FileError(contents_.file, "right_angle_tolerance " + detail::rounded_text(tolerance) +
                                           " is not within 0 .. 0.1");
     }
     const DescriptionFault fault =
         find_fault(contents_.name, contents_.gravity, contents_.links, contents_.joints,
                    contents_.allow_unphysical, contents_.kinematic);
     if (fault.rule == Rule::none) return;
-    throw UrdfError(contents_.file,
+    throw FileError(contents_.file,
                     detail::fault_text(fault, contents_.links, contents_.joints) + advice(fault));
   }
 

@@ -17,7 +17,7 @@ namespace articula::detail {
 /// @param mimicked   the joint that this one mimics; empty: none
 /// @param limits     of the joint; positions of a mimic joint become those of <limit> where
 ///                   <ros2_control> leaves it none
-/// @throws UrdfError if the limits are used
+/// @throws FileError if the limits are used
 inline void check_command_limits(const UrdfDocument& document, bool kinematic,
                                  const urdf::Joint& joint, const std::string& mimicked,
                                  JointLimits& limits, UrdfNotices& notices) {
@@ -27,7 +27,7 @@ inline void check_command_limits(const UrdfDocument& document, bool kinematic,
     const LimitContradiction& found = at->second;
     const std::string owner = "<ros2_control>: " + name + found.kind + ": ";
     if (mimicked.empty() && !(kinematic && found.kind != "velocity")) {
-      throw UrdfError(document.file, owner + found.reason);
+      throw FileError(document.file, owner + found.reason);
     }
     notices.add(owner + "its limits (" + found.bounds +
                 ") are ignored: " + (mimicked.empty() ? "the robot is kinematic" : mimics));
@@ -44,7 +44,7 @@ inline void check_command_limits(const UrdfDocument& document, bool kinematic,
       name + "its limits, " + range(command->second.lower, command->second.upper) +
       " in <ros2_control> and " + range(joint.limits->lower, joint.limits->upper) +
       " in <limit>, leave it no position";
-  if (mimicked.empty()) throw UrdfError(document.file, text);
+  if (mimicked.empty()) throw FileError(document.file, text);
   notices.add(text + "; " + mimics + ", so those of <limit> are used");
   limits.lower = joint.limits->lower;
   limits.upper = joint.limits->upper;

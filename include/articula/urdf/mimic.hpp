@@ -24,7 +24,7 @@ struct ResolvedMimic {
 /// Follows a joint's <mimic>s to a joint that is locked or mimics none. The joints between may be
 /// anywhere in the file. The result is the joint itself if it mimics none.
 /// @param locked  positions of locked joints [rad or m], by name
-/// @throws UrdfError if the joints mimic each other in a circle
+/// @throws FileError if the joints mimic each other in a circle
 [[nodiscard]] inline ResolvedMimic resolve_mimic(const UrdfDocument& document,
                                                  const std::map<std::string, double>& locked,
                                                  const urdf::Joint& joint) {
@@ -39,7 +39,7 @@ struct ResolvedMimic {
   for (std::size_t step = 0; mimics(*at); ++step) {
     const std::string& mimicked = at->mimic->joint_name;
     if (step > joints.size()) {
-      throw UrdfError(document.file,
+      throw FileError(document.file,
                       "joint '" + at->name + "': it mimics itself" +
                           (mimicked == at->name ? "" : " through '" + mimicked + "'"));
     }

@@ -29,7 +29,7 @@ class UrdfReader {
   UrdfReader(const UrdfDocument& document, const UrdfOptions& options)
       : document_(document), options_(options), notices_(document, options.kinematic) {}
 
-  /// @throws UrdfError if options and document do not fit. The result is not checked otherwise.
+  /// @throws FileError if options and document do not fit. The result is not checked otherwise.
   [[nodiscard]] UrdfContents read() {
     result_ = {.file = document_.file,
                .name = name_of(document_, document_.robot->getName()),
@@ -60,7 +60,7 @@ class UrdfReader {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw UrdfError(document_.file, reason);
+    throw FileError(document_.file, reason);
   }
   [[noreturn]] void fail(const std::string& joint, const std::string& reason) const {
     fail("joint '" + joint + "': " + reason);
@@ -164,15 +164,15 @@ class UrdfReader {
 /// Selects and checks a robot's description.
 /// @param document  from parse_urdf
 /// @param options   the part of the robot, locked joints, accepted faults, gravity
-/// @throws UrdfError with file, element, reason and figures if there is a fault
+/// @throws FileError with file, element, reason and figures if there is a fault
 /// Real-time: no (allocates, throws).
 [[nodiscard]] inline UrdfDescription read_urdf(const UrdfDocument& document,
                                                const UrdfOptions& options = {}) {
   UrdfContents contents = detail::UrdfReader(document, options).read();
   try {
     return UrdfDescription(std::move(contents));
-  } catch (const UrdfError& error) {
-    throw UrdfError(error, detail::possible_cause(document.unknown_words, error.what()));
+  } catch (const FileError& error) {
+    throw FileError(error, detail::possible_cause(document.unknown_words, error.what()));
   }
 }
 

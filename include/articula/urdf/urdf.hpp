@@ -12,7 +12,7 @@ namespace articula {
 
 namespace detail {
 
-/// @throws UrdfError with the right size if a robot has not this number of joints and bodies
+/// @throws FileError with the right size if a robot has not this number of joints and bodies
 inline void check_size(const UrdfContents& robot, int n, int bodies) {
   const ModelSize size = model_size(robot.joints);
   if (size.joints == n && size.bodies == bodies) return;
@@ -26,7 +26,7 @@ inline void check_size(const UrdfContents& robot, int n, int bodies) {
     return "<" + std::to_string(count) + (count == moving ? "" : ", " + std::to_string(moving)) +
            ">";
   };
-  throw UrdfError(robot.file, "robot '" + std::string(robot.name) + "': it has " +
+  throw FileError(robot.file, "robot '" + std::string(robot.name) + "': it has " +
                                   std::to_string(size.joints) + " joints: " + joints +
                                   (mimics.empty() ? "" : "; and mimic joints: " + mimics) +
                                   "; load it with " + arguments(size.joints, size.bodies) +
@@ -46,12 +46,12 @@ template <int N, int Bodies, bool Kinematic>
 /// Makes the model of a description.
 /// @tparam N       number of joints that can be commanded
 /// @tparam Bodies  number of moving bodies: N and one for each mimic joint
-/// @throws UrdfError if the robot has another size (the message gives it) or is kinematic
+/// @throws FileError if the robot has another size (the message gives it) or is kinematic
 /// Real-time: no (allocates, throws).
 template <int N, int Bodies = N>
 [[nodiscard]] Model<N, Bodies> load_urdf(const UrdfDescription& description) {
   if (description->kinematic) {
-    throw UrdfError(description->file,
+    throw FileError(description->file,
                     "it was read without masses: use load_kinematic_urdf, or read it without "
                     "UrdfOptions::kinematic");
   }
@@ -77,7 +77,7 @@ template <int N, int Bodies = N>
 /// @tparam Bodies  number of moving bodies: N and one for each mimic joint
 /// @param source   a file's name or path, or XML: a string that begins with '<'
 /// @param options  the part of the robot, locked joints, accepted faults, gravity
-/// @throws UrdfError with file, element, reason and figures if the file is invalid, the robot is
+/// @throws FileError with file, element, reason and figures if the file is invalid, the robot is
 ///         not physical or has another size
 /// Real-time: no (reads a file, allocates, throws).
 template <int N, int Bodies = N>

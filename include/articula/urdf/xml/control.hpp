@@ -43,13 +43,13 @@ class ControlReader {
  public:
   ControlReader(const std::string& file, NoticeList& notices) : file_(file), notices_(notices) {}
 
-  /// @throws UrdfError if a number is not one or a joint has no name
+  /// @throws FileError if a number is not one or a joint has no name
   [[nodiscard]] UrdfControl read(const XmlElement& robot) {
     for_each_child(robot, "joint", [this](const auto& joint) { read_rates(joint); });
     for_each_child(robot, "ros2_control", [this](const XmlElement& control) {
       for_each_child(control, "joint", [this](const XmlElement& joint) {
         const std::string name = attribute(joint, "name");
-        if (name.empty()) throw UrdfError(file_, "<ros2_control>: a joint has no name");
+        if (name.empty()) throw FileError(file_, "<ros2_control>: a joint has no name");
         owner_ = "<ros2_control>: joint '" + name + "': ";
         read_limits(joint, name);
         read_initial_values(joint, name);

@@ -68,9 +68,9 @@ inline void blank_white_space(std::string& text) {
     // urdfdom continues after some errors, and drops a link's inertia for instance.
     if (robot && catcher.errors().empty()) return robot;
   } catch (const std::exception& error) {
-    throw UrdfError(file, error.what());
+    throw FileError(file, error.what());
   }
-  throw UrdfError(file, catcher.errors().empty() ? "urdfdom refuses it" : catcher.errors());
+  throw FileError(file, catcher.errors().empty() ? "urdfdom refuses it" : catcher.errors());
 }
 
 }  // namespace detail
@@ -78,7 +78,7 @@ inline void blank_white_space(std::string& text) {
 /// Parses a URDF and checks its syntax.
 /// @param source          a file or XML
 /// @param without_masses  skip all <inertial>, also invalid ones
-/// @throws UrdfError if the file cannot be read or is not URDF, or its links do not form a tree
+/// @throws FileError if the file cannot be read or is not URDF, or its links do not form a tree
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline UrdfDocument parse_urdf(const UrdfSource& source,
                                              bool without_masses = false) {
@@ -119,8 +119,8 @@ inline void blank_white_space(std::string& text) {
   try {
     detail::check_tree(file, bare);
     result.robot = detail::parse_mechanics(file, text);
-  } catch (const UrdfError& error) {
-    throw UrdfError(error, detail::possible_cause(result.unknown_words, error.what()));
+  } catch (const FileError& error) {
+    throw FileError(error, detail::possible_cause(result.unknown_words, error.what()));
   }
   detail::for_each_child(bare, "joint", [&](const detail::XmlElement& joint) {
     result.joint_orientations[detail::attribute(joint, "name")] = detail::orientation_of(&joint);

@@ -58,7 +58,7 @@ namespace articula::detail {
 /// Checks a link, a joint or an <inertial> for elements that occur twice. urdfdom reads the first
 /// and ignores the second without a message. A second element that is equal or ignored is a notice.
 /// @param owner  the link or joint, for the message
-/// @throws UrdfError if two elements differ
+/// @throws FileError if two elements differ
 inline void check_duplicates(const std::string& file, const XmlElement& element,
                              const std::string& owner, NoticeList& notices) {
   constexpr std::array<std::string_view, 12> unique = {
@@ -78,7 +78,7 @@ inline void check_duplicates(const std::string& file, const XmlElement& element,
                                   : name != "safety_controller" && name != "calibration";
     const std::string second = "a second <" + std::string(name) + "> ";
     if (is_read && !are_equal(first, &child)) {
-      throw UrdfError(file, owner + second + "differs from the first: remove one of them");
+      throw FileError(file, owner + second + "differs from the first: remove one of them");
     }
     notices.add(owner, second + (is_read ? "repeats the first" : "is ignored"));
   });

@@ -16,7 +16,7 @@ namespace articula::detail {
 /// versions of urdfdom (3.0 is one) use a text that they refuse as a format of printf, so that a
 /// mass of "%s%s" would crash the program.
 /// @param owner  the link or joint, for the message
-/// @throws UrdfError with the element, the attribute and the text
+/// @throws FileError with the element, the attribute and the text
 inline void check_numbers(const std::string& file, const std::string& owner,
                           const XmlElement& element) {
   constexpr std::array<std::string_view, 7> elements = {"origin", "axis",    "limit", "dynamics",
@@ -33,7 +33,7 @@ inline void check_numbers(const std::string& file, const std::string& owner,
     std::string_view text = each->Value();
     for (std::string word(take_word(text)); !word.empty(); word = take_word(text)) {
       if (word.find_first_not_of("0123456789.+-eE") == std::string::npos) continue;
-      throw UrdfError(
+      throw FileError(
           file,
           owner + "<" + kind + ">: " + name + ": " + quoted_text(word) + " is not a finite number" +
               (std::ranges::count(word, ',') > 1 ? "; separate numbers by blanks, not by commas"

@@ -2,8 +2,8 @@
 /// @file Check of the tags of an XML text before TinyXML parses it.
 #pragma once
 
+#include "articula/text/file_error.hpp"
 #include "articula/text/numbers.hpp"
-#include "articula/urdf/xml/error.hpp"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ class TagChecker {
 
   TagChecker(const std::string& file, std::string& text) : file_(file), text_(text) {}
 
-  /// @throws UrdfError with the line and the fault
+  /// @throws FileError with the line and the fault
   void check() {
     for (;;) {
       const std::size_t start = at_;
@@ -52,7 +52,7 @@ class TagChecker {
   };
 
   [[noreturn]] void fail(const std::string& fault) const {
-    throw UrdfError({.file = file_, .line = line_of(at_)}, fault);
+    throw FileError({.file = file_, .line = line_of(at_)}, fault);
   }
 
   [[nodiscard]] int line_of(std::size_t position) const {

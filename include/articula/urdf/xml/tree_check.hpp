@@ -33,7 +33,7 @@ inline void check_links(const std::string& file, const XmlElement& robot) {
     ++count;
   });
   if (count > max_links) {
-    throw UrdfError(file, "the robot has " + std::to_string(count) + " links; at most " +
+    throw FileError(file, "the robot has " + std::to_string(count) + " links; at most " +
                               std::to_string(max_links) + " are supported");
   }
   if (links.size() < count || links.contains("")) return;
@@ -42,7 +42,7 @@ inline void check_links(const std::string& file, const XmlElement& robot) {
       const std::string link = link_name(joint, which);
       if (link.empty() || links.contains(link)) continue;
       const std::vector<std::string_view> names(links.begin(), links.end());
-      throw UrdfError(file, "joint '" + attribute(joint, "name") + "': its " + which + " link '" +
+      throw FileError(file, "joint '" + attribute(joint, "name") + "': its " + which + " link '" +
                                 link + "' is not a <link> of the file" +
                                 choice_of(link, "links", names));
     }
@@ -54,10 +54,10 @@ inline void check_tree(const std::string& file, const XmlElement& robot) {
   std::map<std::string, std::string> parents, carriers;
   for_each_child(robot, "joint", [&](const XmlElement& joint) {
     const std::string child = link_name(joint, "child"), name = attribute(joint, "name");
-    if (child.empty()) throw UrdfError(file, "joint '" + name + "': it has no child link");
+    if (child.empty()) throw FileError(file, "joint '" + name + "': it has no child link");
     const auto [carrier, is_new] = carriers.try_emplace(child, name);
     if (!is_new) {
-      throw UrdfError(file, "link '" + child + "': it is the child of two joints, '" +
+      throw FileError(file, "link '" + child + "': it is the child of two joints, '" +
                                 carrier->second + "' and '" + name + "'");
     }
     parents[child] = link_name(joint, "parent");
@@ -69,14 +69,14 @@ inline void check_tree(const std::string& file, const XmlElement& robot) {
     std::string link = start;
     for (; parents.contains(link) && !lengths.contains(link); link = parents.at(link)) {
       if (!seen.insert(link).second) {
-        throw UrdfError(file, "link '" + link + "': it is part of a loop");
+        throw FileError(file, "link '" + link + "': it is part of a loop");
       }
       way.push_back(link);
     }
     std::size_t length = lengths.contains(link) ? lengths.at(link) : 1;
     for (; !way.empty(); way.pop_back()) lengths[way.back()] = ++length;
     if (length > max_chain) {
-      throw UrdfError(file, "link '" + start + "': at most " + std::to_string(max_chain) +
+      throw FileError(file, "link '" + start + "': at most " + std::to_string(max_chain) +
                                 " links in one chain are supported");
     }
   }

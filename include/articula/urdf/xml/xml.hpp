@@ -3,9 +3,9 @@
 /// urdfdom 4 on.
 #pragma once
 
+#include "articula/text/file_error.hpp"
 #include "articula/text/numbers.hpp"
 #include "articula/text/placeholder.hpp"
-#include "articula/urdf/xml/error.hpp"
 #include "articula/urdf/xml/tags.hpp"
 
 #include <urdf_parser/urdf_parser.h>
@@ -39,11 +39,11 @@ inline void remove(XmlElement& parent, XmlElement& child) { parent.RemoveChild(&
 
 /// The finite number that a text of a file holds.
 /// @param where  element and attribute, for the message
-/// @throws UrdfError if the text is not a finite number
+/// @throws FileError if the text is not a finite number
 [[nodiscard]] inline double number_in(const std::string& file, const std::string& where,
                                       const std::string& text) {
   const auto number = number_of(text);
-  if (!number) throw UrdfError(file, where + ": '" + text + "' is not a finite number");
+  if (!number) throw FileError(file, where + ": '" + text + "' is not a finite number");
   return *number;
 }
 
@@ -95,32 +95,32 @@ void for_each_part(const XmlElement& robot, Use use) {
 }
 
 /// Parses XML into a document and returns its <robot>.
-/// @throws UrdfError if the text is not XML or has no <robot>
+/// @throws FileError if the text is not XML or has no <robot>
 inline XmlElement& parse_xml(const std::string& file, std::string text, XmlDocument& document) {
-  if (text.find('<') == std::string::npos) throw UrdfError(file, "this is not XML: it has no tag");
+  if (text.find('<') == std::string::npos) throw FileError(file, "this is not XML: it has no tag");
   TagChecker(file, text).check();
   document.Parse(text.c_str());
   if (document.Error()) {
-    throw UrdfError({.file = file, .line = error_line(document)}, error_text(document));
+    throw FileError({.file = file, .line = error_line(document)}, error_text(document));
   }
   XmlElement* robot = document.FirstChildElement("robot");
   if (robot) return *robot;
   const XmlElement* top = document.FirstChildElement();
-  throw UrdfError(file, "the top element must be <robot>" +
+  throw FileError(file, "the top element must be <robot>" +
                             (top ? ", but is <" + std::string(top->Value()) + ">" : std::string()));
 }
 
 inline constexpr const char* xacro_advice =
     " is unexpanded xacro: run `xacro r.xacro > r.urdf` and load the result";
 
-/// @throws UrdfError if any element is one that xacro expands: without it the robot would differ
+/// @throws FileError if any element is one that xacro expands: without it the robot would differ
 inline void refuse_xacro(const std::string& file, const XmlElement& element) {
   const std::string name = element.Value();
-  if (name.starts_with("xacro:")) throw UrdfError(file, "<" + name + ">" + xacro_advice);
+  if (name.starts_with("xacro:")) throw FileError(file, "<" + name + ">" + xacro_advice);
   for_each_child(element, nullptr, [&](const XmlElement& child) { refuse_xacro(file, child); });
 }
 
-/// @throws UrdfError if an attribute holds a placeholder of xacro or of a template tool
+/// @throws FileError if an attribute holds a placeholder of xacro or of a template tool
 /// @param owner  the link or joint, for the message
 inline void refuse_placeholders(const std::string& file, const std::string& owner,
                                 const XmlElement& element) {
@@ -128,7 +128,7 @@ inline void refuse_placeholders(const std::string& file, const std::string& owne
     const std::string text = each->Value();
     const std::string_view placeholder = bracketed_placeholder_in(text);
     if (placeholder.empty()) continue;
-    throw UrdfError(file, owner + "'" + text + "'" +
+    throw FileError(file, owner + "'" + text + "'" +
                               (placeholder.starts_with('$')
                                    ? xacro_advice
                                    : " is an unexpanded placeholder: run the template tool and "
@@ -157,12 +157,12 @@ inline void remove_inertials(XmlElement& robot) {
 
 /// Keeps only the elements about mechanics, so that urdfdom cannot refuse the file for others, such
 /// as an undefined colour.
-/// @throws UrdfError if a <link> or <joint> has capital letters: urdfdom would ignore it
+/// @throws FileError if a <link> or <joint> has capital letters: urdfdom would ignore it
 inline void keep_mechanics(const std::string& file, XmlElement& robot) {
   for_each_child(robot, nullptr, [&](const XmlElement& child) {
     const std::string name = child.Value(), lower = lower_case(name);
     if (lower == name || (lower != "link" && lower != "joint")) return;
-    throw UrdfError(file, "<" + name + " name=\"" + attribute(child, "name") +
+    throw FileError(file, "<" + name + " name=\"" + attribute(child, "name") +
                               "\">: write the element's name as <" + lower + ">");
   });
   keep_only(robot, {"link", "joint"});
