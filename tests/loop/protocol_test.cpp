@@ -21,7 +21,6 @@ using Arm = support::TiltedQ2d;
 namespace {
 
 using Vector = JointVector<2>;
-constexpr double dt = 1e-3;
 const std::array<JointGroup, 2> both{
     {{"s", {"shoulder_active_joint"}}, {"e", {"elbow_active_joint"}}}};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The PID laws of ROS, for those who need the same numbers.
+/// @file The PID laws of ROS's control_toolbox, with the same numbers.
 #pragma once
 
 #include "articula/control/laws/joint_pid.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Open-loop control: the reference's effort goes straight to the joints.
+/// @file Open-loop control: the effort is the reference's effort.
 #pragma once
 
 #include "articula/control/laws/feedforward.hpp"

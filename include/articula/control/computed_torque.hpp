@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Computed torque control: the model does the work, feedback corrects the rest.
+/// @file Computed torque control: inverse dynamics with a PID on the errors.
 #pragma once
 
 #include "articula/control/laws/feedforward.hpp"

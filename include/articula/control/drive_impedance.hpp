@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Drives that are springs and dampers themselves.
+/// @file Joint impedance control in the drives.
 #pragma once
 
 #include "articula/control/laws/feedforward.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Position drives go where the reference says.
+/// @file Position commands equal to the reference.
 #pragma once
 
 #include "articula/control/laws/feedforward.hpp"

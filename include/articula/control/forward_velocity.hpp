@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Velocity drives go as fast as the reference says.
+/// @file Velocity commands equal to the reference.
 #pragma once
 
 #include "articula/control/laws/feedforward.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Joints that give way like springs and dampers.
+/// @file Joint impedance control: a spring and a damper in each joint.
 #pragma once
 
 #include "articula/control/laws/feedforward.hpp"

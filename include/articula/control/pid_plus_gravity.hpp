@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file PID control of each joint, relieved of the robot's weight.
+/// @file PID control of each joint with gravity compensation.
 #pragma once
 
 #include "articula/control/laws/feedforward.hpp"

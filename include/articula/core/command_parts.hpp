@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The vectors of which a command is made, for whoever writes them down.
+/// @file The vectors of a command, with their names and quantities.
 #pragma once
 
 #include "articula/core/joint_command.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Telling numbers from NaN and infinity, at compile time and at run time.
+/// @file Tests for NaN and infinity, at compile time and at run time.
 #pragma once
 
 #include "articula/core/joint_command.hpp"

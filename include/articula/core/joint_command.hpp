@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a controller sends to the drives: one type per command interface.
+/// @file The commands of a controller to the drives: one type per command interface.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What is measured at the joints.
+/// @file The measured state of the joints.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What types lack to be the hardware and controller of a loop: one message for each thing.
+/// @file Compile-time messages for hardware and controllers that do not fit a loop.
 #pragma once
 
 #include "articula/core/controller.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What paces a running loop.
+/// @file The concept of a clock that paces a loop.
 #pragma once
 
 #include <chrono>

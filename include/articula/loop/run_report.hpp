@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What happened while a loop was running.
+/// @file The report of a run.
 #pragma once
 
 #include "articula/core/status.hpp"

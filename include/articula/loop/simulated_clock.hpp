@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Time that passes only when somebody waits for it.
+/// @file Simulated time, which advances when a loop waits.
 #pragma once
 
 #include <algorithm>

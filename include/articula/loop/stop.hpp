@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How a loop ends.
+/// @file The end of control: a last safe command, then deactivation.
 #pragma once
 
 #include "articula/control/safety/safe_command.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Asking a running loop to end.
+/// @file A flag that requests the end of a run.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What counts of a command when another goes on from it.
+/// @file The numbers of a command that must not jump.
 #pragma once
 
 #include "articula/control/laws/drive_spring.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How a joint gives way.
+/// @file The stiffness and damping of a joint.
 #pragma once
 
 #include "articula/control/laws/valid_gains.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Where a part of a controller acts, and when.
+/// @file The joints, rate and unit of a part of a controller.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a law that is computed once in every period makes of a joint's measurements.
+/// @file The linear part of a law that is computed once per period.
 #pragma once
 
 #include "articula/control/laws/pid_gains.hpp"

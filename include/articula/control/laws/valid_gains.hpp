@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Gains that have been checked.
+/// @file Validated gains of all joints.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The command for a cycle in which something is wrong.
+/// @file The safe command for a cycle with a fault.
 #pragma once
 
 #include "articula/core/finite.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The controller for times in which no other is active.
+/// @file The controller for times without an active one.
 #pragma once
 
 #include "articula/control/safety/damping_effort.hpp"

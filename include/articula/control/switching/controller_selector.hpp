@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which of several controllers is active.
+/// @file The selection of the active controller among several.
 #pragma once
 
 #include "articula/control/safety/standby.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Who shall be active of a set of controllers.
+/// @file The plan of which controllers are to be active.
 #pragma once
 
 #include "articula/control/switching/switch_request.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How a set of controllers is named, begins and falls back.
+/// @file Names, fallbacks and transfer of a set of controllers.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"

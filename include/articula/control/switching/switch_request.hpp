@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a set of controllers can be asked, and answers.
+/// @file Requests to a set of controllers, and their outcomes.
 #pragma once
 
 #include "articula/core/name.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a supervised loop is about.
+/// @file The modes of a supervised loop.
 #pragma once
 
 #include <string_view>

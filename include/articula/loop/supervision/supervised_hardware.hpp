@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What stands between a supervised loop and its hardware.
+/// @file The gate between a supervised loop and its hardware.
 #pragma once
 
 #include "articula/control/safety/damping_effort.hpp"

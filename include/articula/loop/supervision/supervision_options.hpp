@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a supervised loop tolerates, and what it does when that is exceeded.
+/// @file The tolerances of a supervised loop, and its behaviour in a fault.
 #pragma once
 
 #include "articula/core/finite.hpp"
