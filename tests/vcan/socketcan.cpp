@@ -66,8 +66,8 @@ struct Bench {
 TEST_CASE("an interface that does not exist is refused by name") {
   using Catch::Matchers::Contains;
   CHECK_THROWS_WITH(SocketCan("none0"), Contains("none0") && Contains("no such interface"));
-  CHECK_THROWS_WITH(SocketCan(""), Contains("no name"));
-  CHECK_THROWS_WITH(SocketCan("a-name-that-is-too-long"), Contains("no name"));
+  CHECK_THROWS_WITH(SocketCan(""), Contains("not a valid name"));
+  CHECK_THROWS_WITH(SocketCan("a-name-that-is-too-long"), Contains("not a valid name"));
   CHECK_THROWS_AS(SocketCan("lo"), std::runtime_error);  // not a CAN interface
   CHECK_THROWS_WITH(SocketCan("vcan0", 0ms), Contains("confirmation_time"));
 }

@@ -214,8 +214,11 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
   }
 
   template <class Action>
-  void for_each_part(const Action& action) const {
-    std::apply([&](const auto&... part) { (action(part), ...); }, parts_);
+  void for_each_part(const Action& action) const noexcept(noexcept(action(std::get<0>(parts_)))) {
+    constexpr bool calm = noexcept(action(std::get<0>(parts_)));
+    [&]<std::size_t... I>(std::index_sequence<I...>) noexcept(calm) {
+      (action(std::get<I>(parts_)), ...);
+    }(std::index_sequence_for<Transmissions...>());
   }
 
   [[no_unique_address]] R robot_;
