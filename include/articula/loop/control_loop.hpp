@@ -139,8 +139,8 @@ class ControlLoop {
     if (calls) remember(outcome);
     if (status == Status::ok) status = write;
     note(controls, read, write, status);
-    const bool good = status == Status::ok && outcome.verdict != Verdict::fine;
-    return good ? Status::non_finite_command : status;
+    const bool is_degraded = status == Status::ok && outcome.verdict == Verdict::degraded;
+    return is_degraded ? Status::non_finite_command : status;
   }
 
   /// What the joints shall do; may be changed between two updates.

@@ -47,8 +47,8 @@ struct WhileOk {
 ///
 /// Updates are due on a grid: one period after another from the first on, whatever the updates
 /// take, so that no delay adds up. A cycle that ends after the next one was due is an overrun; the
-/// periods that it has used up are skipped, and the grid stays. A loop that has
-/// `missed_periods(count)` is told.
+/// periods that it has used up are skipped, and the grid stays. Their number is passed to
+/// `missed_periods(count)` of the loop, if it has that function.
 /// @param loop     what to run
 /// @param clock    what paces it
 /// @param options  when to end

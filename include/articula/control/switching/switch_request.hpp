@@ -40,7 +40,7 @@ class ControllerNames {
 };
 
 /// What shall start and stop, all of it in one cycle. First the controllers in `stop` stop, then
-/// those in `start` start: one that is in both begins anew. Each list has at most 16 names
+/// those in `start` start: one that is in both is restarted. Each list has at most 16 names
 /// (ControllerNames::capacity); beyond that, several requests between two cycles have effect
 /// together.
 struct SwitchRequest {

@@ -66,8 +66,8 @@ class SupervisedHardware {
   }
 
   /// @param passage  what is let through from now on
-  /// @param answer   what the loop inside is told when all is well: anything but Status::ok keeps
-  ///                 the controller from being called
+  /// @param answer   status of a read without a fault; anything but Status::ok keeps the loop inside
+  ///                 from calling the controller
   void open(Passage passage, Status answer) noexcept {
     passage_ = passage;
     answer_ = answer;

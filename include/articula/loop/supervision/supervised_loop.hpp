@@ -23,7 +23,7 @@ namespace articula {
 ///        ^---------- request_deactivation -------------------------'                   |
 ///        ^----------------------------- acknowledge_fault -----------------------------'
 ///
-/// Nothing moves before activation. At activation the controller starts anew and the reference is
+/// Nothing moves before activation. At activation the controller starts and the reference is
 /// the measured position, so nothing jumps. References come through `post`, from one other thread
 /// if need be; those that come while the loop is not active are dropped and never used later. What
 /// is a fault, and what the joints do then, is in SupervisionOptions; docs/realtime.md has a table.
