@@ -9,7 +9,6 @@
 #include "articula/core/joint_array.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -57,16 +56,13 @@ enum class ControlToolbox : unsigned char {
 template <int N>
 class ControlToolboxPidLaw {
  public:
-  /// One for each of the N joints.
-  using JointFlags = std::array<bool, static_cast<std::size_t>(N)>;
-
   /// @param version         whose law
   /// @param gains           of the N joints
   /// @param names           of the same joints, for the error message
   /// @param keeps_integral  of each joint, what ROS calls save_i_term: start() leaves the integral
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   ControlToolboxPidLaw(ControlToolbox version, const JointPidGains<N>& gains,
-                       const JointNames<N>& names, const JointFlags& keeps_integral = {})
+                       const JointNames<N>& names, const JointArray<bool, N>& keeps_integral = {})
       : version_(version), gains_{gains}, keeps_integral_(keeps_integral) {
     validate(gains, names, GainSigns::any);
   }
@@ -92,6 +88,8 @@ class ControlToolboxPidLaw {
 
   /// Goes on with other gains, none of them negative. Real-time: yes.
   void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = {gains.values()}; }
+
+  [[nodiscard]] const JointPidGains<N>& gains() const noexcept { return gains_; }
 
   /// What becomes of one joint's measurements, see gain_notices. Real-time: yes.
   [[nodiscard]] SampledFeedback sampled_feedback(std::size_t joint) const noexcept {
@@ -189,7 +187,7 @@ class ControlToolboxPidLaw {
 
   ControlToolbox version_;
   JointArray<PidGains, N> gains_;
-  JointFlags keeps_integral_;
+  JointArray<bool, N> keeps_integral_;
   JointArray<Memory, N> memories_{};
 };
 

@@ -3,8 +3,6 @@
 /// target articula::config (yaml-cpp).
 #pragma once
 
-#include "articula/config/read/chosen_sections.hpp"
-#include "articula/config/read/combine_controllers.hpp"
 #include "articula/config/read/controller_config.hpp"
 #include "articula/config/read/find_sections.hpp"
 #include "articula/config/read/read_controller.hpp"
@@ -19,6 +17,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -43,11 +42,75 @@ namespace detail {
          section.type.ends_with("JointStateController");
 }
 
+/// True if a section may be a controller of one joint.
+[[nodiscard]] inline bool is_single_joint(const ConfigSection& section) {
+  return !lists_joints(section.parameters) && section.parameters.find("gains") == nullptr;
+}
+
+/// Adds a value of another controller to one, which may lack it.
+/// @param what  the value's name
+/// @throws FileError if both have the value and it differs
+template <class Value>
+void combine_values(ControllerConfig& config, const ControllerConfig& other,
+                    const std::string& what, Value ControllerConfig::* value) {
+  const auto place = other.places.find(what);
+  if (place == other.places.end()) return;
+  const auto [known, is_new] = config.places.insert(*place);
+  if (is_new) {
+    config.*value = other.*value;
+  } else if (!(config.*value == other.*value)) {
+    throw FileError(
+        place->second,
+        "the " + what + " differs from that in line " + std::to_string(known->second.line),
+        "the same for controllers that are combined");
+  }
+}
+
+/// Adds another controller of the same robot and control thread to one.
+/// @throws FileError if they have the same joint, another type, or other values of what they share
+inline void combine(ControllerConfig& config, ControllerConfig other) {
+  const std::string choice = "the name or the type of the controllers that are meant";
+  const std::string line = std::to_string(config.place.line);
+  if (other.type != config.type) {
+    throw FileError(other.place,
+                    "its type is '" + shown(other.type) + "', that of the controller in line " +
+                        line + " is '" + shown(config.type) + "'",
+                    choice);
+  }
+  combine_values(config, other, "gravity", &ControllerConfig::gravity);
+  combine_values(config, other, "root", &ControllerConfig::chain_root);
+  combine_values(config, other, "tip", &ControllerConfig::chain_tip);
+  combine_values(config, other, "priority", &ControllerConfig::priority);
+  const auto options = [](const ControllerConfig& c) {
+    return std::tuple(c.stopped_velocity_tolerance, c.goal_time, c.trajectory.interpolation,
+                      c.trajectory.allow_motion_at_end, c.allow_partial_joints,
+                      c.allow_integration);
+  };
+  if (options(config) != options(other)) {
+    throw FileError(other.place, "its options of trajectories differ from those in line " + line,
+                    "the same for controllers that are combined");
+  }
+  for (ConfiguredJoint& joint : other.joints) {
+    for (const ConfiguredJoint& known : config.joints) {
+      if (known.name != joint.name) continue;
+      throw FileError(
+          joint.place,
+          "joint '" + shown(joint.name) + "' is also in line " + std::to_string(known.place.line),
+          choice);
+    }
+    config.joints.push_back(std::move(joint));
+  }
+  auto& notes = config.notes;
+  for (std::string& note : other.notes) {
+    if (std::find(notes.begin(), notes.end(), note) == notes.end())
+      notes.push_back(std::move(note));
+  }
+}
+
 /// Of several sections that may be the controller, keeps those that the controller manager lists,
 /// and of these those with ros__parameters or a plugin's type. Other programs own the others.
 /// @param notes  receives a line on each section that is removed
-inline void keep_declared(const std::string& file, std::vector<ConfigSection>& sections,
-                          std::vector<std::string>& notes) {
+inline void keep_declared(std::vector<ConfigSection>& sections, std::vector<std::string>& notes) {
   const auto keep = [&](bool ConfigSection::* flag, const std::string& reason) {
     const bool are_parts =
         std::all_of(sections.begin(), sections.end(), [&](const ConfigSection& section) {
@@ -57,7 +120,7 @@ inline void keep_declared(const std::string& file, std::vector<ConfigSection>& s
     if (are_parts || std::none_of(sections.begin(), sections.end(), has_flag)) return;
     std::erase_if(sections, [&](const ConfigSection& section) {
       if (has_flag(section)) return false;
-      notes.push_back(section.place(file).text() + "not used, " + reason);
+      notes.push_back(section.place().text() + "not used, " + reason);
       return true;
     });
   };
@@ -77,20 +140,20 @@ inline void keep_declared(const std::string& file, std::vector<ConfigSection>& s
   choice.is_relevant = [is_relevant = choice.is_relevant](const ConfigSection& section) {
     return !is_broadcaster(section) && is_relevant(section);
   };
-  choice.narrow = [&](auto& sections, auto& notes) { keep_declared(all.file, sections, notes); };
-  const std::vector<ConfigSection> chosen = chosen_sections(all, choice, all.notes);
+  choice.narrow = keep_declared;
+  const std::vector<ConfigSection> chosen = chosen_sections(all, choice);
   if (chosen.size() > 1 && !std::all_of(chosen.begin(), chosen.end(), is_single_joint)) {
     std::vector<std::string> names, lines;
     for (const ConfigSection& section : chosen) {
       names.push_back(section.full_name());
-      lines.push_back(section.full_name() + " in line " + std::to_string(section.line()));
+      lines.push_back(section.full_name() + " in line " + std::to_string(section.place().line));
     }
-    throw FileError(chosen[1].place(all.file), "there are several: " + list_of(lines),
+    throw FileError(chosen[1].place(), "there are several: " + list_of(lines),
                     one_of_words("", names) + " by name");
   }
-  ControllerConfig config = ControllerReader(all.file, chosen.front(), robot, signs).take();
+  ControllerConfig config = ControllerReader(chosen.front(), robot, signs).take();
   for (std::size_t k = 1; k < chosen.size(); ++k) {
-    combine(config, ControllerReader(all.file, chosen[k], robot, signs).take());
+    combine(config, ControllerReader(chosen[k], robot, signs).take());
   }
   config.notes.insert(config.notes.end(), all.notes.begin(), all.notes.end());
   return config;

@@ -78,9 +78,9 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
       continue;
     }
     if (manager != nullptr) {
-      throw FileError(each.place(all.file),
+      throw FileError(each.place(),
                       "there are several controller managers, another one in line " +
-                          std::to_string(manager->line()),
+                          std::to_string(manager->place().line),
                       "one");
     }
     manager = &each;
@@ -109,19 +109,18 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
   const ConfigSection* section = detail::manager_section(all);
   section->check();
   ControllerManagerConfig config{.notes = section->notes};
-  ConfigMap map(detail::ConfigValue(all.file, section->parameters, section->path), config.notes,
-                Inherited::may_be_unknown);
+  ConfigMap map(section->parameters, config.notes, Inherited::may_be_unknown);
   if (const auto rate = map.find("update_rate")) {
     config.update_rate = rate->integer(1, 1000000);
   } else {
-    map.note(map.value(), "no update_rate is given: 100 Hz, as the controller manager has it");
+    map.note(map.node(), "no update_rate is given: 100 Hz, as the controller manager has it");
   }
   if (const auto value = map.find("thread_priority")) {
     config.thread_priority = value->integer(0, 99);
   }
   if (const auto value = map.find("cpu_affinity")) {
     constexpr int most = 4095;
-    if (value->node().is_list()) {
+    if (value->is_list()) {
       for (const auto& item : value->list()) config.processors.push_back(item.integer(0, most));
     } else if (const int processor = value->integer(-1, most); processor >= 0) {
       config.processors = {processor};
@@ -131,12 +130,10 @@ inline void take_unused_manager_parameters(ConfigMap& map) {
   detail::take_unused_manager_parameters(map);
   for (const detail::ConfigNode& item : section->parameters.items) {
     // Other entries than parameters, misspelt ones included, are controllers, which have a type.
-    const bool is_parameter =
-        map.knows(item.key) || map.nearly_knows(item.key) || item.is_inherited();
+    const bool is_parameter = map.knows(item.key) || map.nearly_knows(item.key) || item.inherited;
     const bool is_value = !item.is_map() && item.kind != detail::ConfigNode::Kind::nothing;
     if (!is_parameter && is_value && item.text.find('/') != std::string::npos) {
-      map.value().child(item).refuse(
-          "a map with the type in it, {type: " + detail::shown(item.text) + "}");
+      item.refuse("a map with the type in it, {type: " + detail::shown(item.text) + "}");
     }
     if (item.find("type") == nullptr && (is_parameter || is_value)) continue;
     ConfigMap controller = *map.find_map(item.key);

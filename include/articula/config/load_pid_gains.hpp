@@ -2,13 +2,12 @@
 /// @file Loads a robot's PID gains from a file. Needs the CMake target articula::config (yaml-cpp).
 #pragma once
 
-#include "articula/config/check_robot.hpp"
 #include "articula/config/load_controller.hpp"
+#include "articula/config/read/robot_joints.hpp"
+#include "articula/core/joint_array.hpp"
 #include "articula/core/name.hpp"
 
-#include <array>
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -27,7 +26,7 @@ struct PidConfig : ControllerConfig {
   JointPidGains<N> gains{};   ///< in the order of the robot's joints; 0 if the file has none
   std::vector<Name> group{};  ///< joints that have gains in the file, for Groups and OnJoints
   /// save_i_term, for ControlToolboxPidLaw, in the order of the robot's joints
-  std::array<bool, static_cast<std::size_t>(N)> keeps_integral{};
+  JointArray<bool, N> keeps_integral{};
 };
 
 /// Arranges gains in the order of a robot's joints, and checks that the file fits the robot.
@@ -80,14 +79,10 @@ template <Robot R>
 ///                                        ...);
 ///
 /// Layouts, keys and their meaning: docs/configuration.md.
-/// @param source  a file, or a ConfigSource::text
-/// @param name    of the controller, of a namespace, or the type of the controllers; may be empty
-///                if the file has one controller with gains
-/// @param whose   joints whose gains must be there
-/// @param signs   allowed signs of p, i and d. `any` allows output clamps without 0, too, for
-///                ControlToolboxPidLaw
-/// @throws FileError with file, line, key and what was expected, see load_controller and
-/// pid_gains
+/// @param source, name, signs  see load_controller; the name may be empty if the file has one
+///                             controller with gains
+/// @param whose                joints whose gains must be there
+/// @throws FileError with file, line, key and what was expected, see load_controller and pid_gains
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] PidConfig<joint_count<R>> load_pid_gains(const R& robot, const ConfigSource& source,

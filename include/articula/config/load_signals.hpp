@@ -3,11 +3,10 @@
 /// (yaml-cpp).
 #pragma once
 
-#include "articula/config/read/chosen_sections.hpp"
 #include "articula/config/read/find_sections.hpp"
 #include "articula/config/read/read_signals.hpp"
 #include "articula/config/read/robot_joints.hpp"
-#include "articula/config/read/signal_config.hpp"
+#include "articula/config/read/section.hpp"
 #include "articula/config/yaml/source.hpp"
 
 #include <string_view>
@@ -42,9 +41,9 @@ template <Robot R>
            detail::misspelt_waveforms(section.parameters) != nullptr;
   };
   const auto limits = effort_limits(robot);
-  detail::SignalReader reader(joints, {limits.data(), limits.data() + limits.size()}, all.file);
+  detail::SignalReader reader(joints, {limits.data(), limits.data() + limits.size()});
   for (const auto& section :
-       detail::chosen_sections(all, {name, "section of waveforms", relevant}, all.notes)) {
+       detail::chosen_sections(all, {name, "section of waveforms", relevant})) {
     reader.read(section);
   }
   reader.finish();

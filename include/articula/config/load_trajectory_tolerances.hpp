@@ -3,12 +3,11 @@
 /// (yaml-cpp).
 #pragma once
 
-#include "articula/config/check_robot.hpp"
 #include "articula/config/load_controller.hpp"
+#include "articula/config/read/robot_joints.hpp"
 #include "articula/reference/trajectory/trajectory_tolerances.hpp"
 
 #include <cstddef>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -39,17 +38,17 @@ template <Robot R>
   TrajectoryConfig<joint_count<R>> result;
   if (config.joints.empty()) detail::refuse_missing(config, robot, 0, "an entry in 'joints'");
   const auto joints = detail::arranged_joints(config, robot);
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto k = static_cast<Eigen::Index>(j);
+  for (int j = 0; j < joint_count<R>; ++j) {
     if (joints[j] == nullptr) {
-      result.tolerances.stopped_velocity[k] = 0;
-      config.notes.push_back(config.place.text() + "no tolerances for joint '" + known.names[j] +
+      result.tolerances.stopped_velocity[j] = 0;
+      config.notes.push_back(config.place.text() + "no tolerances for joint '" +
+                             std::string(model_of(robot).joints[j].name.view()) +
                              "', which is not in 'joints': it is not checked");
       continue;
     }
-    result.tolerances.path_position[k] = joints[j]->path_tolerance;
-    result.tolerances.goal_position[k] = joints[j]->goal_tolerance;
-    result.tolerances.stopped_velocity[k] = config.stopped_velocity_tolerance;
+    result.tolerances.path_position[j] = joints[j]->path_tolerance;
+    result.tolerances.goal_position[j] = joints[j]->goal_tolerance;
+    result.tolerances.stopped_velocity[j] = config.stopped_velocity_tolerance;
   }
   result.tolerances.goal_time = config.goal_time;
   static_cast<ControllerConfig&>(result) = std::move(config);

@@ -12,16 +12,17 @@ namespace articula {
 /// Open-loop control: effort = clamp(effort_ref).
 /// Uses the reference's effort alone.
 /// @tparam R  the robot
-template <Robot R>
-class Bypass : public EffortController<R, EffortFeedforward<joint_count<R>>> {
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
+class Bypass : public SumController<R, EffortCommand<joint_count<R>, S>,
+                                    EffortFeedforward<joint_count<R>, S>> {
  public:
   static constexpr std::string_view name = "bypass";
 
   Bypass()
     requires DescribedRobot<R>
       : Bypass(R()) {}
-  explicit Bypass(const R& robot)
-      : EffortController<R, EffortFeedforward<articula::joint_count<R>>>(robot, {}) {}
+  explicit Bypass(const R& robot) : Bypass::SumController(robot, {}) {}
 };
 
 }  // namespace articula

@@ -10,7 +10,7 @@
 #include "articula/dynamics/forward_dynamics.hpp"
 #include "articula/dynamics/gravity.hpp"
 #include "articula/dynamics/inverse_dynamics.hpp"
-#include "articula/model/dynamic_robot.hpp"
+#include "articula/model/robot.hpp"
 
 #include <string_view>
 
@@ -20,12 +20,15 @@ namespace articula {
 /// effort = M(q) (a_ref + PID(q_ref - q, v_ref - v)) + h(q, v), where the PID's output is an
 /// acceleration.
 /// @tparam R  the robot
-template <Robot R>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
 class ComputedTorqueLaw {
   static_assert(detail::has_masses<R, ComputedTorqueLaw>);
 
  public:
   static constexpr int joint_count = articula::joint_count<R>;
+  using Vector = JointVector<joint_count, S>;
+  using Input = ControlInput<joint_count, S>;
 
   /// @param robot  its model does the work
   /// @param gains  of the feedback: proportional [1/s^2], integral [1/s^3], derivative [1/s],
@@ -39,14 +42,13 @@ class ComputedTorqueLaw {
   /// @return  the effort that reference and integrals ask for if a command was applied, else 0
   ///          [N m or N], N x 1
   /// Real-time: yes.
-  JointVector<joint_count> start(const ControlInput<joint_count>& in) noexcept {
-    ControlInput<joint_count> inner{in.state, in.reference, in.period, in.applied};
+  Vector start(const Input& in) noexcept {
+    Input inner{in.state, in.reference, in.period, in.applied};
     if (!in.applied.reached_drives()) return feedback_.start(inner);
     inner.applied.numbers =
         forward_dynamics(robot_, in.state.position, in.state.velocity, in.applied.numbers) -
         in.reference.acceleration;
-    const JointVector<joint_count> acceleration =
-        in.reference.acceleration + feedback_.start(inner);
+    const Vector acceleration = in.reference.acceleration + feedback_.start(inner);
     return inverse_dynamics(robot_, in.state.position, in.state.velocity, acceleration);
   }
 
@@ -54,16 +56,19 @@ class ComputedTorqueLaw {
   /// acceleration that was lost, M(q)^-1 cut at the position of the cut output. Through the coupling
   /// of the joints an effort may be cut off on the side that its own joint is not asked to go to.
   /// Real-time: yes.
-  [[nodiscard]] JointVector<joint_count> output(const ControlInput<joint_count>& in) noexcept {
-    ControlInput<joint_count> inner{in.state, in.reference, in.period, in.applied, in.cut};
-    if ((in.cut.array() != 0).any()) {
+  [[nodiscard]] Vector output(const Input& in) noexcept {
+    Input inner{in.state, in.reference, in.period, in.applied};
+    auto is_cut = in.cut[0] != 0;
+    for (int j = 1; j < joint_count; ++j) is_cut = is_cut | (in.cut[j] != 0);
+    if (any_of(is_cut)) {
       // M^-1 cut is the acceleration from rest that the cut causes beyond what carries the robot.
-      const JointVector<joint_count> rest = JointVector<joint_count>::Zero();
-      inner.cut = forward_dynamics(robot_, position_, rest, in.cut + gravity(robot_, position_));
+      const Vector load = in.cut + gravity(robot_, position_);
+      const Vector lost = forward_dynamics(robot_, position_, Vector(Vector::Zero()), load);
+      // Of a robot without a cut nothing is lost, not even by rounding.
+      for (int j = 0; j < joint_count; ++j) inner.cut[j] = select(is_cut, lost[j], 0.0);
     }
     position_ = in.state.position;
-    const JointVector<joint_count> acceleration =
-        in.reference.acceleration + feedback_.output(inner);
+    const Vector acceleration = in.reference.acceleration + feedback_.output(inner);
     return inverse_dynamics(robot_, in.state.position, in.state.velocity, acceleration);
   }
 
@@ -74,11 +79,14 @@ class ComputedTorqueLaw {
   void for_each_part(auto&& function) const {
     function(feedback_, PartScope<joint_count>{.asks_acceleration = true});
   }
+  void for_each_part(auto&& function) {
+    function(feedback_, PartScope<joint_count>{.asks_acceleration = true});
+  }
 
  private:
   [[no_unique_address]] R robot_;
-  JointVector<joint_count> position_ = JointVector<joint_count>::Zero();  ///< q of the last cycle
-  PidLaw<joint_count> feedback_;
+  Vector position_ = Vector::Zero();  ///< q of the last cycle
+  PidLaw<joint_count, PidOf::position, S> feedback_;
 };
 
 /// Computed torque control (inverse dynamics control): with an exact model every joint's error
@@ -86,9 +94,11 @@ class ComputedTorqueLaw {
 /// effort = clamp(M(q) (a_ref + PID) + h(q, v) + D v + f sign(v) + effort_ref).
 /// Uses all of the reference.   Source: [Siciliano et al. 2009, section 8.5.2].
 /// @tparam R  the robot
-template <Robot R>
-class ComputedTorque : public EffortController<R, ComputedTorqueLaw<R>, FrictionCompensation<R>,
-                                               EffortFeedforward<joint_count<R>>> {
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
+class ComputedTorque
+    : public SumController<R, EffortCommand<joint_count<R>, S>, ComputedTorqueLaw<R, S>,
+                           FrictionCompensation<R, S>, EffortFeedforward<joint_count<R>, S>> {
  public:
   static constexpr std::string_view name = "computed_torque";
   static constexpr int joint_count = articula::joint_count<R>;
@@ -103,9 +113,8 @@ class ComputedTorque : public EffortController<R, ComputedTorqueLaw<R>, Friction
   ///               clamps in rad/s^2 or m/s^2
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   ComputedTorque(const R& robot, const JointPidGains<joint_count>& gains)
-      : EffortController<R, ComputedTorqueLaw<R>, FrictionCompensation<R>,
-                         EffortFeedforward<joint_count>>(robot, ComputedTorqueLaw<R>(robot, gains),
-                                                         FrictionCompensation<R>(robot), {}) {}
+      : ComputedTorque::SumController(robot, {robot, gains}, FrictionCompensation<R, S>(robot),
+                                      {}) {}
   /// For a robot known at compile time.
   explicit ComputedTorque(const JointPidGains<joint_count>& gains)
     requires DescribedRobot<R>

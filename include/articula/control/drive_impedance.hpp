@@ -15,7 +15,8 @@ namespace articula {
 /// v_ref, and the effort clamp(g(q) + effort_ref) to add. The counterpart of JointImpedance for
 /// drives that take a MultiModeCommand. Uses the reference's position, velocity and effort.
 /// @tparam R  the robot
-template <Robot R>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
 class DriveImpedance {
  public:
   static constexpr std::string_view name = "drive_impedance";
@@ -25,16 +26,17 @@ class DriveImpedance {
   /// @param gains  of each joint
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   DriveImpedance(const R& robot, const JointImpedanceGains<joint_count>& gains)
-      : gains_(gains, joint_names(robot)), added_(robot, GravityCompensation<R>(robot), {}) {}
+      : gains_(gains, joint_names(robot)), added_(robot, GravityCompensation<R, S>(robot), {}) {}
   /// For a robot known at compile time.
   explicit DriveImpedance(const JointImpedanceGains<joint_count>& gains)
     requires DescribedRobot<R>
       : DriveImpedance(R(), gains) {}
 
   /// The springs, dampers and efforts for the coming period. Real-time: yes.
-  [[nodiscard]] MultiModeCommand<joint_count> update(const ControlInput<joint_count>& in) noexcept {
-    MultiModeCommand<joint_count> command{.position = in.reference.position,
-                                          .velocity = in.reference.velocity};
+  [[nodiscard]] MultiModeCommand<joint_count, S> update(
+      const ControlInput<joint_count, S>& in) noexcept {
+    MultiModeCommand<joint_count, S> command{.position = in.reference.position,
+                                             .velocity = in.reference.velocity};
     for (int j = 0; j < joint_count; ++j) {
       command.stiffness[j] = gains_[j].stiffness;
       command.damping[j] = gains_[j].damping;
@@ -46,9 +48,15 @@ class DriveImpedance {
   /// Goes on with other springs and dampers. Real-time: yes.
   void set_gains(const ValidImpedanceGains<joint_count>& gains) noexcept { gains_ = gains; }
 
+  [[nodiscard]] const JointImpedanceGains<joint_count>& gains() const noexcept {
+    return gains_.values();
+  }
+
  private:
   ValidImpedanceGains<joint_count> gains_;
-  EffortController<R, GravityCompensation<R>, EffortFeedforward<joint_count>> added_;
+  SumController<R, EffortCommand<joint_count, S>, GravityCompensation<R, S>,
+                EffortFeedforward<joint_count, S>>
+      added_;
 };
 
 }  // namespace articula

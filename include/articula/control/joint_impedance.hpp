@@ -15,14 +15,15 @@ namespace articula {
 /// A spring and a damper between each of N joints and its reference:
 /// effort = K (q_ref - q) + D (v_ref - v).
 /// @tparam N  number of joints
-template <int N>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <int N, class S = double>
 class ImpedanceLaw {
  public:
   explicit ImpedanceLaw(const ValidImpedanceGains<N>& gains) : gains_(gains) {}
 
   /// The effort [N m or N], N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) const noexcept {
-    JointVector<N> effort;
+  [[nodiscard]] JointVector<N, S> output(const ControlInput<N, S>& in) const noexcept {
+    JointVector<N, S> effort;
     for (int j = 0; j < N; ++j) {
       effort[j] = gains_[j].stiffness * (in.reference.position[j] - in.state.position[j]) +
                   gains_[j].damping * (in.reference.velocity[j] - in.state.velocity[j]);
@@ -41,6 +42,8 @@ class ImpedanceLaw {
   /// Goes on with other springs and dampers. Real-time: yes.
   void set_gains(const ValidImpedanceGains<N>& gains) noexcept { gains_ = gains; }
 
+  [[nodiscard]] const JointImpedanceGains<N>& gains() const noexcept { return gains_.values(); }
+
  private:
   ValidImpedanceGains<N> gains_;
 };
@@ -50,10 +53,11 @@ class ImpedanceLaw {
 /// effort_ref). Uses the reference's position, velocity and effort.
 /// Source: [Siciliano et al. 2009, section 8.5.1], PD control with gravity compensation.
 /// @tparam R  the robot
-template <Robot R>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
 class JointImpedance
-    : public EffortController<R, ImpedanceLaw<joint_count<R>>, GravityCompensation<R>,
-                              EffortFeedforward<joint_count<R>>> {
+    : public SumController<R, EffortCommand<joint_count<R>, S>, ImpedanceLaw<joint_count<R>, S>,
+                           GravityCompensation<R, S>, EffortFeedforward<joint_count<R>, S>> {
  public:
   static constexpr std::string_view name = "joint_impedance";
   static constexpr int joint_count = articula::joint_count<R>;
@@ -62,10 +66,9 @@ class JointImpedance
   /// @param gains  of each joint
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   JointImpedance(const R& robot, const JointImpedanceGains<joint_count>& gains)
-      : EffortController<R, ImpedanceLaw<joint_count>, GravityCompensation<R>,
-                         EffortFeedforward<joint_count>>(
-            robot, ImpedanceLaw<joint_count>({gains, joint_names(robot)}),
-            GravityCompensation<R>(robot), {}) {}
+      : JointImpedance::SumController(robot,
+                                      ImpedanceLaw<joint_count, S>({gains, joint_names(robot)}),
+                                      GravityCompensation<R, S>(robot), {}) {}
   /// For a robot known at compile time.
   explicit JointImpedance(const JointImpedanceGains<joint_count>& gains)
     requires DescribedRobot<R>

@@ -15,8 +15,11 @@ namespace articula {
 /// PID control of each joint: effort = clamp(PID + effort_ref), see PidLaw.
 /// Uses the reference's position, velocity and effort.
 /// @tparam R  the robot
-template <Robot R>
-class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward<joint_count<R>>> {
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
+class Pid : public SumController<R, EffortCommand<joint_count<R>, S>,
+                                 PidLaw<joint_count<R>, PidOf::position, S>,
+                                 EffortFeedforward<joint_count<R>, S>> {
  public:
   static constexpr std::string_view name = "pid";
   static constexpr int joint_count = articula::joint_count<R>;
@@ -28,8 +31,7 @@ class Pid : public EffortController<R, PidLaw<joint_count<R>>, EffortFeedforward
 
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   Pid(const R& robot, const JointPidGains<joint_count>& gains)
-      : EffortController<R, PidLaw<joint_count>, EffortFeedforward<joint_count>>(
-            robot, PidLaw<joint_count>(robot, gains), {}) {}
+      : Pid::SumController(robot, {robot, gains}, {}) {}
   /// For a robot known at compile time.
   template <std::same_as<JointPidGains<joint_count>> Gains>
   explicit Pid(const Gains& gains)

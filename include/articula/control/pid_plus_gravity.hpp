@@ -16,9 +16,12 @@ namespace articula {
 /// PID control of each joint, relieved of the robot's weight: effort = clamp(PID + g(q) +
 /// effort_ref). Uses the reference's position, velocity and effort.
 /// @tparam R  the robot
-template <Robot R>
-class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, GravityCompensation<R>,
-                                               EffortFeedforward<joint_count<R>>> {
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
+class PidPlusGravity
+    : public SumController<R, EffortCommand<joint_count<R>, S>,
+                           PidLaw<joint_count<R>, PidOf::position, S>, GravityCompensation<R, S>,
+                           EffortFeedforward<joint_count<R>, S>> {
  public:
   static constexpr std::string_view name = "pid_plus_gravity";
   static constexpr int joint_count = articula::joint_count<R>;
@@ -30,9 +33,8 @@ class PidPlusGravity : public EffortController<R, PidLaw<joint_count<R>>, Gravit
 
   /// @throws std::invalid_argument naming joint, gain and value, see validate
   PidPlusGravity(const R& robot, const JointPidGains<joint_count>& gains)
-      : EffortController<R, PidLaw<joint_count>, GravityCompensation<R>,
-                         EffortFeedforward<joint_count>>(robot, PidLaw<joint_count>(robot, gains),
-                                                         GravityCompensation<R>(robot), {}) {}
+      : PidPlusGravity::SumController(robot, {robot, gains}, GravityCompensation<R, S>(robot), {}) {
+  }
   /// For a robot known at compile time.
   template <std::same_as<JointPidGains<joint_count>> Gains>
   explicit PidPlusGravity(const Gains& gains)

@@ -68,4 +68,26 @@ template <class Command>
   }
 }
 
+/// The vector of a quantity in a command, to be set; nullptr if the command has none.
+/// Real-time: yes.
+template <class Command>
+  requires JointCommand<Command, Command::joint_count>
+[[nodiscard]] constexpr JointVector<Command::joint_count>* part_of(
+    Command& command, CommandQuantity quantity) noexcept {
+  if constexpr (requires { command.position; }) {
+    if (quantity == CommandQuantity::position) return &command.position;
+  }
+  if constexpr (requires { command.velocity; }) {
+    if (quantity == CommandQuantity::velocity) return &command.velocity;
+  }
+  if constexpr (requires { command.stiffness; }) {
+    if (quantity == CommandQuantity::stiffness) return &command.stiffness;
+    if (quantity == CommandQuantity::damping) return &command.damping;
+  }
+  if constexpr (requires { command.effort; }) {
+    if (quantity == CommandQuantity::effort) return &command.effort;
+  }
+  return nullptr;
+}
+
 }  // namespace articula

@@ -17,10 +17,12 @@ enum class Held : unsigned char {
 };
 
 /// The command that was applied last.
-/// @tparam N  number of joints
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  as that of JointVector
+template <int N, class Scalar = double>
 struct Applied {
-  JointVector<N> numbers = JointVector<N>::Zero();  ///< numbers_of that command, N x 1
+  /// numbers_of that command, N x 1
+  JointVector<N, Scalar> numbers = JointVector<N, Scalar>::Zero();
   Held held = Held::nothing;
 
   /// Whether the drives got the command, so that an integral can begin with it. Real-time: yes.
@@ -36,18 +38,19 @@ struct Applied {
 /// loop around limits: an integral takes back what was cut, and a switch goes on from what was
 /// applied. A composition passes `applied` inward unchanged, and as `cut` its own clip plus the cut
 /// that came from outside.
-/// @tparam N  number of joints
-template <int N>
+/// @tparam N       number of joints
+/// @tparam Scalar  type of a number: double, or a pack with the numbers of several robots
+template <int N, class Scalar = double>
 struct ControlInput {
   static constexpr int joint_count = N;
 
-  const JointState<N>& state;          ///< as measured in this cycle, finite
-  const JointReference<N>& reference;  ///< what the joints are asked to do, finite
-  double period;                       ///< dt, time until the next cycle, > 0 [s]
-  Applied<N> applied{};                ///< of the whole robot
+  const JointState<N, Scalar>& state;          ///< as measured in this cycle, finite
+  const JointReference<N, Scalar>& reference;  ///< what the joints are asked to do, finite
+  double period;                               ///< dt, time until the next cycle, > 0 [s]
+  Applied<N, Scalar> applied{};                ///< of the whole robot
   /// The callee's own last command minus what was left of it, in the unit of the command, N x 1;
   /// exactly 0 where nothing was cut off, after a start, and after a failed command.
-  JointVector<N> cut = JointVector<N>::Zero();
+  JointVector<N, Scalar> cut = JointVector<N, Scalar>::Zero();
 };
 
 }  // namespace articula

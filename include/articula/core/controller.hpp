@@ -13,45 +13,46 @@ namespace articula {
 
 namespace detail {
 
-template <class C, int N>
+template <class C, int N, class S = double>
 concept HasUpdate =
-    requires(C& controller, const ControlInput<N>& input) { controller.update(input); };
+    requires(C& controller, const ControlInput<N, S>& input) { controller.update(input); };
 
-template <class C, int N>
-concept IsCallable = requires(C& controller, const ControlInput<N>& input) { controller(input); };
+template <class C, int N, class S = double>
+concept IsCallable =
+    requires(C& controller, const ControlInput<N, S>& input) { controller(input); };
 
-template <class C, int N>
+template <class C, int N, class S = double>
 concept HasStart =
-    requires(C& controller, const ControlInput<N>& input) { controller.start(input); };
+    requires(C& controller, const ControlInput<N, S>& input) { controller.start(input); };
 
 /// A type with a member `start` that does not take the input would never be started.
-template <class C, int N>
-concept StartFits = HasStart<C, N> || !requires { &C::start; };
+template <class C, int N, class S = double>
+concept StartFits = HasStart<C, N, S> || !requires { &C::start; };
 
 /// Calls a controller: by its member `update`, or as a function.
-template <class C, int N>
-  requires HasUpdate<C, N> || IsCallable<C, N>
-[[nodiscard]] constexpr decltype(auto) called(C& controller, const ControlInput<N>& input) {
-  if constexpr (HasUpdate<C, N>) {
+template <class C, int N, class S>
+  requires HasUpdate<C, N, S> || IsCallable<C, N, S>
+[[nodiscard]] constexpr decltype(auto) called(C& controller, const ControlInput<N, S>& input) {
+  if constexpr (HasUpdate<C, N, S>) {
     return controller.update(input);
   } else {
     return controller(input);
   }
 }
 
-template <class C, int N>
+template <class C, int N, class S = double>
 [[nodiscard]] consteval bool update_is_noexcept() {
-  if constexpr (HasUpdate<C, N>) {
-    return noexcept(std::declval<C&>().update(std::declval<const ControlInput<N>&>()));
+  if constexpr (HasUpdate<C, N, S>) {
+    return noexcept(std::declval<C&>().update(std::declval<const ControlInput<N, S>&>()));
   } else {
-    return noexcept(std::declval<C&>()(std::declval<const ControlInput<N>&>()));
+    return noexcept(std::declval<C&>()(std::declval<const ControlInput<N, S>&>()));
   }
 }
 
-template <class C, int N>
+template <class C, int N, class S = double>
 [[nodiscard]] consteval bool start_is_noexcept() {
-  if constexpr (HasStart<C, N>) {
-    return noexcept(std::declval<C&>().start(std::declval<const ControlInput<N>&>()));
+  if constexpr (HasStart<C, N, S>) {
+    return noexcept(std::declval<C&>().start(std::declval<const ControlInput<N, S>&>()));
   } else {
     return true;
   }
@@ -73,9 +74,9 @@ inline constexpr int borne_cycles = 3;
 }  // namespace detail
 
 /// The kind of command of a controller for N joints.
-template <class C, int N>
+template <class C, int N, class S = double>
 using CommandOf = typename detail::CommandIn<decltype(detail::called(
-    std::declval<C&>(), std::declval<const ControlInput<N>&>()))>::Type;
+    std::declval<C&>(), std::declval<const ControlInput<N, S>&>()))>::Type;
 
 /// A controller for N joints computes one command per cycle. The smallest is a function:
 ///
@@ -102,40 +103,42 @@ using CommandOf = typename detail::CommandIn<decltype(detail::called(
 /// modes: see SumController, Limited and Switch.
 /// @tparam C  the controller
 /// @tparam N  number of joints
-template <class C, int N>
-concept Controller = (detail::HasUpdate<C, N> || detail::IsCallable<C, N>) &&
-                     detail::update_is_noexcept<C, N>() && JointCommand<CommandOf<C, N>, N> &&
-                     detail::StartFits<C, N> && detail::start_is_noexcept<C, N>();
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <class C, int N, class S = double>
+concept Controller =
+    (detail::HasUpdate<C, N, S> || detail::IsCallable<C, N, S>) &&
+    detail::update_is_noexcept<C, N, S>() && JointCommand<CommandOf<C, N, S>, N, S> &&
+    detail::StartFits<C, N, S> && detail::start_is_noexcept<C, N, S>();
 
 /// A controller that can brake the joints within limits where the reference is not finite, as
 /// Limited does: `brake(input)` gives the braking command. It has failed where the part that is
 /// active cannot brake. Controllers without `brake` are not called in such a cycle.
-template <class C, int N>
-concept Brakes = requires(C& controller, const ControlInput<N>& input) {
+template <class C, int N, class S = double>
+concept Brakes = requires(C& controller, const ControlInput<N, S>& input) {
   { controller.brake(input) } noexcept;
 };
 
 /// Starts a controller, if it has a `start`. Real-time: yes, if that is.
 /// @param input  with no cut
-template <class C, int N>
-void start_controller(C& controller, const ControlInput<N>& input) noexcept {
-  if constexpr (detail::HasStart<C, N>) controller.start(input);
+template <class C, int N, class S>
+void start_controller(C& controller, const ControlInput<N, S>& input) noexcept {
+  if constexpr (detail::HasStart<C, N, S>) controller.start(input);
 }
 
 /// Calls a controller for the command of the coming period. Real-time: yes, if its `update` is.
-template <class C, int N>
-[[nodiscard]] Outcome<CommandOf<C, N>> update_controller(C& controller,
-                                                         const ControlInput<N>& input) noexcept {
+template <class C, int N, class S>
+[[nodiscard]] Outcome<CommandOf<C, N, S>> update_controller(
+    C& controller, const ControlInput<N, S>& input) noexcept {
   return detail::called(controller, input);
 }
 
 /// Lets a controller brake the joints. Real-time: yes, if its `brake` is.
 /// @param input  its reference need not be finite
 /// @return       a failed outcome if the controller cannot brake
-template <class C, int N>
-[[nodiscard]] Outcome<CommandOf<C, N>> brake_controller(C& controller,
-                                                        const ControlInput<N>& input) noexcept {
-  if constexpr (Brakes<C, N>) {
+template <class C, int N, class S>
+[[nodiscard]] Outcome<CommandOf<C, N, S>> brake_controller(
+    C& controller, const ControlInput<N, S>& input) noexcept {
+  if constexpr (Brakes<C, N, S>) {
     return controller.brake(input);
   } else {
     return {};

@@ -26,52 +26,69 @@ namespace articula {
   return (std::bit_cast<std::uint64_t>(x) & exponent) != exponent;
 }
 
-/// True if every element is finite.
+namespace detail {
+
+/// 0 if every element is finite, else NaN, as infinity minus infinity is.
+template <int N, class S>
+[[nodiscard]] S difference_to_itself(const JointVector<N, S>& x) noexcept {
+  S sum = x[0] - x[0];                             // NOLINT(misc-redundant-expression): see above
+  for (int i = 1; i < N; ++i) sum += x[i] - x[i];  // NOLINT(misc-redundant-expression): likewise
+  return sum;
+}
+
+/// True if every element of all vectors is finite; of packs a mask.
+template <class... Vectors>
+[[nodiscard]] auto are_finite(const Vectors&... x) noexcept {
+  return (difference_to_itself(x) + ...) == 0;
+}
+
+}  // namespace detail
+
+/// True if every element is finite. For packs it is a mask with a truth value for each robot; the
+/// functions below do likewise.
 /// Real-time: yes. O(N).
-template <int N>
-[[nodiscard]] bool is_finite(const JointVector<N>& x) noexcept {
-  bool finite = true;
-  for (int i = 0; i < N; ++i) finite = finite && is_finite(x[i]);
-  return finite;
+template <int N, class S>
+[[nodiscard]] auto is_finite(const JointVector<N, S>& x) noexcept {
+  return detail::are_finite(x);
 }
 
 /// True if every member is finite.
 /// Real-time: yes. O(N).
-template <int N>
-[[nodiscard]] bool is_finite(const JointState<N>& state) noexcept {
-  return is_finite(state.position) && is_finite(state.velocity) && is_finite(state.effort);
+template <int N, class S>
+[[nodiscard]] auto is_finite(const JointState<N, S>& state) noexcept {
+  return detail::are_finite(state.position, state.velocity, state.effort);
 }
 
-/// @copydoc is_finite(const JointState<N>&)
-template <int N>
-[[nodiscard]] bool is_finite(const JointReference<N>& reference) noexcept {
-  return is_finite(reference.position) && is_finite(reference.velocity) &&
-         is_finite(reference.acceleration) && is_finite(reference.effort);
+/// @copydoc is_finite(const JointState<N, S>&)
+template <int N, class S>
+[[nodiscard]] auto is_finite(const JointReference<N, S>& reference) noexcept {
+  return detail::are_finite(reference.position, reference.velocity, reference.acceleration,
+                            reference.effort);
 }
 
-/// @copydoc is_finite(const JointState<N>&)
-template <int N>
-[[nodiscard]] bool is_finite(const EffortCommand<N>& command) noexcept {
-  return is_finite(command.effort);
+/// @copydoc is_finite(const JointState<N, S>&)
+template <int N, class S>
+[[nodiscard]] auto is_finite(const EffortCommand<N, S>& command) noexcept {
+  return detail::are_finite(command.effort);
 }
 
-/// @copydoc is_finite(const JointState<N>&)
-template <int N>
-[[nodiscard]] bool is_finite(const PositionCommand<N>& command) noexcept {
-  return is_finite(command.position);
+/// @copydoc is_finite(const JointState<N, S>&)
+template <int N, class S>
+[[nodiscard]] auto is_finite(const PositionCommand<N, S>& command) noexcept {
+  return detail::are_finite(command.position);
 }
 
-/// @copydoc is_finite(const JointState<N>&)
-template <int N>
-[[nodiscard]] bool is_finite(const VelocityCommand<N>& command) noexcept {
-  return is_finite(command.velocity);
+/// @copydoc is_finite(const JointState<N, S>&)
+template <int N, class S>
+[[nodiscard]] auto is_finite(const VelocityCommand<N, S>& command) noexcept {
+  return detail::are_finite(command.velocity);
 }
 
-/// @copydoc is_finite(const JointState<N>&)
-template <int N>
-[[nodiscard]] bool is_finite(const MultiModeCommand<N>& command) noexcept {
-  return is_finite(command.position) && is_finite(command.velocity) &&
-         is_finite(command.stiffness) && is_finite(command.damping) && is_finite(command.effort);
+/// @copydoc is_finite(const JointState<N, S>&)
+template <int N, class S>
+[[nodiscard]] auto is_finite(const MultiModeCommand<N, S>& command) noexcept {
+  return detail::are_finite(command.position, command.velocity, command.stiffness, command.damping,
+                            command.effort);
 }
 
 }  // namespace articula

@@ -11,6 +11,26 @@
 
 namespace articula {
 
+namespace detail {
+
+/// The type of a number of a hardware: its Scalar, else double.
+template <class H>
+struct ScalarIn {
+  using Type = double;
+};
+template <class H>
+  requires requires { typename H::Scalar; }
+struct ScalarIn<H> {
+  using Type = typename H::Scalar;
+};
+
+}  // namespace detail
+
+/// The type of a number that a hardware measures: double, or a pack with the numbers of several
+/// robots, for a simulator of those.
+template <class H>
+using ScalarOf = typename detail::ScalarIn<H>::Type;
+
 /// The sensors and drives of a robot, real or simulated. Implement it to connect drives that the
 /// library does not know to a Loop. To test a program without drives, use MockHardware or
 /// Simulator.
@@ -28,12 +48,14 @@ namespace articula {
 ///
 /// `read` and `write` are noexcept. Only their own input and output may delay the loop.
 ///
-/// Hardware with a period of its own, such as a simulator, also has `period()` [s]. Hardware with a
+/// A simulator of several robots at once has a type `Scalar` of a pack of their numbers. Hardware
+/// with a period of its own, such as a simulator, also has `period()` [s]. Hardware with a
 /// cycle that can pace the loop has `wait_for_cycle(timeout)`, see PacingHardware.
 /// @tparam H        the hardware
 /// @tparam Command  the commands that it accepts
-template <class H, class Command = EffortCommand<H::joint_count>>
-concept Hardware = requires(H hardware, const H& constant, JointState<H::joint_count>& state,
+template <class H, class Command = EffortCommand<H::joint_count, ScalarOf<H>>>
+concept Hardware = requires(H hardware, const H& constant,
+                            JointState<H::joint_count, ScalarOf<H>>& state,
                             const Command& command) {
   typename H::RobotType;
   { constant.robot() } -> std::convertible_to<const typename H::RobotType&>;
@@ -41,7 +63,7 @@ concept Hardware = requires(H hardware, const H& constant, JointState<H::joint_c
   { hardware.deactivate() } -> std::same_as<Status>;
   { hardware.read(state) } noexcept -> std::same_as<Status>;
   { hardware.write(command) } noexcept -> std::same_as<Status>;
-} && JointCommand<Command, H::joint_count>;
+} && JointCommand<Command, H::joint_count, ScalarOf<H>>;
 
 /// Hardware whose own cycle can pace the loop: `wait_for_cycle(timeout)` blocks until that cycle
 /// begins, and returns another status than Status::ok if it does not begin in time.

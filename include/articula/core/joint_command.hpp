@@ -55,25 +55,38 @@ struct MultiModeCommand {
 };
 
 /// Any of the commands above for N joints.
-template <class C, int N>
-concept JointCommand = std::same_as<C, EffortCommand<N>> || std::same_as<C, PositionCommand<N>> ||
-                       std::same_as<C, VelocityCommand<N>> || std::same_as<C, MultiModeCommand<N>>;
+template <class C, int N, class Scalar = double>
+concept JointCommand =
+    std::same_as<C, EffortCommand<N, Scalar>> || std::same_as<C, PositionCommand<N, Scalar>> ||
+    std::same_as<C, VelocityCommand<N, Scalar>> || std::same_as<C, MultiModeCommand<N, Scalar>>;
+
+namespace detail {
+
+template <class Command>
+struct CommandScalar;
+template <template <int, class> class Command, int N, class Scalar>
+struct CommandScalar<Command<N, Scalar>> {
+  using Type = Scalar;
+};
+
+}  // namespace detail
 
 /// The numbers of a command, whatever they command, N x 1. Real-time: yes.
-template <int N>
-[[nodiscard]] constexpr const JointVector<N>& values_of(const EffortCommand<N>& command) noexcept {
+template <int N, class S>
+[[nodiscard]] constexpr const JointVector<N, S>& values_of(
+    const EffortCommand<N, S>& command) noexcept {
   return command.effort;
 }
-/// @copydoc values_of(const EffortCommand<N>&)
-template <int N>
-[[nodiscard]] constexpr const JointVector<N>& values_of(
-    const PositionCommand<N>& command) noexcept {
+/// @copydoc values_of(const EffortCommand<N, S>&)
+template <int N, class S>
+[[nodiscard]] constexpr const JointVector<N, S>& values_of(
+    const PositionCommand<N, S>& command) noexcept {
   return command.position;
 }
-/// @copydoc values_of(const EffortCommand<N>&)
-template <int N>
-[[nodiscard]] constexpr const JointVector<N>& values_of(
-    const VelocityCommand<N>& command) noexcept {
+/// @copydoc values_of(const EffortCommand<N, S>&)
+template <int N, class S>
+[[nodiscard]] constexpr const JointVector<N, S>& values_of(
+    const VelocityCommand<N, S>& command) noexcept {
   return command.velocity;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/scalar.hpp"
 
 namespace articula {
 
@@ -14,7 +15,8 @@ enum class Verdict : unsigned char {
 };
 
 /// The result of a controller: a command and a verdict. A plain command converts to it, so
-/// controllers that cannot fail return commands. A command that is not finite has failed.
+/// controllers that cannot fail return commands. A command that is not finite has failed. Robots of
+/// a pack share the verdict: where one's command is not finite, that of all has failed.
 /// @tparam Command  an EffortCommand, PositionCommand, VelocityCommand or MultiModeCommand
 template <class Command>
 struct Outcome {
@@ -25,7 +27,7 @@ struct Outcome {
   Outcome() = default;
   /// Real-time: yes.
   Outcome(const Command& own, Verdict own_verdict = Verdict::fine) noexcept  // NOLINT: implicit
-      : command(own), verdict(is_finite(own) ? own_verdict : Verdict::failed) {}
+      : command(own), verdict(all_of(is_finite(own)) ? own_verdict : Verdict::failed) {}
 };
 
 }  // namespace articula

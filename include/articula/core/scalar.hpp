@@ -30,6 +30,16 @@ inline constexpr int lanes<S> = S::lanes;
 template <class S>
 concept PackedScalar = lanes<S> > 1;
 
+/// The result of a comparison of two scalars: bool, or a mask with a truth value for each lane.
+template <class S>
+using MaskOf = decltype(S() < S());
+
+/// A mask with the same truth value in all lanes. Real-time: yes.
+template <class S>
+[[nodiscard]] constexpr MaskOf<S> mask_of(bool truth) noexcept {
+  return S(0) < S(truth ? 1 : 0);
+}
+
 /// `chosen` in lanes where the mask is true, else `other`. Real-time: yes.
 [[nodiscard]] constexpr double select(bool mask, double chosen, double other) noexcept {
   return mask ? chosen : other;
@@ -51,12 +61,25 @@ template <class Mask>
   return !any_of(~mask);
 }
 
-/// The number between two limits that is nearest to x. Real-time: yes.
+/// Replaces x by another number in lanes where the mask is true. For double this is a branch.
+/// Real-time: yes.
+template <class S>
+constexpr void replace_where(const MaskOf<S>& mask, S& x,
+                             const std::type_identity_t<S>& other) noexcept {
+  if constexpr (PackedScalar<S>) {
+    x = select(mask, other, x);
+  } else {
+    if (mask) x = other;
+  }
+}
+
+/// The number between two limits that is nearest to x; a NaN stays one. Real-time: yes.
 /// @pre low <= high
 template <class S>
 [[nodiscard]] constexpr S clamp(const S& x, const std::type_identity_t<S>& low,
                                 const std::type_identity_t<S>& high) noexcept {
-  return select(x < low, low, select(high < x, high, x));
+  const S below = select(high < x, high, x);  // one after the other: processors have min and max
+  return select(below < low, low, below);
 }
 
 /// The number of the robot in one lane, 0 .. lanes<S> - 1. Real-time: yes.

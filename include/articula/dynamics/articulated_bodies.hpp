@@ -4,7 +4,6 @@
 
 #include "articula/dynamics/nonlinear_effects.hpp"
 
-#include <array>
 #include <cstddef>
 
 namespace articula {

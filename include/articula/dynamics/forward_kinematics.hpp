@@ -5,11 +5,12 @@
 #include "articula/dynamics/engine/body_placements.hpp"
 #include "articula/dynamics/engine/evaluate.hpp"
 #include "articula/dynamics/engine/link_chain.hpp"
-#include "articula/dynamics/engine/link_check.hpp"
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
 #include <string_view>
+#include <utility>
 
 namespace articula {
 
@@ -40,6 +41,42 @@ template <Robot R>
 }
 
 namespace detail {
+
+/// Its instantiation is the error message for a link that the robot does not have.
+/// @tparam R      the robot
+/// @tparam Asked  the requested name
+/// @tparam Links  the names of its links
+template <class R, class Asked, class... Links>
+struct RobotHasNoLink {
+  static_assert(!Robot<R>,
+                "articula: the robot has no link of that name. The first template argument of "
+                "RobotHasNoLink is the robot, the second is the requested name, the others are the "
+                "names of its links.");
+};
+
+/// Whether a robot has a link of a name.
+template <Name Link, DescribedRobot R>
+[[nodiscard]] consteval bool has_link() {
+  for (const auto& link : model_of(R{}).links) {
+    if (link.name == Link) return true;
+  }
+  return false;
+}
+
+/// Instantiates the message. (Deduced arguments are printed as values, given ones as expressions.)
+template <class R, class Asked, class... Links>
+constexpr void print_names(Asked, Links...) {
+  static_cast<void>(RobotHasNoLink<R, Asked, Links...>());
+}
+
+/// Causes the compiler's error message, with the names of the robot's links.
+template <Name Link, DescribedRobot R>
+constexpr void reject_link() {
+  constexpr const auto& links = model_of(R{}).links;
+  []<std::size_t... I>(std::index_sequence<I...>) {
+    print_names<R>(printable<Link>(), printable<links[I].name>()...);
+  }(std::make_index_sequence<links.size()>());
+}
 
 /// A link's frame in the base frame: the sum of the steps of its chain, and its rotation.
 template <class S, int B>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/core/scalar.hpp"
-#include "articula/dynamics/engine/joint_vector_pack.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
 
 namespace articula {
 

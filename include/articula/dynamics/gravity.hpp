@@ -19,8 +19,7 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<Gravity>(robot, q));
 }
 
-/// The same for several robots of one kind at once, which is faster than one by one: the registers
-/// of the target processor hold several numbers (-march=native). Real-time: yes.
+/// The same for several robots of one kind at once, see JointVectorPack. Real-time: yes.
 template <Robot R, JointVectorPack<R> Q>
 [[nodiscard]] Q gravity(const R& robot, const Q& q) noexcept {
   return detail::evaluate_pack<Gravity>(robot, q);

@@ -35,8 +35,7 @@ template <Robot R>
   return detail::to_vector(detail::evaluate<InverseDynamics>(robot, q, v, a));
 }
 
-/// The same for several robots of one kind at once, which is faster than one by one: the registers
-/// of the target processor hold several numbers (-march=native). Real-time: yes.
+/// The same for several robots of one kind at once, see JointVectorPack. Real-time: yes.
 template <Robot R, JointVectorPack<R> Q>
 [[nodiscard]] Q inverse_dynamics(const R& robot, const Q& q, const std::type_identity_t<Q>& v,
                                  const std::type_identity_t<Q>& a) noexcept {

@@ -4,13 +4,11 @@
 
 #include "articula/dynamics/forward_kinematics.hpp"
 
-#include <array>
 #include <string_view>
 
 namespace articula {
 
 /// The derivatives of a link frame's motion with respect to joint velocities, 6 x N.
-/// @tparam N  number of joints
 template <int N>
 using LinkJacobian = Eigen::Matrix<double, 6, N>;
 

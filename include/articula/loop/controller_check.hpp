@@ -12,30 +12,32 @@ namespace articula::detail {
 
 /// What is asserted of a type that can be called.
 /// @tparam N  number of joints
-template <class C, int N, bool = HasUpdate<C, N> || IsCallable<C, N>>
+/// @tparam S  type of a number
+template <class C, int N, class S, bool = HasUpdate<C, N, S> || IsCallable<C, N, S>>
 struct CheckedUpdate {
-  using Command = CommandOf<C, N>;
-  static_assert(update_is_noexcept<C, N>(), "update of the controller must be noexcept");
-  static_assert(JointCommand<Command, N>,
+  using Command = CommandOf<C, N, S>;
+  static_assert(update_is_noexcept<C, N, S>(), "update of the controller must be noexcept");
+  static_assert(JointCommand<Command, N, S>,
                 "update of the controller must return a command for N joints by value, such as "
                 "EffortCommand<N>, or an Outcome of one, see core/controller.hpp");
 };
-template <class C, int N>
-struct CheckedUpdate<C, N, false> {
-  using Command = EffortCommand<N>;  // so that the message below is the first
-  static_assert(HasUpdate<C, N>,
+template <class C, int N, class S>
+struct CheckedUpdate<C, N, S, false> {
+  using Command = EffortCommand<N, S>;  // so that the message below is the first
+  static_assert(HasUpdate<C, N, S>,
                 "the controller has no update(const ControlInput<N>&) for the N joints of this "
                 "robot, see core/controller.hpp");
 };
 
 /// Asserts all that the concept Controller demands, one thing at a time.
 /// @tparam N  number of joints
-template <class C, int N>
-struct CheckedController : CheckedUpdate<C, N> {
-  static_assert(StartFits<C, N>,
+/// @tparam S  type of a number
+template <class C, int N, class S = double>
+struct CheckedController : CheckedUpdate<C, N, S> {
+  static_assert(StartFits<C, N, S>,
                 "start of the controller must take a const ControlInput<N>& for the N joints of "
                 "this robot, see core/controller.hpp");
-  static_assert(start_is_noexcept<C, N>(), "start of the controller must be noexcept");
+  static_assert(start_is_noexcept<C, N, S>(), "start of the controller must be noexcept");
 };
 
 /// Hardware that is written such commands, whatever else it may lack.
@@ -59,8 +61,19 @@ struct RobotOf<H, false> {
 /// The same controller for every robot: for a controller that is no template.
 template <class C>
 struct OfAnyRobot {
-  template <class>
+  template <class...>
   using Controller = C;
+};
+
+/// The controller that a template makes for a hardware: of its robot, and of its scalar where that
+/// is not double.
+template <template <class...> class ControllerTemplate, class Robot, class S>
+struct ControllerFor {
+  using Type = ControllerTemplate<Robot, S>;
+};
+template <template <class...> class ControllerTemplate, class Robot>
+struct ControllerFor<ControllerTemplate, Robot, double> {
+  using Type = ControllerTemplate<Robot>;
 };
 
 /// A controller with the robot's own gains.

@@ -14,10 +14,14 @@ namespace articula {
 ///
 /// A controller that is no template, or a function, goes in by `Loop loop{hardware, Mine{}}`.
 /// @tparam HardwareType        satisfies Hardware
-/// @tparam ControllerTemplate  makes a Controller of the hardware's robot
-template <class HardwareType, template <class> class ControllerTemplate>
-class Loop : public ControlLoop<HardwareType,
-                                ControllerTemplate<typename detail::RobotOf<HardwareType>::Type>> {
+/// @tparam ControllerTemplate  makes a Controller of the hardware's robot; for hardware of several
+///                             robots, of the robot and the type of a number
+template <class HardwareType, template <class...> class ControllerTemplate>
+class Loop
+    : public ControlLoop<
+          HardwareType, typename detail::ControllerFor<ControllerTemplate,
+                                                       typename detail::RobotOf<HardwareType>::Type,
+                                                       ScalarOf<HardwareType>>::Type> {
  public:
   using Loop::ControlLoop::ControlLoop;
 };

@@ -24,7 +24,7 @@ template <class LoopType>
     const auto last = status == Status::ok
                           ? safe_command(hardware.robot(), loop.state().position, loop.command())
                           : loop.command();
-    const Status written = is_finite(last) ? hardware.write(last) : Status::ok;
+    const Status written = all_of(is_finite(last)) ? hardware.write(last) : Status::ok;
     const Status deactivated = hardware.deactivate();
     return written == Status::ok ? deactivated : written;
   }

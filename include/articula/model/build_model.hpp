@@ -137,12 +137,7 @@ template <int N, int Bodies = N, bool Kinematic = false, class LinkFrames>
     const Name& name, const Vector3<double>& gravity, std::span<const Link> links,
     std::span<const Joint> joints, LinkFrames frames,
     double right_angle_tolerance = default_right_angle_tolerance) {
-  Model<N, Bodies, LinkFrames, Kinematic> model{.name = name,
-                                                .mechanism = {},
-                                                .canonical = {},
-                                                .joints = {},
-                                                .moving_joints = {},
-                                                .links = frames};
+  Model<N, Bodies, LinkFrames, Kinematic> model{.name = name, .links = frames};
   model.mechanism.gravity = gravity;
   detail::ModelBuilder<Model<N, Bodies, LinkFrames, Kinematic>> builder{links, joints, model};
   for (const Link& link : links) {

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstddef>
-#include <type_traits>
 
 namespace articula {
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The concept of a robot: a type with a description, or a model.
+/// @file The concepts of robots, types with a description or models, with and without masses.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"
 #include "articula/model/build_model.hpp"
 #include "articula/model/description.hpp"
-#include "articula/model/no_such_name.hpp"
-#include "articula/model/physical_check.hpp"
 
 #include <array>
 #include <string_view>
@@ -114,5 +112,36 @@ template <Robot R>
 [[nodiscard]] JointVector<joint_count<R>> effort_limits(const R& robot) noexcept {
   return joint_values(robot, [](const JointProperties& joint) { return joint.limits.effort; });
 }
+
+/// True for a robot whose masses are not known: its description has `.kinematic = true`, or it is a
+/// KinematicModel.
+template <Robot R>
+inline constexpr bool is_kinematic =
+    std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::kinematic;
+
+/// A robot whose masses are known, so that it has dynamics.
+template <class R>
+concept DynamicRobot = Robot<R> && !is_kinematic<R>;
+
+namespace detail {
+
+/// Its instantiation is the compiler error where dynamics are needed of a robot without masses.
+/// @tparam R     the robot
+/// @tparam User  the algorithm or class that needs its dynamics
+template <Robot R, class User>
+struct RobotHasNoMasses {
+  static_assert(!is_kinematic<R>,
+                "articula: this robot is kinematic: it was described with .kinematic = true or "
+                "loaded by load_kinematic_urdf, so its masses are not known and it has no "
+                "dynamics. The first template argument of RobotHasNoMasses is the robot, the "
+                "second is the algorithm or class that needs dynamics.");
+  static constexpr bool found = true;
+};
+
+/// True. An algorithm or class that needs masses has `static_assert(detail::has_masses<R, User>)`.
+template <Robot R, class User>
+inline constexpr bool has_masses = RobotHasNoMasses<R, User>::found;
+
+}  // namespace detail
 
 }  // namespace articula

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Check of a description: links and joints form a tree of physically possible bodies.
+/// @file Check of a description, and the compiler error for a faulty one.
 #pragma once
 
-#include "articula/model/element_rules.hpp"
-#include "articula/model/joint_properties.hpp"
+#include "articula/model/joint.hpp"
+#include "articula/model/rule.hpp"
 
 #include <cstddef>
 #include <span>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace articula {
@@ -181,5 +183,46 @@ constexpr DescriptionFault element_fault(std::span<const Element> elements, bool
   if (!moves) return {name, Rule::robot_has_no_moving_joint};
   return {};
 }
+
+namespace detail {
+
+/// Types that show a name in compiler errors: g++ prints a Name as text; clang prints it as numbers,
+/// but single characters as text.
+template <Name Text>
+struct Named {};
+template <char... Characters>
+struct Spelled {};
+
+template <Name Text>
+[[nodiscard]] consteval auto printable() {
+#if defined(__clang__)
+  return []<std::size_t... I>(std::index_sequence<I...>) {
+    return Spelled<Text.characters[I]...>{};
+  }(std::make_index_sequence<Text.view().size()>{});
+#else
+  return Named<Text>{};
+#endif
+}
+
+/// Its instantiation is the compiler error for a description with a fault.
+/// @tparam Element  the link or joint at fault
+/// @tparam Broken   the rule that it breaks
+template <class Element, Rule Broken>
+struct RobotIsNotPhysical {
+  static_assert(Broken == Rule::none,
+                "articula: this robot cannot exist. The first template argument of "
+                "RobotIsNotPhysical is the link or joint at fault, the second is "
+                "the rule that it breaks. (A robot whose masses are not known is described with "
+                ".kinematic = true.)");
+};
+
+/// Instantiates the error. (Compilers print deduced arguments as values, explicit ones as
+/// expressions.)
+template <class Element, Rule Broken>
+consteval auto reject(Element, std::integral_constant<Rule, Broken>) {
+  return RobotIsNotPhysical<Element, Broken>{};
+}
+
+}  // namespace detail
 
 }  // namespace articula

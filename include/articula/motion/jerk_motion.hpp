@@ -35,12 +35,14 @@ class JerkMotion {
   /// @param duration  [s]; a stretch of zero or negative duration adds nothing
   /// Real-time: yes.
   void append(double jerk, double duration) noexcept {
-    append_until(advance(end_, jerk, duration), jerk, duration);
+    if (add(jerk, duration)) end_ = advance(end_, jerk, duration);
   }
   /// Adds a stretch whose final velocity [rad/s or m/s] and acceleration [rad/s^2 or m/s^2] the
   /// caller knows exactly, so that rounding does not accumulate. Real-time: yes.
   void append(double jerk, double duration, double velocity, double acceleration) noexcept {
-    append_until({advance(end_, jerk, duration).position, velocity, acceleration}, jerk, duration);
+    if (add(jerk, duration)) {
+      end_ = {advance(end_, jerk, duration).position, velocity, acceleration};
+    }
   }
   /// Adds the stretch that changes the acceleration at full jerk.
   /// @param jerk          J > 0 [rad/s^3 or m/s^3]
@@ -159,11 +161,13 @@ class JerkMotion {
     JointMotion from{};  ///< at its start
   };
 
-  void append_until(const JointMotion& end, double jerk, double duration) noexcept {
-    if (!(duration > 0) || size_ == Capacity) return;
+  /// Adds a stretch whose end the caller sets.
+  /// @return false if it would take no time, or the motion is full
+  [[nodiscard]] bool add(double jerk, double duration) noexcept {
+    if (!(duration > 0) || size_ == Capacity) return false;
     stretches_[size_++] = {duration_, jerk, end_};
-    end_ = end;
     duration_ += duration;
+    return true;
   }
 
   [[nodiscard]] static JointMotion advance(const JointMotion& from, double jerk,

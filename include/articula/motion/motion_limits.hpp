@@ -14,7 +14,6 @@
 namespace articula {
 
 /// The limits of a planned motion, equal in both directions, for each of N joints.
-/// @tparam N  number of joints
 template <int N>
 struct MotionLimits {
   JointVector<N> velocity = JointVector<N>::Zero();      ///< V [rad/s or m/s], N x 1

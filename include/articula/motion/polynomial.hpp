@@ -69,29 +69,6 @@ template <std::size_t Count>
   return x;
 }
 
-/// The highest value on 0..1 of a polynomial in Bernstein form, or `known` where that is higher.
-/// The polynomial never rises above the highest of its coefficients. At 0 and 1 it equals the first
-/// and the last one. Halving the interval (de Casteljau) brings both four times closer together.
-template <std::size_t Count>
-[[nodiscard]] double bernstein_peak(std::array<double, Count> right, double known,
-                                    int halvings) noexcept {
-  double bound = right[0];
-  for (const double x : right) {
-    if (!is_finite(x)) return std::numeric_limits<double>::infinity();
-    bound = std::max(bound, x);
-  }
-  known = std::max({known, right.front(), right.back()});
-  if (bound - known <= 1e-10 * std::abs(known)) return known;
-  if (halvings == 0) return bound;
-  std::array<double, Count> left{};
-  for (std::size_t i = 0; i < Count; ++i) {
-    left[i] = right[0];
-    for (std::size_t k = 0; k + i + 1 < Count; ++k) right[k] += (right[k + 1] - right[k]) / 2;
-  }
-  known = bernstein_peak(left, known, halvings - 1);
-  return bernstein_peak(right, known, halvings - 1);
-}
-
 }  // namespace detail
 
 /// The roots of a polynomial within an interval, and its turning points there: rounding may have
@@ -125,26 +102,36 @@ template <std::size_t Count>
   return found;
 }
 
-/// The highest value of a polynomial on 0..1, or `known` where that is higher. The error is at most
-/// 1e-10 of the value and of the spread of the coefficients. A coefficient that is not finite makes
-/// the result infinite.
+/// The highest value of a polynomial on 0..1, or `known` where that is higher. A coefficient that
+/// is not finite makes the result infinite.
 /// @param c      coefficients, c_0 first
-/// @param known  the limit of interest, or -infinity; a polynomial far below it costs little time
+/// @param known  the limit of interest, or -infinity; a polynomial below it costs little time, and
+///               one above it by less than 1e-10 of it counts as below
 /// Real-time: yes.
 template <std::size_t Count>
-[[nodiscard]] double polynomial_peak(std::array<double, Count> c, double known) noexcept {
-  static_assert(Count >= 2 && Count <= 6, "polynomial_peak takes degrees from one to five");
-  // Bernstein form: b_i = sum over k of binomial(i, k) / binomial(n, k) c_k, as Pascal's triangle.
+[[nodiscard]] double polynomial_peak(const std::array<double, Count>& c, double known) noexcept {
+  // No value is above the highest coefficient in Bernstein form, b_i = sum over k of
+  // binomial(i, k) / binomial(n, k) c_k, as Pascal's triangle. At 0 and 1 it is the first and last.
+  std::array<double, Count> b = c;
   double binomial = 1;
   for (std::size_t k = 0; k < Count; ++k) {
-    c[k] /= binomial;
+    b[k] /= binomial;
     binomial = binomial * static_cast<double>(Count - 1 - k) / static_cast<double>(k + 1);
   }
   for (std::size_t pass = 1; pass < Count; ++pass) {
-    for (std::size_t i = Count - 1; i >= pass; --i) c[i] += c[i - 1];
+    for (std::size_t i = Count - 1; i >= pass; --i) b[i] += b[i - 1];
   }
-  constexpr int halvings = 16;
-  return detail::bernstein_peak(c, known, halvings);
+  if (!std::ranges::all_of(b, [](double x) { return is_finite(x); })) {
+    return std::numeric_limits<double>::infinity();
+  }
+  known = std::max({known, b.front(), b.back()});
+  if (std::ranges::max(b) - known <= 1e-10 * std::abs(known)) return known;
+  if constexpr (Count > 2) {
+    for (const double x : roots_and_turns(derivative_of(c), 0, 1)) {
+      known = std::max(known, polynomial_value(c, x));
+    }
+  }
+  return known;
 }
 
 }  // namespace articula

@@ -2,6 +2,7 @@
 /// @file The fastest motion of one joint from rest to rest.
 #pragma once
 
+#include "articula/motion/cube_root.hpp"
 #include "articula/motion/jerk_motion.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ namespace articula {
   if (distance >= 1e-100) {
     const double side = to < from ? -1 : 1;
     const double a =
-        std::min({acceleration, std::sqrt(velocity * jerk), std::cbrt(distance / 2 * jerk * jerk)});
+        std::min({acceleration, std::sqrt(velocity * jerk), cube_root(distance / 2 * jerk * jerk)});
     const double b = a * a / jerk;
     const double v = std::min(velocity, (std::sqrt(b * b + 4 * a * distance) - b) / 2);
     const double ramp = a / jerk, push = v / a - ramp, cruise = distance / v - (v / a + ramp);

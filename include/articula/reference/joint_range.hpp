@@ -12,7 +12,6 @@
 namespace articula {
 
 /// The positions that N joints can have.
-/// @tparam N  number of joints
 template <int N>
 struct JointRange {
   JointVector<N> lower, upper;  ///< limits of the position [rad or m], N x 1

@@ -86,6 +86,13 @@ class JointSignals {
     requires DescribedRobot<R>
       : JointSignals(R(), signals, around) {}
 
+  /// Adds the signals to another reference from now on.
+  /// @param around  finite, within the joints' limits
+  /// Real-time: yes.
+  void set_around(const JointReference<joint_count>& around) noexcept { around_ = around; }
+  /// The reference to which the signals are added. Real-time: yes.
+  [[nodiscard]] const JointReference<joint_count>& around() const noexcept { return around_; }
+
   /// The reference at a time [s]. Real-time: yes. O(N + number of signals).
   [[nodiscard]] JointReference<joint_count> sample(double time) const noexcept {
     if (!is_finite(time)) return detail::undefined_reference<joint_count>();

@@ -17,7 +17,6 @@ namespace articula {
 /// Signals, profiles and trajectories have no memory and can be sampled in any order. A
 /// TrajectoryFollower moves on with each sample.
 /// @tparam G  the generator
-/// @tparam N  number of joints
 template <class G, int N>
 concept ReferenceGenerator = requires(G generator, double time) {
   { generator.sample(time) } noexcept -> std::same_as<JointReference<N>>;

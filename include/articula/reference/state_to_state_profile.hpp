@@ -124,6 +124,11 @@ class StateToStateProfile {
     return profile;
   }
 
+  /// The positions that a joint passes on its way [rad or m]. Real-time: yes.
+  [[nodiscard]] ValueRange positions(int joint) const noexcept {
+    return motions_[joint].positions();
+  }
+
   /// The time at which all joints arrive [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
 

@@ -57,11 +57,8 @@ class StopAndReturn {
     if (target != end) back_ = target;
   }
 
-  /// Moves on by a period.
-  /// @param period  [s], >= 0
-  /// @return        the reference at its end
-  /// Real-time: yes. O(N).
-  [[nodiscard]] Reference advance(double period) noexcept {
+  /// Lets a period [s] pass, >= 0. Real-time: yes. O(N).
+  void pass(double period) noexcept {
     time_ += period;
     if (back_ && time_ >= profile_.duration()) {
       time_ -= profile_.duration();
@@ -69,7 +66,13 @@ class StopAndReturn {
       profile_ = JerkLimitedProfile<R>::move(here.position, *back_, limits_, here.effort);
       back_.reset();
     }
-    return profile_.sample(time_);
+  }
+  /// The present reference. Real-time: yes. O(N).
+  [[nodiscard]] Reference reference() const noexcept { return profile_.sample(time_); }
+  /// Lets a period pass, and returns the reference at its end. Real-time: yes. O(N).
+  [[nodiscard]] Reference advance(double period) noexcept {
+    pass(period);
+    return reference();
   }
 
   /// The final position that begin() received [rad or m], N x 1. Real-time: yes.

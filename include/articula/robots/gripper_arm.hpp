@@ -3,15 +3,51 @@
 #pragma once
 
 #include "articula/model/robot.hpp"
-#include "articula/robots/sides.hpp"
+#include "articula/robots/description_parts.hpp"
 #include "articula/sim/simulator.hpp"
 
 #include <array>
 #include <numbers>
+#include <string_view>
 
 namespace articula {
 
 namespace detail {
+
+constexpr std::array<Link, 8> gripper_arm_links() {
+  return {{
+      upright_link("base_link", 2, 0.04, {.xx = 0.004267, .yy = 0.004267, .zz = 0.0064}),
+      upright_link("shoulder_link", 0.85, 0.05, {.xx = 0.001458, .yy = 0.001458, .zz = 0.002025}),
+      upright_link("upper_arm_link", 1.2, 0.15, {.xx = 0.00936, .yy = 0.00936, .zz = 0.00072}),
+      upright_link("forearm_link", 0.8, 0.12, {.xx = 0.004007, .yy = 0.004007, .zz = 0.000333}),
+      upright_link("wrist_roll_link", 0.4, 0.03, {.xx = 0.000203, .yy = 0.000203, .zz = 0.000167}),
+      upright_link("wrist_pitch_link", 0.35, 0.025,
+                   {.xx = 0.000146, .yy = 0.000146, .zz = 0.000146}),
+      upright_link("flange_link", 0.15, 0.01, {.xx = 3.9e-05, .yy = 3.9e-05, .zz = 6.8e-05}),
+      upright_link("gripper_base_link", 0.3, 0.03, {.xx = 0.00018, .yy = 0.000213, .zz = 0.000213}),
+  }};
+}
+
+/// The joints between the base and the gripper, which roll about z or pitch about y.
+constexpr std::array<Joint, 7> gripper_arm_joints() {
+  const Vector3<double> roll{0, 0, 1}, pitch{0, 1, 0};
+  const double half_turn = std::numbers::pi;
+  return {{
+      revolute_joint("joint_1", "base_link", "shoulder_link", {0, 0, 0.08}, roll,
+                     symmetric_limits(half_turn, 2, 60), 0.6),
+      revolute_joint("joint_2", "shoulder_link", "upper_arm_link", {0, 0, 0.1}, pitch,
+                     symmetric_limits(1.9, 2, 60), 0.6),
+      revolute_joint("joint_3", "upper_arm_link", "forearm_link", {0, 0, 0.3}, pitch,
+                     symmetric_limits(2.4, 2, 30), 0.3),
+      revolute_joint("joint_4", "forearm_link", "wrist_roll_link", {0, 0, 0.24}, roll,
+                     symmetric_limits(half_turn, 3, 12), 0.1),
+      revolute_joint("joint_5", "wrist_roll_link", "wrist_pitch_link", {0, 0, 0.06}, pitch,
+                     symmetric_limits(1.9, 3, 12), 0.1),
+      revolute_joint("joint_6", "wrist_pitch_link", "flange_link", {0, 0, 0.05}, roll,
+                     symmetric_limits(half_turn, 3, 6), 0.05),
+      fixed_joint("gripper_mount", "flange_link", "gripper_base_link", {0, 0, 0.02}),
+  }};
+}
 
 /// The links of one half of the gripper: the knuckles of a parallelogram and the tip that it
 /// carries.
@@ -36,37 +72,19 @@ constexpr std::array<Link, 3> gripper_finger_links(Side side) {
 /// the other way, so that the tip keeps its direction.
 /// @param mimicked  the joint that the others mimic
 constexpr std::array<Joint, 3> gripper_finger_joints(Side side, const Name& mimicked) {
-  const Name own = side("outer_knuckle_joint");
-  const JointLimits closing{.lower = 0, .upper = 0.8, .velocity = 2, .effort = 15};
-  const JointLimits opening{.lower = -0.8, .upper = 0, .velocity = 2, .effort = 15};
+  const auto finger_joint = [&](std::string_view name, const Name& parent, std::string_view child,
+                                double x, double z, double multiplier) {
+    const JointLimits closing{.lower = 0, .upper = 0.8, .velocity = 2, .effort = 15};
+    const JointLimits opening{.lower = -0.8, .upper = 0, .velocity = 2, .effort = 15};
+    Joint joint = revolute_joint(side(name), parent, side(child), {side.sign * x, 0, z},
+                                 {0, -side.sign, 0}, multiplier > 0 ? closing : opening, 0.02);
+    if (joint.name != mimicked) joint.mimic = {.joint = mimicked, .multiplier = multiplier};
+    return joint;
+  };
   return {{
-      {.name = own,
-       .type = JointType::revolute,
-       .parent = "gripper_base_link",
-       .child = side("outer_knuckle"),
-       .origin = {side.sign * 0.0306, 0, 0.055},
-       .axis = {0, -side.sign, 0},
-       .limits = closing,
-       .damping = 0.02,
-       .mimic = {.joint = own == mimicked ? Name() : mimicked}},
-      {.name = side("inner_knuckle_joint"),
-       .type = JointType::revolute,
-       .parent = "gripper_base_link",
-       .child = side("inner_knuckle"),
-       .origin = {side.sign * 0.0127, 0, 0.061},
-       .axis = {0, -side.sign, 0},
-       .limits = closing,
-       .damping = 0.02,
-       .mimic = {.joint = mimicked}},
-      {.name = side("fingertip_joint"),
-       .type = JointType::revolute,
-       .parent = side("outer_knuckle"),
-       .child = side("fingertip"),
-       .origin = {side.sign * 0.0315, 0, 0.042},
-       .axis = {0, -side.sign, 0},
-       .limits = opening,
-       .damping = 0.02,
-       .mimic = {.joint = mimicked, .multiplier = -1}},
+      finger_joint("outer_knuckle_joint", "gripper_base_link", "outer_knuckle", 0.0306, 0.055, 1),
+      finger_joint("inner_knuckle_joint", "gripper_base_link", "inner_knuckle", 0.0127, 0.061, 1),
+      finger_joint("fingertip_joint", side("outer_knuckle"), "fingertip", 0.0315, 0.042, -1),
   }};
 }
 
@@ -79,106 +97,11 @@ struct GripperArm {
   static constexpr RobotDescription description{
       .name = "gripper_arm",
       .gravity = {0, 0, -9.81},
-      .links = detail::joined(std::to_array<Link>({
-                                  {.name = "base_link",
-                                   .mass = 2,
-                                   .center_of_mass = {0, 0, 0.04},
-                                   .inertia = {.xx = 0.004267, .yy = 0.004267, .zz = 0.0064}},
-                                  {.name = "shoulder_link",
-                                   .mass = 0.85,
-                                   .center_of_mass = {0, 0, 0.05},
-                                   .inertia = {.xx = 0.001458, .yy = 0.001458, .zz = 0.002025}},
-                                  {.name = "upper_arm_link",
-                                   .mass = 1.2,
-                                   .center_of_mass = {0, 0, 0.15},
-                                   .inertia = {.xx = 0.00936, .yy = 0.00936, .zz = 0.00072}},
-                                  {.name = "forearm_link",
-                                   .mass = 0.8,
-                                   .center_of_mass = {0, 0, 0.12},
-                                   .inertia = {.xx = 0.004007, .yy = 0.004007, .zz = 0.000333}},
-                                  {.name = "wrist_roll_link",
-                                   .mass = 0.4,
-                                   .center_of_mass = {0, 0, 0.03},
-                                   .inertia = {.xx = 0.000203, .yy = 0.000203, .zz = 0.000167}},
-                                  {.name = "wrist_pitch_link",
-                                   .mass = 0.35,
-                                   .center_of_mass = {0, 0, 0.025},
-                                   .inertia = {.xx = 0.000146, .yy = 0.000146, .zz = 0.000146}},
-                                  {.name = "flange_link",
-                                   .mass = 0.15,
-                                   .center_of_mass = {0, 0, 0.01},
-                                   .inertia = {.xx = 3.9e-05, .yy = 3.9e-05, .zz = 6.8e-05}},
-                                  {.name = "gripper_base_link",
-                                   .mass = 0.3,
-                                   .center_of_mass = {0, 0, 0.03},
-                                   .inertia = {.xx = 0.00018, .yy = 0.000213, .zz = 0.000213}},
-                              }),
-                              detail::gripper_finger_links({"left_", 1}),
-                              detail::gripper_finger_links({"right_", -1})),
+      .links =
+          detail::joined(detail::gripper_arm_links(), detail::gripper_finger_links({"left_", 1}),
+                         detail::gripper_finger_links({"right_", -1})),
       .joints = detail::joined(
-          std::to_array<Joint>({
-              {.name = "joint_1",
-               .type = JointType::revolute,
-               .parent = "base_link",
-               .child = "shoulder_link",
-               .origin = {0, 0, 0.08},
-               .axis = {0, 0, 1},
-               .limits = {.lower = -std::numbers::pi,
-                          .upper = std::numbers::pi,
-                          .velocity = 2,
-                          .effort = 60},
-               .damping = 0.6},
-              {.name = "joint_2",
-               .type = JointType::revolute,
-               .parent = "shoulder_link",
-               .child = "upper_arm_link",
-               .origin = {0, 0, 0.1},
-               .axis = {0, 1, 0},
-               .limits = {.lower = -1.9, .upper = 1.9, .velocity = 2, .effort = 60},
-               .damping = 0.6},
-              {.name = "joint_3",
-               .type = JointType::revolute,
-               .parent = "upper_arm_link",
-               .child = "forearm_link",
-               .origin = {0, 0, 0.3},
-               .axis = {0, 1, 0},
-               .limits = {.lower = -2.4, .upper = 2.4, .velocity = 2, .effort = 30},
-               .damping = 0.3},
-              {.name = "joint_4",
-               .type = JointType::revolute,
-               .parent = "forearm_link",
-               .child = "wrist_roll_link",
-               .origin = {0, 0, 0.24},
-               .axis = {0, 0, 1},
-               .limits = {.lower = -std::numbers::pi,
-                          .upper = std::numbers::pi,
-                          .velocity = 3,
-                          .effort = 12},
-               .damping = 0.1},
-              {.name = "joint_5",
-               .type = JointType::revolute,
-               .parent = "wrist_roll_link",
-               .child = "wrist_pitch_link",
-               .origin = {0, 0, 0.06},
-               .axis = {0, 1, 0},
-               .limits = {.lower = -1.9, .upper = 1.9, .velocity = 3, .effort = 12},
-               .damping = 0.1},
-              {.name = "joint_6",
-               .type = JointType::revolute,
-               .parent = "wrist_pitch_link",
-               .child = "flange_link",
-               .origin = {0, 0, 0.05},
-               .axis = {0, 0, 1},
-               .limits = {.lower = -std::numbers::pi,
-                          .upper = std::numbers::pi,
-                          .velocity = 3,
-                          .effort = 6},
-               .damping = 0.05},
-              {.name = "gripper_mount",
-               .parent = "flange_link",
-               .child = "gripper_base_link",
-               .origin = {0, 0, 0.02}},
-          }),
+          detail::gripper_arm_joints(),
           detail::gripper_finger_joints({"left_", 1}, "left_outer_knuckle_joint"),
           detail::gripper_finger_joints({"right_", -1}, "left_outer_knuckle_joint"))};
 };

@@ -3,12 +3,51 @@
 #pragma once
 
 #include "articula/model/robot.hpp"
+#include "articula/robots/description_parts.hpp"
 #include "articula/sim/simulator.hpp"
 
 #include <array>
 #include <numbers>
 
 namespace articula {
+
+namespace detail {
+
+constexpr std::array<Joint, 12> panda_joints() {
+  // Each axis is z of a frame that is rolled by a right angle against the one before.
+  const auto arm_joint = [](const Name& name, const Name& parent, const Name& child,
+                            const Vector3<double>& origin, double roll, const JointLimits& limits) {
+    Joint joint = revolute_joint(name, parent, child, origin, {0, 0, 1}, limits, 0.003);
+    joint.orientation.x = roll;
+    return joint;
+  };
+  const double right_angle = std::numbers::pi / 2;
+  Joint hand = fixed_joint("panda_hand_joint", "panda_link8", "panda_hand");
+  hand.orientation.z = -std::numbers::pi / 4;
+  return {{
+      arm_joint("panda_joint1", "panda_link0", "panda_link1", {0, 0, 0.333}, 0,
+                symmetric_limits(2.8973, 2.175, 87)),
+      arm_joint("panda_joint2", "panda_link1", "panda_link2", {}, -right_angle,
+                symmetric_limits(1.7628, 2.175, 87)),
+      arm_joint("panda_joint3", "panda_link2", "panda_link3", {0, -0.316, 0}, right_angle,
+                symmetric_limits(2.8973, 2.175, 87)),
+      arm_joint("panda_joint4", "panda_link3", "panda_link4", {0.0825, 0, 0}, right_angle,
+                {.lower = -3.0718, .upper = -0.0698, .velocity = 2.175, .effort = 87}),
+      arm_joint("panda_joint5", "panda_link4", "panda_link5", {-0.0825, 0.384, 0}, -right_angle,
+                symmetric_limits(2.8973, 2.61, 12)),
+      arm_joint("panda_joint6", "panda_link5", "panda_link6", {}, right_angle,
+                {.lower = -0.0175, .upper = 3.7525, .velocity = 2.61, .effort = 12}),
+      arm_joint("panda_joint7", "panda_link6", "panda_link7", {0.088, 0, 0}, right_angle,
+                symmetric_limits(2.8973, 2.61, 12)),
+      fixed_joint("panda_joint8", "panda_link7", "panda_link8", {0, 0, 0.107}),
+      hand,
+      fixed_joint("panda_hand_tcp_joint", "panda_hand", "panda_hand_tcp", {0, 0, 0.1034}),
+      fixed_joint("panda_finger_joint1", "panda_hand", "panda_leftfinger", {0, 0, 0.0584}),
+      fixed_joint("panda_finger_joint2", "panda_hand", "panda_rightfinger", {0, 0, 0.0584}),
+  }};
+}
+
+}  // namespace detail
 
 /// The Franka Emika Panda with its hand: seven revolute joints; the two fingers are locked where
 /// they meet. Figures: the public robot description of franka_ros (franka_description).
@@ -95,95 +134,12 @@ struct Panda {
            .center_of_mass = {-0.01, 0, 0.03},
            .inertia = {.xx = 0.001, .yy = 0.0025, .zz = 0.0017}},
           {.name = "panda_hand_tcp"},
-          {.name = "panda_leftfinger",
-           .mass = 0.015,
-           .inertia = {.xx = 2.375e-06, .yy = 2.375e-06, .zz = 7.5e-07}},
-          {.name = "panda_rightfinger",
-           .mass = 0.015,
-           .inertia = {.xx = 2.375e-06, .yy = 2.375e-06, .zz = 7.5e-07}},
+          detail::upright_link("panda_leftfinger", 0.015, 0,
+                               {.xx = 2.375e-06, .yy = 2.375e-06, .zz = 7.5e-07}),
+          detail::upright_link("panda_rightfinger", 0.015, 0,
+                               {.xx = 2.375e-06, .yy = 2.375e-06, .zz = 7.5e-07}),
       }),
-      .joints = std::to_array<Joint>({
-          {.name = "panda_joint1",
-           .type = JointType::revolute,
-           .parent = "panda_link0",
-           .child = "panda_link1",
-           .origin = {0, 0, 0.333},
-           .axis = {0, 0, 1},
-           .limits = {-2.8973, 2.8973, 2.175, 87},
-           .damping = 0.003},
-          {.name = "panda_joint2",
-           .type = JointType::revolute,
-           .parent = "panda_link1",
-           .child = "panda_link2",
-           .orientation = {-std::numbers::pi / 2, 0, 0},
-           .axis = {0, 0, 1},
-           .limits = {-1.7628, 1.7628, 2.175, 87},
-           .damping = 0.003},
-          {.name = "panda_joint3",
-           .type = JointType::revolute,
-           .parent = "panda_link2",
-           .child = "panda_link3",
-           .origin = {0, -0.316, 0},
-           .orientation = {std::numbers::pi / 2, 0, 0},
-           .axis = {0, 0, 1},
-           .limits = {-2.8973, 2.8973, 2.175, 87},
-           .damping = 0.003},
-          {.name = "panda_joint4",
-           .type = JointType::revolute,
-           .parent = "panda_link3",
-           .child = "panda_link4",
-           .origin = {0.0825, 0, 0},
-           .orientation = {std::numbers::pi / 2, 0, 0},
-           .axis = {0, 0, 1},
-           .limits = {-3.0718, -0.0698, 2.175, 87},
-           .damping = 0.003},
-          {.name = "panda_joint5",
-           .type = JointType::revolute,
-           .parent = "panda_link4",
-           .child = "panda_link5",
-           .origin = {-0.0825, 0.384, 0},
-           .orientation = {-std::numbers::pi / 2, 0, 0},
-           .axis = {0, 0, 1},
-           .limits = {-2.8973, 2.8973, 2.61, 12},
-           .damping = 0.003},
-          {.name = "panda_joint6",
-           .type = JointType::revolute,
-           .parent = "panda_link5",
-           .child = "panda_link6",
-           .orientation = {std::numbers::pi / 2, 0, 0},
-           .axis = {0, 0, 1},
-           .limits = {-0.0175, 3.7525, 2.61, 12},
-           .damping = 0.003},
-          {.name = "panda_joint7",
-           .type = JointType::revolute,
-           .parent = "panda_link6",
-           .child = "panda_link7",
-           .origin = {0.088, 0, 0},
-           .orientation = {std::numbers::pi / 2, 0, 0},
-           .axis = {0, 0, 1},
-           .limits = {-2.8973, 2.8973, 2.61, 12},
-           .damping = 0.003},
-          {.name = "panda_joint8",
-           .parent = "panda_link7",
-           .child = "panda_link8",
-           .origin = {0, 0, 0.107}},
-          {.name = "panda_hand_joint",
-           .parent = "panda_link8",
-           .child = "panda_hand",
-           .orientation = {0, 0, -std::numbers::pi / 4}},
-          {.name = "panda_hand_tcp_joint",
-           .parent = "panda_hand",
-           .child = "panda_hand_tcp",
-           .origin = {0, 0, 0.1034}},
-          {.name = "panda_finger_joint1",
-           .parent = "panda_hand",
-           .child = "panda_leftfinger",
-           .origin = {0, 0, 0.0584}},
-          {.name = "panda_finger_joint2",
-           .parent = "panda_hand",
-           .child = "panda_rightfinger",
-           .origin = {0, 0, 0.0584}},
-      })};
+      .joints = detail::panda_joints()};
 };
 
 /// The arm in simulation.

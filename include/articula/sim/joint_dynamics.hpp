@@ -21,20 +21,16 @@ namespace articula {
 /// there. Stops are inelastic: an impulse through the mass matrix, which cannot add energy, takes
 /// the joint's velocity. The stop then holds the joint as long as efforts push against it. Dry
 /// friction holds a resting joint exactly.
-/// @tparam R  the robot
 template <Robot R>
 class JointDynamics {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using Vector = JointVector<joint_count>;
+  template <class S = double>
+  using State = JointState<joint_count, S>;
 
   explicit JointDynamics(const R& robot)
-      : robot_(robot),
-        lower_(joint_values(robot, [](const JointProperties& j) { return j.limits.lower; })),
-        upper_(joint_values(robot, [](const JointProperties& j) { return j.limits.upper; })),
-        damping_(joint_values(robot, [](const JointProperties& j) { return j.damping; })),
-        friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
-        parents_(elimination_tree(model_of(robot).mechanism)) {}
+      : robot_(robot), parents_(elimination_tree(model_of(robot).mechanism)) {}
 
   /// The motion after one step.
   /// @param motion  position and velocity at its beginning; positions within the joints' limits
@@ -43,13 +39,12 @@ class JointDynamics {
   /// Real-time: yes if `effort` is, which is called in each stage of each Runge-Kutta step. One
   /// such step, and some ten more for each event, at most some fifty.
   template <class Drives>
-  [[nodiscard]] Motion<joint_count> advance(Motion<joint_count> motion, const Drives& effort,
-                                            double step) const noexcept {
+  [[nodiscard]] State<> advance(State<> motion, const Drives& effort, double step) const noexcept {
     double rest = step;
     for (int event = 0; event < most_events && rest > 0; ++event) {
       if (any_at_stop(motion)) motion = after_impact(motion, Rebound::yes);
       const Phase<> phase = phase_at(motion, effort);
-      Motion<joint_count> next = smooth_step(phase, motion, effort, rest);
+      State<> next = smooth_step(phase, motion, effort, rest);
       const double excess_at_end = excess(phase, next);
       if (!(excess_at_end > 0)) return next;
 
@@ -77,18 +72,19 @@ class JointDynamics {
   /// @return        nothing if a robot has an event in this step: then advance each robot alone
   /// Real-time: yes if `effort` is. One Runge-Kutta step.
   template <PackedScalar Pack, class Drives>
-  [[nodiscard]] std::optional<Motion<joint_count, Pack>> advance_smoothly(
-      const Motion<joint_count, Pack>& motion, const Drives& effort, double step) const noexcept {
+  [[nodiscard]] std::optional<State<Pack>> advance_smoothly(const State<Pack>& motion,
+                                                            const Drives& effort,
+                                                            double step) const noexcept {
     Phase<Pack> phase;
     bool event = any_at_stop(motion);
     for (int j = 0; j < joint_count; ++j) {
-      if (friction_[j] == 0) continue;
+      if (joint(j).friction == 0) continue;
       const Pack& v = motion.velocity[j];
-      phase.sliding[j] = select(v > 0, Pack(-friction_[j]), Pack(friction_[j]));
+      phase.sliding[j] = select(v > 0, Pack(-joint(j).friction), Pack(joint(j).friction));
       event = event || any_of(v == 0);
     }
     if (event) return {};
-    const Motion<joint_count, Pack> next = smooth_step(phase, motion, effort, step);
+    const State<Pack> next = smooth_step(phase, motion, effort, step);
     if (any_of(excess(phase, next) > 0)) return {};
     return next;
   }
@@ -108,17 +104,20 @@ class JointDynamics {
     JointVector<joint_count, S> sliding = JointVector<joint_count, S>::Zero();
   };
 
+  [[nodiscard]] const JointProperties& joint(int j) const noexcept {
+    return model_of(robot_).joints[j];
+  }
   /// Whether a joint is at its stop, of any robot.
   template <class S>
-  [[nodiscard]] bool at_lower(const Motion<joint_count, S>& m, int j) const noexcept {
-    return any_of(m.position[j] <= lower_[j]);
+  [[nodiscard]] bool at_lower(const State<S>& m, int j) const noexcept {
+    return any_of(m.position[j] <= joint(j).limits.lower);
   }
   template <class S>
-  [[nodiscard]] bool at_upper(const Motion<joint_count, S>& m, int j) const noexcept {
-    return any_of(m.position[j] >= upper_[j]);
+  [[nodiscard]] bool at_upper(const State<S>& m, int j) const noexcept {
+    return any_of(m.position[j] >= joint(j).limits.upper);
   }
   template <class S>
-  [[nodiscard]] bool any_at_stop(const Motion<joint_count, S>& m) const noexcept {
+  [[nodiscard]] bool any_at_stop(const State<S>& m) const noexcept {
     bool any = false;
     for (int j = 0; j < joint_count; ++j) any = any || at_lower(m, j) || at_upper(m, j);
     return any;
@@ -126,8 +125,7 @@ class JointDynamics {
 
   /// The motion after impacts at the stops. Without rebound, all joints at a stop come to rest, which
   /// takes more energy.
-  [[nodiscard]] Motion<joint_count> after_impact(Motion<joint_count> motion,
-                                                 Rebound rebound) const noexcept {
+  [[nodiscard]] State<> after_impact(State<> motion, Rebound rebound) const noexcept {
     EffortBounds<joint_count> impulse;
     bool hits = false;
     for (int j = 0; j < joint_count; ++j) {
@@ -147,18 +145,17 @@ class JointDynamics {
 
   /// Which joints are held from here on, and how friction acts on the others.
   template <class Drives>
-  [[nodiscard]] Phase<> phase_at(const Motion<joint_count>& motion,
-                                 const Drives& effort) const noexcept {
+  [[nodiscard]] Phase<> phase_at(const State<>& motion, const Drives& effort) const noexcept {
     Phase<> phase;
     EffortBounds<joint_count> bounds;
     bool may_hold = false;
     for (int j = 0; j < joint_count; ++j) {
       if (motion.velocity[j] != 0) {
-        phase.sliding[j] = motion.velocity[j] > 0 ? -friction_[j] : friction_[j];
+        phase.sliding[j] = motion.velocity[j] > 0 ? -joint(j).friction : joint(j).friction;
         continue;
       }
-      bounds.lower[j] = at_upper(motion, j) ? -JointLimits::infinity : -friction_[j];
-      bounds.upper[j] = at_lower(motion, j) ? JointLimits::infinity : friction_[j];
+      bounds.lower[j] = at_upper(motion, j) ? -JointLimits::infinity : -joint(j).friction;
+      bounds.upper[j] = at_lower(motion, j) ? JointLimits::infinity : joint(j).friction;
       may_hold = may_hold || bounds.lower[j] < bounds.upper[j];
     }
     if (!may_hold) return phase;
@@ -176,10 +173,8 @@ class JointDynamics {
 
   /// A Runge-Kutta step within one phase.
   template <class S, class Drives>
-  [[nodiscard]] Motion<joint_count, S> smooth_step(const Phase<S>& phase,
-                                                   const Motion<joint_count, S>& motion,
-                                                   const Drives& effort,
-                                                   double step) const noexcept {
+  [[nodiscard]] State<S> smooth_step(const Phase<S>& phase, const State<S>& motion,
+                                     const Drives& effort, double step) const noexcept {
     if constexpr (std::same_as<S, double>) {
       if (phase.any_held) {
         return runge_kutta_step(motion, step, [&](const auto& q, const auto& v) noexcept {
@@ -198,7 +193,7 @@ class JointDynamics {
       const Phase<S>& phase, const JointVector<joint_count, S>& v,
       const JointVector<joint_count, S>& drives) const noexcept {
     return for_each_joint<joint_count, S>(
-        [&](int j) noexcept { return drives[j] + phase.sliding[j] - damping_[j] * v[j]; });
+        [&](int j) noexcept { return drives[j] + phase.sliding[j] - joint(j).damping * v[j]; });
   }
 
   /// The accelerations with joints held still as far as bounds allow. The load on the joints is M
@@ -216,34 +211,29 @@ class JointDynamics {
   /// The largest distance of a joint beyond its stop [rad or m], or power that friction would give
   /// to a joint that has turned back [W], by robot. Positive after an event.
   template <class S>
-  [[nodiscard]] S excess(const Phase<S>& phase,
-                         const Motion<joint_count, S>& later) const noexcept {
+  [[nodiscard]] S excess(const Phase<S>& phase, const State<S>& later) const noexcept {
     S most = -JointLimits::infinity;
     const auto include = [&most](const S& x) noexcept { most = select(most < x, x, most); };
     for (int j = 0; j < joint_count; ++j) {
       if (phase.holding.upper[j] > 0) continue;
-      include(lower_[j] - later.position[j]);
-      include(later.position[j] - upper_[j]);
-      if (friction_[j] != 0) include(later.velocity[j] * phase.sliding[j]);
+      include(joint(j).limits.lower - later.position[j]);
+      include(later.position[j] - joint(j).limits.upper);
+      if (joint(j).friction != 0) include(later.velocity[j] * phase.sliding[j]);
     }
     return most;
   }
 
   /// Puts joints beyond their stop onto it, and joints that friction has turned back to rest.
-  [[nodiscard]] Motion<joint_count> settle(const Phase<>& phase,
-                                           Motion<joint_count> motion) const noexcept {
+  [[nodiscard]] State<> settle(const Phase<>& phase, State<> motion) const noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      motion.position[j] = std::clamp(motion.position[j], lower_[j], upper_[j]);
+      motion.position[j] =
+          std::clamp(motion.position[j], joint(j).limits.lower, joint(j).limits.upper);
       if (motion.velocity[j] * phase.sliding[j] > 0) motion.velocity[j] = 0;
     }
     return motion;
   }
 
   [[no_unique_address]] R robot_;
-  Vector lower_;
-  Vector upper_;
-  Vector damping_;
-  Vector friction_;
   JointArray<int, joint_count> parents_;
 };
 

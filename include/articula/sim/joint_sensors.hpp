@@ -14,7 +14,6 @@ namespace articula {
 
 /// Measures a motion as encoders and sensors would: first noise is added, then the position is
 /// quantised.
-/// @tparam N  number of joints
 /// @tparam S  type of a number: double, or a pack of robots, each of which has noise of its own
 template <int N, class S = double>
 class JointSensors {

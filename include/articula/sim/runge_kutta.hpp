@@ -2,32 +2,21 @@
 /// @file The classical fourth-order Runge-Kutta method for equations of motion.
 #pragma once
 
-#include "articula/core/joint_vector.hpp"
+#include "articula/core/joint_state.hpp"
 
 namespace articula {
-
-/// Position and velocity of N joints: the state of the equations of motion.
-/// @tparam N       number of joints
-/// @tparam Scalar  type of a number: double, or a pack with the numbers of several robots
-template <int N, class Scalar = double>
-struct Motion {
-  using Vector = JointVector<N, Scalar>;
-
-  Vector position = Vector::Zero();  ///< q [rad or m], N x 1
-  Vector velocity = Vector::Zero();  ///< v [rad/s or m/s], N x 1
-};
 
 /// One step of the classical Runge-Kutta method for dq/dt = v, dv/dt = acceleration(q, v). The
 /// local error is of order step^5.   Source: [Kutta 1901]; [Hairer, Nørsett, Wanner 1993, table
 /// II.1.2].
-/// @param start         motion at the beginning of the step
+/// @param start         position and velocity at the beginning of the step
 /// @param step          h [s]
 /// @param acceleration  callable with (q, v) -> JointVector<N, S> [rad/s^2 or m/s^2]
-/// @return              motion at the end of the step
+/// @return              position and velocity at the end of the step; the effort of the start
 /// Real-time: yes if `acceleration` is, which is called four times.
 template <int N, class S = double, class Acceleration>
-[[nodiscard]] Motion<N, S> runge_kutta_step(const Motion<N, S>& start, double step,
-                                            const Acceleration& acceleration) noexcept {
+[[nodiscard]] JointState<N, S> runge_kutta_step(const JointState<N, S>& start, double step,
+                                                const Acceleration& acceleration) noexcept {
   using Vector = JointVector<N, S>;
   const auto after = [](double time, const Vector& x, const Vector& rate) noexcept {
     return for_each_joint<N, S>([&](int j) noexcept { return x[j] + time * rate[j]; });
@@ -46,7 +35,7 @@ template <int N, class S = double, class Acceleration>
   const Vector a3 = acceleration(after(step / 2, q, v2), v3);
   const Vector v4 = after(step, v1, a3);
   const Vector a4 = acceleration(after(step, q, v3), v4);
-  return {at_end(q, v1, v2, v3, v4), at_end(v1, a1, a2, a3, a4)};
+  return {at_end(q, v1, v2, v3, v4), at_end(v1, a1, a2, a3, a4), start.effort};
 }
 
 }  // namespace articula

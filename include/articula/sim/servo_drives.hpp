@@ -32,7 +32,6 @@ namespace articula {
 /// to one drive leaves the others their share.
 ///
 /// All functions take a pack of robots as well as one robot: S is double or a pack.
-/// @tparam R  the robot
 template <Robot R>
 class ServoDrives {
  public:
@@ -45,13 +44,6 @@ class ServoDrives {
   ServoDrives(const R& robot, const Vector<double>& bandwidth)
       : robot_(robot),
         bandwidth_(bandwidth),
-        lower_(joint_values(robot, [](const JointProperties& j) { return j.limits.lower; })),
-        upper_(joint_values(robot, [](const JointProperties& j) { return j.limits.upper; })),
-        most_velocity_(
-            joint_values(robot, [](const auto& j) { return std::min(j.limits.velocity, 1e6); })),
-        most_effort_(effort_limits(robot)),
-        damping_(joint_values(robot, [](const JointProperties& j) { return j.damping; })),
-        friction_(joint_values(robot, [](const JointProperties& j) { return j.friction; })),
         parents_(elimination_tree(model_of(robot).mechanism)) {}
 
   /// The efforts towards commanded positions.
@@ -65,7 +57,8 @@ class ServoDrives {
                                              const Vector<S>& v) const noexcept {
     return effort_for(for_each_joint<joint_count, S>([&](int j) noexcept {
                         const double w = bandwidth_[j];
-                        const S reachable = clamp(target[j], lower_[j], upper_[j]);
+                        const S reachable =
+                            clamp(target[j], joint(j).limits.lower, joint(j).limits.upper);
                         const S velocity = within_velocity_limit(j, S(w / 2 * (reachable - q[j])));
                         return 2 * w * (velocity - v[j]);
                       }),
@@ -88,9 +81,13 @@ class ServoDrives {
   }
 
  private:
+  [[nodiscard]] const JointProperties& joint(int j) const noexcept {
+    return model_of(robot_).joints[j];
+  }
   template <class S>
   [[nodiscard]] S within_velocity_limit(int j, const S& velocity) const noexcept {
-    return clamp(velocity, -most_velocity_[j], most_velocity_[j]);
+    const double most = std::min(joint(j).limits.velocity, 1e6);
+    return clamp(velocity, -most, most);
   }
 
   /// The efforts for accelerations a. If one exceeds the limit of its drive, the joints move with
@@ -100,22 +97,22 @@ class ServoDrives {
   [[nodiscard]] Vector<S> effort_for(Vector<S> a, const Vector<S>& q,
                                      const Vector<S>& v) const noexcept {
     using std::abs;
-    Vector<S> resistance;
-    for (int j = 0; j < joint_count; ++j) {
+    const auto resistance = for_each_joint<joint_count, S>([&](int j) noexcept {
       // Rounding may move a joint that rests at its stop by a little.
       constexpr double close = 1e-9, free = JointLimits::infinity;  // [rad or m, and per second]
-      const S lowest = select(q[j] <= lower_[j] + close, S(0), S(-free));
-      const S highest = select(q[j] >= upper_[j] - close, S(0), S(free));
+      const auto& [name, type, limits, damping, friction] = joint(j);
+      const S lowest = select(q[j] <= limits.lower + close, S(0), S(-free));
+      const S highest = select(q[j] >= limits.upper - close, S(0), S(free));
       a[j] = select(abs(v[j]) <= close, clamp(a[j], lowest, highest), a[j]);
       const S direction = select(v[j] != 0, v[j], a[j]);
       const S sign = select(direction > 0, S(1), select(direction < 0, S(-1), S(0)));
-      resistance[j] = damping_[j] * v[j] + friction_[j] * sign;
-    }
+      return damping * v[j] + friction * sign;
+    });
     Vector<S> needed = inverse_dynamics(robot_, q, v, a);
     bool within_limits = true;
     for (int j = 0; j < joint_count; ++j) {
       needed[j] += resistance[j];
-      within_limits = within_limits && all_of(abs(needed[j]) <= most_effort_[j]);
+      within_limits = within_limits && all_of(abs(needed[j]) <= joint(j).limits.effort);
     }
     if (within_limits) return needed;
     for (int k = 0; k < lanes<S>; ++k) {
@@ -127,22 +124,16 @@ class ServoDrives {
   [[nodiscard]] Vector<double> within_effort_limits(const Vector<double>& needed,
                                                     const Vector<double>& q) const noexcept {
     if (!is_finite(needed)) return Vector<double>::Zero();
-    if ((needed.array().abs() <= most_effort_.array()).all()) return needed;
-    const auto bounded = hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), -needed,
-                                                         {-most_effort_, most_effort_});
-    return for_each_joint<joint_count>([&](int j) noexcept {
-      return std::clamp(bounded.effort[j], -most_effort_[j], most_effort_[j]);
-    });
+    const Vector<double> most = effort_limits(robot_);
+    if ((needed.array().abs() <= most.array()).all()) return needed;
+    const auto bounded =
+        hold_within_bounds<joint_count>(parents_, mass_matrix(robot_, q), -needed, {-most, most});
+    return for_each_joint<joint_count>(
+        [&](int j) noexcept { return std::clamp(bounded.effort[j], -most[j], most[j]); });
   }
 
   [[no_unique_address]] R robot_;
   Vector<double> bandwidth_;
-  Vector<double> lower_;
-  Vector<double> upper_;
-  Vector<double> most_velocity_;
-  Vector<double> most_effort_;
-  Vector<double> damping_;
-  Vector<double> friction_;
   JointArray<int, joint_count> parents_;
 };
 

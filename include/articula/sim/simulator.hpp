@@ -2,10 +2,11 @@
 /// @file A simulated robot with the interface of hardware.
 #pragma once
 
+#include "articula/control/laws/command_numbers.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/dynamics/friction_effort.hpp"
-#include "articula/model/dynamic_robot.hpp"
+#include "articula/model/robot.hpp"
 #include "articula/sim/joint_dynamics.hpp"
 #include "articula/sim/joint_sensors.hpp"
 #include "articula/sim/servo_drives.hpp"
@@ -31,7 +32,6 @@ namespace articula {
 /// docs/simulator.md has the details. `Simulator<R, symbolic::Pack<>>` simulates several robots at
 /// once, with a command for each. Steps without events are computed for all robots together, a step
 /// with an event (a stop, friction that brings a joint to rest) for each robot alone.
-/// @tparam R  the robot
 /// @tparam S  type of a number: double, or a pack with the numbers of several robots
 template <Robot R, class S = double>
 class Simulator {
@@ -39,6 +39,7 @@ class Simulator {
 
  public:
   using RobotType = R;
+  using Scalar = S;
   static constexpr int joint_count = articula::joint_count<R>;
   using State = JointState<joint_count, S>;
 
@@ -77,7 +78,7 @@ class Simulator {
   /// Real-time: yes.
   [[nodiscard]] Status read(State& state) noexcept {
     state = measured_;
-    if (!all_finite(state)) return Status::non_finite_state;
+    if (!all_of(is_finite(state))) return Status::non_finite_state;
     return active_ ? Status::ok : Status::inactive;
   }
 
@@ -88,11 +89,11 @@ class Simulator {
   /// Real-time: yes. Costs `substeps` Runge-Kutta steps, and more where a joint reaches a stop or
   /// comes to rest against dry friction.
   [[nodiscard]] Status write(const EffortCommand<joint_count, S>& command) noexcept {
-    const bool finite = all_finite(command), accepted = finite && active_;
-    truth_.effort = for_each_joint<joint_count, S>([&](int j) noexcept {
+    const bool finite = all_of(is_finite(command)), accepted = finite && active_;
+    const Vector limited = for_each_joint<joint_count, S>([&](int j) noexcept {
       return accepted ? clamp(command.effort[j], -limits_[j], limits_[j]) : S(0);
     });
-    advance(options_.substeps, truth_.effort,
+    advance(options_.substeps, limited,
             [](const auto& effort, const auto&, const auto&) noexcept { return effort; });
     return accepted ? Status::ok : finite ? Status::inactive : Status::non_finite_command;
   }
@@ -107,13 +108,32 @@ class Simulator {
   /// dynamics as well.
   template <template <int, class> class Command>
   [[nodiscard]] Status write(const Command<joint_count, S>& command) noexcept {
-    const bool finite = all_finite(command);
+    const bool finite = all_of(is_finite(command));
     if (!finite || !active_) {
       const Status without_effort = write(EffortCommand<joint_count, S>{});
       return finite ? without_effort : Status::non_finite_command;
     }
     follow(command);
     return Status::ok;
+  }
+
+  /// Moves the joints to another state at this moment, as for a new attempt.
+  /// @param position  finite, within the joints' limits [rad or m], N x 1
+  /// @param velocity  finite [rad/s or m/s], N x 1
+  /// Real-time: yes.
+  void place(const JointVector<joint_count, S>& position,
+             const JointVector<joint_count, S>& velocity) noexcept {
+    truth_ = {position, velocity, JointVector<joint_count, S>::Zero()};
+    sensors_ = JointSensors<joint_count, S>(options_);
+    measured_ = sensors_.measure(truth_);
+  }
+
+  /// Efforts that act on the joints beside the drives', as of a hand that pulls: from now on, until
+  /// others are set. No sensor measures them as the drives' efforts.
+  /// @param effort  finite [N m or N], N x 1
+  /// Real-time: yes.
+  void set_external_effort(const JointVector<joint_count, S>& effort) noexcept {
+    external_ = effort;
   }
 
   /// The exact state at this moment, without sensors. Real-time: yes.
@@ -129,14 +149,6 @@ class Simulator {
 
  private:
   using Vector = JointVector<joint_count, S>;
-
-  /// Whether all numbers of all robots are finite.
-  template <class Numbers>
-  [[nodiscard]] static bool all_finite(const Numbers& numbers) noexcept {
-    bool finite = true;
-    for (int k = 0; k < lanes<S>; ++k) finite = finite && is_finite(lane_of(numbers, k));
-    return finite;
-  }
 
   void follow(const PositionCommand<joint_count, S>& command) noexcept {
     if (options_.drives == DriveModel::ideal) return move_to(command.position);
@@ -157,7 +169,7 @@ class Simulator {
   void follow(const MultiModeCommand<joint_count, S>& command) noexcept {
     advance(options_.substeps, command,
             [this](const auto& springs, const auto& q, const auto& v) noexcept {
-              return this->spring_effort(springs, q, v);
+              return this->spring_effort(springs, {q, v});
             });
   }
 
@@ -167,65 +179,66 @@ class Simulator {
   /// @param drives   callable with (command, q, v) -> efforts of the drives
   template <class Command, class Drives>
   void advance(int steps, const Command& command, const Drives& drives) noexcept {
-    Motion<joint_count, S> motion{truth_.position, truth_.velocity};
     const double step = options_.period / steps;
     const auto effort = [&](const auto& q, const auto& v) noexcept {
-      return drives(command, q, v);
+      return JointVector<joint_count, S>(drives(command, q, v) + external_);
     };
     for (int i = 0; i < steps; ++i) {
       if constexpr (!PackedScalar<S>) {
-        motion = dynamics_.advance(motion, effort, step);
-      } else if (const auto next = dynamics_.advance_smoothly(motion, effort, step)) {
-        motion = *next;
+        truth_ = dynamics_.advance(truth_, effort, step);
+      } else if (const auto next = dynamics_.advance_smoothly(truth_, effort, step)) {
+        truth_ = *next;
       } else {
         for (int k = 0; k < lanes<S>; ++k) {
           const auto own_command = lane_of(command, k);
-          const Motion<joint_count> own = dynamics_.advance(
-              {lane_of(motion.position, k), lane_of(motion.velocity, k)},
-              [&](const auto& q, const auto& v) noexcept { return drives(own_command, q, v); },
+          const JointVector<joint_count> own_external = lane_of(external_, k);
+          const JointState<joint_count> own = dynamics_.advance(
+              lane_of(truth_, k),
+              [&](const auto& q, const auto& v) noexcept {
+                return JointVector<joint_count>(drives(own_command, q, v) + own_external);
+              },
               step);
-          set_lane(motion.position, k, own.position);
-          set_lane(motion.velocity, k, own.velocity);
+          set_lane(truth_.position, k, own.position);
+          set_lane(truth_.velocity, k, own.velocity);
         }
       }
     }
-    finish(motion, effort(motion.position, motion.velocity));
+    finish(drives(command, truth_.position, truth_.velocity));
   }
 
   /// Advances by one period with ideal drives: at constant speed, within the limits of position and
   /// velocity. The effort is that of the mean acceleration, without limit.
   void move_to(const Vector& target) noexcept {
-    Motion<joint_count, S> motion;
     Vector acceleration;
     for (int j = 0; j < joint_count; ++j) {
       const JointLimits& limits = model_of(robot_).joints[j].limits;
       const double farthest = limits.velocity * options_.period;
-      const S q = truth_.position[j], low = q - farthest, high = q + farthest;
-      motion.position[j] = clamp(clamp(target[j], low, high), limits.lower, limits.upper);
-      motion.velocity[j] = (motion.position[j] - q) / options_.period;
-      acceleration[j] = (motion.velocity[j] - truth_.velocity[j]) / options_.period;
+      const S q = truth_.position[j], v = truth_.velocity[j];
+      const S reached = clamp(target[j], S(q - farthest), S(q + farthest));
+      truth_.position[j] = clamp(reached, limits.lower, limits.upper);
+      truth_.velocity[j] = (truth_.position[j] - q) / options_.period;
+      acceleration[j] = (truth_.velocity[j] - v) / options_.period;
     }
-    finish(motion, inverse_dynamics(robot_, motion.position, motion.velocity, acceleration) -
-                       friction_effort(robot_, motion.velocity));
+    finish(inverse_dynamics(robot_, truth_.position, truth_.velocity, acceleration) -
+           friction_effort(robot_, truth_.velocity) - external_);
   }
 
   /// effort = K (q_ref - q) + D (v_ref - v) + effort_ref, clamped to the drives' limits; 0 for a
   /// drive where it overflows.
   template <class T>
   [[nodiscard]] JointVector<joint_count, T> spring_effort(
-      const MultiModeCommand<joint_count, T>& command, const JointVector<joint_count, T>& q,
-      const JointVector<joint_count, T>& v) const noexcept {
-    JointVector<joint_count, T> effort = command.stiffness.cwiseProduct(command.position - q) +
-                                         command.damping.cwiseProduct(command.velocity - v) +
-                                         command.effort;
+      const MultiModeCommand<joint_count, T>& command,
+      const JointState<joint_count, T>& state) const noexcept {
+    JointVector<joint_count, T> effort = numbers_of(command, state);
     for (int j = 0; j < joint_count; ++j) {
       effort[j] = select(is_finite(effort[j]), clamp(effort[j], -limits_[j], limits_[j]), T(0));
     }
     return effort;
   }
 
-  void finish(const Motion<joint_count, S>& motion, const Vector& effort) noexcept {
-    truth_ = {motion.position, motion.velocity, effort};
+  /// Ends a period in which the joints have moved.
+  void finish(const Vector& effort) noexcept {
+    truth_.effort = effort;
     measured_ = sensors_.measure(truth_);
     ++periods_;
   }
@@ -237,6 +250,7 @@ class Simulator {
   int servo_substeps_ = 1;
   JointVector<joint_count> limits_;
   JointSensors<joint_count, S> sensors_;
+  JointVector<joint_count, S> external_ = JointVector<joint_count, S>::Zero();
   State truth_{};
   State measured_{};
   std::uint64_t periods_ = 0;

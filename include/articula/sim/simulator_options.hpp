@@ -25,7 +25,6 @@ enum class DriveModel : unsigned char {
 };
 
 /// The start, steps, drives and sensors of a simulated robot. All members have defaults.
-/// @tparam N  number of joints
 template <int N>
 struct SimulatorOptions {
   double period = 1e-3;  ///< time from one command to the next [s]

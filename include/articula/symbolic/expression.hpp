@@ -17,7 +17,6 @@ enum class Operation : unsigned char {
   cosine,       ///< of left [rad]
 };
 
-/// True for sine and cosine.
 [[nodiscard]] constexpr bool is_angle_function(Operation operation) noexcept {
   return operation == Operation::sine || operation == Operation::cosine;
 }

@@ -66,32 +66,16 @@ struct Program {
   }
 
   [[nodiscard]] constexpr OperationCounts operations() const noexcept {
-    OperationCounts counts;
-    for (std::size_t i = 0; i < size.instructions; ++i) {
-      switch (instructions[i].operation) {
-        case Operation::input:
-        case Operation::constant:
-        case Operation::cosine:
-          break;
-        case Operation::add:
-        case Operation::subtract:
-          ++counts.additions;
-          break;
-        case Operation::multiply:
-          ++counts.multiplications;
-          break;
-        case Operation::divide:
-          ++counts.divisions;
-          break;
-        case Operation::square_root:
-          ++counts.square_roots;
-          break;
-        case Operation::sine:  // every sine has its cosine
-          ++counts.sines;
-          break;
-      }
-    }
-    return counts;
+    int counts[static_cast<std::size_t>(Operation::cosine) + 1] = {};  // NOLINT: plain, as above
+    const auto count = [&counts](Operation operation) -> int& {
+      return counts[static_cast<std::size_t>(operation)];
+    };
+    for (std::size_t i = 0; i < size.instructions; ++i) ++count(instructions[i].operation);
+    return {.multiplications = count(Operation::multiply),
+            .additions = count(Operation::add) + count(Operation::subtract),
+            .divisions = count(Operation::divide),
+            .square_roots = count(Operation::square_root),
+            .sines = count(Operation::sine)};  // every sine has its cosine
   }
 };
 

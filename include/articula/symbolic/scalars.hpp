@@ -5,7 +5,6 @@
 #include "articula/model/placement.hpp"
 #include "articula/model/vector3.hpp"
 
-#include <array>
 #include <concepts>
 #include <cstddef>
 #include <type_traits>

@@ -5,10 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace articula::detail {
+
+inline constexpr std::string_view white_space = " \t\r\n";
+
+/// A text without white space around it.
+[[nodiscard]] inline std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(white_space);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(white_space) - first + 1);
+}
 
 /// A character of a text in UTF-8.
 struct TextCharacter {
@@ -16,7 +26,6 @@ struct TextCharacter {
   char32_t code = 0;         ///< 0 where it is not UTF-8
 };
 
-/// The first character of a text.
 [[nodiscard]] inline TextCharacter first_character(std::string_view text) {
   if (text.empty()) return {};
   const auto lead = static_cast<unsigned char>(text[0]);
@@ -69,6 +78,16 @@ struct TextCharacter {
     digits.insert(digits.begin(), "0123456789ABCDEF"[code & 0xf]);
   }
   return "U+" + digits;
+}
+
+/// A number as manuals of fieldbuses write it, in hexadecimal digits, such as "06020000h".
+/// @param digits  how many, 1 .. 8
+/// Real-time: no (allocates).
+[[nodiscard]] inline std::string hexadecimal(std::uint32_t number, int digits) {
+  constexpr const char* all = "0123456789abcdef";
+  std::string text;
+  for (int shift = 4 * (digits - 1); shift >= 0; shift -= 4) text += all[number >> shift & 0xf];
+  return text + 'h';
 }
 
 /// The first odd character of a text as a message names it, "a no-break space (U+00A0)"; empty if

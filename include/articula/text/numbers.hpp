@@ -3,8 +3,10 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/text/characters.hpp"
 
 #include <charconv>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,15 +25,6 @@ namespace articula::detail {
   return {text, std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6).ptr};
 }
 
-inline constexpr std::string_view white_space = " \t\r\n";
-
-/// A text without white space around it.
-[[nodiscard]] inline std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(white_space);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(white_space) - first + 1);
-}
-
 /// The first word of a text, which is removed from the text; empty at its end.
 [[nodiscard]] inline std::string_view take_word(std::string_view& text) {
   text = trimmed(text);
@@ -45,7 +38,16 @@ inline constexpr std::string_view white_space = " \t\r\n";
   text = trimmed(text);
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;
+#if defined(__cpp_lib_to_chars)
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+#else  // the C++ library of WebAssembly, which knows one locale only
+  const std::string copy(text);
+  char* stop = nullptr;
+  number = std::strtod(copy.c_str(), &stop);
+  const bool is_empty = copy.empty() || white_space.find(copy[0]) != white_space.npos;
+  const auto error = is_empty || stop == copy.c_str() ? std::errc::invalid_argument : std::errc{};
+  const char* const end = text.data() + (stop - copy.c_str());
+#endif
   if (error != std::errc{} || end != text.data() + text.size() || !is_finite(number)) {
     return std::nullopt;
   }

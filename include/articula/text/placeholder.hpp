@@ -2,6 +2,8 @@
 /// @file Placeholders of template tools in a text, such as ${kp} and {{ kp }}.
 #pragma once
 
+#include "articula/text/characters.hpp"
+
 #include <array>
 #include <cstddef>
 #include <string_view>
@@ -55,7 +57,6 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> pl
   return is_variable ? text : std::string_view();
 }
 
-/// True if a text is or has a placeholder.
 [[nodiscard]] inline bool has_placeholder(std::string_view text) {
   return !placeholder_in(text).empty();
 }
@@ -74,16 +75,11 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> pl
     name.remove_prefix(1);
     if (!name.empty() && placeholder[0] != '$') name.remove_suffix(1);
   }
-  const auto trim = [&] {
-    while (name.starts_with(' ')) name.remove_prefix(1);
-    while (name.ends_with(' ')) name.remove_suffix(1);
-  };
-  trim();
+  name = trimmed(name);
   for (const std::string_view word : {"var ", "arg "}) {
     if (name.starts_with(word)) name.remove_prefix(word.size());
   }
-  trim();
-  return name;
+  return trimmed(name);
 }
 
 }  // namespace articula::detail

@@ -78,8 +78,7 @@ template <class Words>
 /// "p, i, d".
 /// @param most  number of words listed; "..." stands for the others
 template <class Words>
-[[nodiscard]] std::string list_of(const Words& words,
-                                  std::size_t most = static_cast<std::size_t>(-1)) {
+[[nodiscard]] std::string list_of(const Words& words, std::size_t most = std::string_view::npos) {
   std::string list;
   std::size_t listed = 0;
   for (const std::string_view word : words) {
@@ -94,7 +93,7 @@ template <class Words>
 /// @param most  number of words listed; of more words, the nearest are listed
 template <class Words>
 [[nodiscard]] std::string one_of_words(std::string_view unknown, const Words& words,
-                                       std::size_t most = static_cast<std::size_t>(-1)) {
+                                       std::size_t most = std::string_view::npos) {
   std::vector<std::string_view> order(words.begin(), words.end());
   if (order.size() > most) {
     std::multimap<std::size_t, std::string_view> by_share;  // of other letters [%]

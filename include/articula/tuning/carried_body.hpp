@@ -7,7 +7,6 @@
 #include "articula/dynamics/engine/configuration.hpp"
 #include "articula/dynamics/engine/evaluate.hpp"
 #include "articula/dynamics/moving_joints.hpp"
-#include "articula/model/dynamic_robot.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/tuning/equivalent_inertia.hpp"
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <vector>
@@ -195,11 +194,7 @@ class ScaledLoop {
   return margins;
 }
 
-/// The margins of a joint under a PID.
-/// @param plant  the joint
-/// @param gains  of the PID; p, i, d >= 0, at least one of them > 0
-/// @param delay  from measurement to effort [s], >= 0; half a period for an effort that is held
-/// @throws std::invalid_argument naming the parameter and its value
+/// The margins of a joint under a PID. Parameters and errors are those of LoopGain.
 /// Real-time: no (set-up; allocates).
 [[nodiscard]] inline StabilityMargins stability_margins(const JointPlant& plant,
                                                         const PidGains& gains, double delay = 0) {

@@ -6,7 +6,6 @@
 #include "articula/control/laws/pid_gains.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
-#include "articula/tuning/held_effort.hpp"
 #include "articula/tuning/joint_plant.hpp"
 #include "articula/tuning/step_metrics.hpp"
 

@@ -2,11 +2,10 @@
 /// @file Conversion of urdfdom's links and joints to articula's.
 #pragma once
 
+#include "articula/model/canonical_mechanism.hpp"
 #include "articula/model/joint.hpp"
 #include "articula/model/link.hpp"
 #include "articula/urdf/xml/document.hpp"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -41,13 +40,11 @@ namespace articula {
       limits.lower = std::max(limits.lower, command.lower);
       limits.upper = std::min(limits.upper, command.upper);
     }
-  }
-  if (const auto soft = document.soft_limits.find(joint.name);
-      soft != document.soft_limits.end() && soft->second.soft_lower <= limits.upper &&
-      soft->second.soft_upper >= limits.lower) {  // else UrdfNotices reports them
-    limits.soft_lower = soft->second.soft_lower;
-    limits.soft_upper = soft->second.soft_upper;
-    limits.soft_rate = soft->second.soft_rate;
+    if (command.soft_lower <= limits.upper && command.soft_upper >= limits.lower) {
+      limits.soft_lower = command.soft_lower;
+      limits.soft_upper = command.soft_upper;
+      limits.soft_rate = command.soft_rate;
+    }  // else UrdfNotices reports them
   }
   return limits;
 }
@@ -122,19 +119,12 @@ namespace detail {
 }
 
 /// The roll, pitch, yaw of a rotation [rad].
-[[nodiscard]] inline Vector3<double> rpy_of(const Eigen::Matrix3d& r) {
-  // Roll follows from r and yaw, so that the three are consistent even at a pitch of pi/2.
-  const double yaw = std::atan2(r(1, 0), r(0, 0)), s = std::sin(yaw), c = std::cos(yaw);
-  return {std::atan2(s * r(0, 2) - c * r(1, 2), c * r(1, 1) - s * r(0, 1)),
-          std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0))), yaw};
-}
-
-/// The rotation by roll, pitch and yaw [rad].
-[[nodiscard]] inline Eigen::Matrix3d rotation_of(const Vector3<double>& rpy) {
-  return (Eigen::AngleAxisd(rpy.z, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(rpy.y, Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(rpy.x, Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
+[[nodiscard]] inline Vector3<double> rpy_of(const Matrix3<double>& rotation) {
+  const auto& [a, b, c] = rotation.rows;
+  // Roll follows from the rotation and yaw, so that the three are consistent at a pitch of pi/2.
+  const double yaw = std::atan2(b.x, a.x), sine = std::sin(yaw), cosine = std::cos(yaw);
+  return {std::atan2(sine * a.z - cosine * b.z, cosine * b.y - sine * a.y),
+          std::atan2(-c.x, std::hypot(a.x, b.x)), yaw};
 }
 
 /// A joint as fixed at a position [rad or m].
@@ -149,13 +139,13 @@ namespace detail {
                                        rounded_text(position) +
                                        ": it is fixed or its axis has no direction");
   }
-  const Eigen::Vector3d along = Eigen::Vector3d(axis.x, axis.y, axis.z) / length;
-  const Eigen::Matrix3d turn = rotation_of(result.orientation);
+  const Matrix3<double> rotation = rotation_from_rpy(result.orientation);
   if (joint.type == urdf::Joint::PRISMATIC) {
-    const Eigen::Vector3d shift = turn * (position * along);
-    result.origin = result.origin + Vector3<double>{shift.x(), shift.y(), shift.z()};
+    result.origin = result.origin + rotation * (position / length * axis);
   } else {
-    result.orientation = rpy_of(turn * Eigen::AngleAxisd(position, along).toRotationMatrix());
+    const Matrix3<double> onto_axis = rotation_of_z_onto(direction_of(axis));
+    const Matrix3<double> turn = turn_about_z(std::sin(position), std::cos(position));
+    result.orientation = rpy_of(rotation * onto_axis * turn * onto_axis.transposed());
   }
   return result;
 }

@@ -4,7 +4,7 @@
 
 #include "articula/model/validation.hpp"
 #include "articula/urdf/convert.hpp"
-#include "articula/urdf/fault_text.hpp"
+#include "articula/urdf/description.hpp"
 #include "articula/urdf/options.hpp"
 #include "articula/urdf/xml/document.hpp"
 
@@ -51,26 +51,24 @@ class UrdfNotices {
     }
     const std::string frame = " its frame, but gravity is 0 0 -9.81 in it";
     constexpr double noticeable = 1e-3;  // [m/s^2], more than files' rounded angles make
-    Eigen::Vector3d down(usual.x, usual.y, usual.z);
+    Vector3<double> down = usual;
     for (auto at = way.rbegin(); at != way.rend(); ++at) {
       const urdf::Joint& joint = **at;
-      down = rotation_of(document_.joint_orientations.at(joint.name)).transpose() * down;
+      down = transposed_times(rotation_from_rpy(document_.joint_orientations.at(joint.name)), down);
       if (joint.type == urdf::Joint::FIXED || joint.type == urdf::Joint::PRISMATIC) continue;
       // A rotation about the vertical does not change gravity.
-      const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
-      if (joint.type == urdf::Joint::FLOATING ||
-          axis.stableNormalized().cross(down).norm() > noticeable) {
+      const Vector3<double> tilt = cross(direction_of(vector_of(joint.axis)), down);
+      if (joint.type == urdf::Joint::FLOATING || std::hypot(tilt.x, tilt.y, tilt.z) > noticeable) {
         return add("root '" + root.name + "': joint '" + joint.name + "' rotates" + frame);
       }
     }
-    if (std::hypot(down.x(), down.y()) < noticeable && down.z() < 0) return;
+    if (std::hypot(down.x, down.y) < noticeable && down.z < 0) return;
     const auto text = [](double x) { return rounded_text(std::abs(x) < noticeable ? 0 : x); };
     add("root '" + root.name + "': the file rotates" + frame +
-        "; to keep the gravity of the file's root, set it to " + text(down.x()) + " " +
-        text(down.y()) + " " + text(down.z()));
+        "; to keep the gravity of the file's root, set it to " + text(down.x) + " " + text(down.y) +
+        " " + text(down.z));
   }
 
-  /// All links and joints of the robot.
   void add_robot(std::span<const Link> links, std::span<const Joint> joints) {
     for (const Link& link : links) {
       const Rule rule = broken_rule(link);
@@ -185,8 +183,8 @@ class UrdfNotices {
 
   /// Soft limits without effect.
   void add_soft_limits(const Joint& joint) {
-    const auto soft = document_.soft_limits.find(std::string(joint.name));
-    if (soft == document_.soft_limits.end()) return;
+    const auto soft = document_.control.limits.find(std::string(joint.name));
+    if (soft == document_.control.limits.end() || !is_finite(soft->second.soft_lower)) return;
     const JointLimits& limits = joint.limits;
     const std::string range =
         "its soft limits, " + range_text(soft->second.soft_lower, soft->second.soft_upper);

@@ -5,8 +5,6 @@
 #include "articula/text/similar_word.hpp"
 #include "articula/urdf/convert.hpp"
 #include "articula/urdf/description.hpp"
-#include "articula/urdf/excluded_branches.hpp"
-#include "articula/urdf/limit_check.hpp"
 #include "articula/urdf/mimic.hpp"
 #include "articula/urdf/notices.hpp"
 #include "articula/urdf/options.hpp"
@@ -22,6 +20,18 @@
 namespace articula {
 
 namespace detail {
+
+/// The mass of a link and of all its descendants [kg].
+[[nodiscard]] inline double mass_from(const urdf::Link& link) {
+  double mass = 0;
+  for (std::vector<const urdf::Link*> open{&link}; !open.empty();) {
+    const urdf::Link& next = *open.back();
+    open.pop_back();
+    if (next.inertial) mass += next.inertial->mass;
+    for (const auto& child : next.child_links) open.push_back(child.get());
+  }
+  return mass;
+}
 
 /// Selects a robot from a document and converts it.
 class UrdfReader {
@@ -44,9 +54,7 @@ class UrdfReader {
     if (!options_.kinematic) notices_.add_root(root, options_.gravity);
     options_.tip.empty() ? select_tree(root) : select_chain(root, find_link("tip", options_.tip));
     lock();
-    if (!options_.tip.empty() && !options_.kinematic) {
-      add_excluded_branches(document_, options_.tip, selected_, locked_, notices_);
-    }
+    if (!options_.tip.empty() && !options_.kinematic) note_excluded_branches();
     add(root);
     for (const urdf::Joint* joint : selected_) {
       add(*joint);
@@ -114,6 +122,32 @@ class UrdfReader {
       fail(name, "it is locked at two positions, " + rounded_text(at->second) + " and " +
                      rounded_text(position));
     }
+  }
+
+  /// Adds a notice about branches with mass that leave the moving part of a chain. Branches from its
+  /// resting part do not change the dynamics.
+  void note_excluded_branches() {
+    std::vector<std::string> joints;
+    double mass = 0;
+    bool moves = false;
+    for (std::size_t i = 0; i < selected_.size(); ++i) {
+      const urdf::Joint& joint = *selected_[i];
+      moves = moves || (joint.type != urdf::Joint::FIXED &&
+                        !locked_.contains(resolve_mimic(document_, locked_, joint).joint));
+      if (!moves) continue;
+      for (const auto& branch : document_.robot->links_.at(joint.child_link_name)->child_joints) {
+        if (i + 1 < selected_.size() && branch.get() == selected_[i + 1]) continue;
+        const double own = mass_from(*document_.robot->links_.at(branch->child_link_name));
+        if (!(own > 0)) continue;
+        joints.push_back(branch->name);
+        mass += own;
+      }
+    }
+    if (joints.empty()) return;
+    notices_.add("tip '" + options_.tip + "': the chain's joints carry " + rounded_text(mass) +
+                 " kg that are left out, at joint '" + joints.front() + "'" +
+                 (joints.size() == 1 ? "" : " and " + std::to_string(joints.size() - 1) + " more") +
+                 "; to include them, set no tip and lock all other joints");
   }
 
   void add(const urdf::Link& link) {

@@ -7,6 +7,7 @@
 #include "articula/reference/trajectory/trajectory.hpp"
 #include "articula/text/file_error.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,11 +47,8 @@ struct ControllerConfig {
   /// Parameters without effect in this library, one line each with file, line and key.
   std::vector<std::string> notes{};
 
-  FilePlace place{};  ///< of the parameters
-  FilePlace gravity_place{};
-  FilePlace chain_root_place{};
-  FilePlace chain_tip_place{};
-  FilePlace priority_place{};
+  FilePlace place{};                          ///< of the parameters
+  std::map<std::string, FilePlace> places{};  ///< of gravity, root, tip and priority, by that name
 };
 
 }  // namespace articula

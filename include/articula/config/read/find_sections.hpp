@@ -3,7 +3,6 @@
 #pragma once
 
 #include "articula/config/read/section.hpp"
-#include "articula/config/read/section_name.hpp"
 #include "articula/config/read/written_section.hpp"
 #include "articula/config/yaml/document.hpp"
 #include "articula/config/yaml/merge.hpp"
@@ -27,7 +26,7 @@ class SectionFinder {
   SectionFinder(const ConfigSource& source, std::string_view wanted)
       : found_{.file = source.name()} {
     const ConfigNode root = read_document(source);
-    written_ = SectionSearch(root, found_.file, found_.notes).take();
+    written_ = SectionSearch(root, found_.notes).take();
     is_used_.resize(written_.size(), false);
     name_controllers(SectionName(wanted));
     for (const Controller& controller : controllers_) combine(controller);
@@ -108,22 +107,19 @@ class SectionFinder {
     ConfigSection section{.name = controller.name.last(), .group = controller.name.group()};
     section.parameters.kind = ConfigNode::Kind::map;
     if (has_own) {
-      const WrittenSection& own = written_[controller.own];
-      section.path = own.path;
-      section.parameters = own.parameters;
-      section.fault = own.fault;
+      section.parameters = written_[controller.own].parameters;
+      section.fault = written_[controller.own].fault;
       is_used_[controller.own] = true;
     }
     const std::size_t own = has_own ? controller.own : 0;
     for (std::size_t k = has_own ? own + 1 : 0; k < written_.size(); ++k) {
       if (!applies(k, controller)) continue;
       const ConfigNode parameters = inherited(written_[k]);
-      if (section.path.empty()) {  // it has no section of its own
-        section.path = written_[k].path;
-        section.parameters.mark = parameters.mark;
-        section.parameters.key_mark = parameters.key_mark;
+      if (section.parameters.place.key.empty()) {  // it has no section of its own
+        section.parameters.place = parameters.place;
+        section.parameters.key_place = parameters.key_place;
       }
-      replace_entries(section.parameters, parameters, found_.file, section.path, section.notes);
+      replace_entries(section.parameters, parameters, section.notes);
     }
     for (std::size_t k = own; k-- > 0;) {
       if (applies(k, controller)) add_missing(section.parameters, inherited(written_[k]));
@@ -143,7 +139,7 @@ class SectionFinder {
                       "at most " + std::to_string(ConfigBuilder::most_nodes) + " values");
     }
     ConfigNode parameters = section.parameters;
-    mark_inherited(parameters, section.path);
+    mark_inherited(parameters);
     return parameters;
   }
 
@@ -153,7 +149,7 @@ class SectionFinder {
       if (section.name.has_wildcard() && section.fault) {
         found_.notes.push_back(std::string(section.fault->what()) + ": not used");
       } else if (!is_used_[k]) {
-        found_.notes.push_back(section.parameters.key_place(found_.file, section.path).text() +
+        found_.notes.push_back(section.parameters.key_place.text() +
                                "not used, no section is in this namespace");
       }
     }
@@ -178,8 +174,9 @@ class SectionFinder {
       const ConfigNode* entry = manager != nullptr ? manager->find(section.name) : nullptr;
       const ConfigNode* listed = entry != nullptr ? entry->find("type") : nullptr;
       // Sections with wildcards have ros__parameters.
-      section.is_declared = section.path.empty() || section.path.ends_with(ros_parameters) ||
-                            has_plugin_type(section.parameters);
+      const std::string& path = section.place().key;
+      section.is_declared =
+          path.empty() || path.ends_with(ros_parameters) || has_plugin_type(section.parameters);
       section.is_listed = listed != nullptr;
       if (type == nullptr) type = listed;
       if (type != nullptr && type->kind == ConfigNode::Kind::scalar) section.type = type->text;

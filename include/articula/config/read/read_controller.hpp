@@ -4,7 +4,6 @@
 
 #include "articula/config/read/controller_config.hpp"
 #include "articula/config/read/read_gains.hpp"
-#include "articula/config/read/read_lists.hpp"
 #include "articula/config/read/read_mechanics.hpp"
 #include "articula/config/read/robot_joints.hpp"
 #include "articula/config/read/section.hpp"
@@ -20,21 +19,18 @@
 
 namespace articula::detail {
 
-/// Reads the parameters of one controller.
 class ControllerReader {
  public:
   /// @param robot  the robot with the joints; nullptr: any robot
   /// @param signs  allowed signs of gains
-  ControllerReader(const std::string& file, const ConfigSection& section, const RobotJoints* robot,
-                   GainSigns signs = GainSigns::not_negative)
+  ControllerReader(const ConfigSection& section, const RobotJoints* robot, GainSigns signs)
       : config_{.notes = section.notes},
         robot_(robot),
-        map_(ConfigValue(file, section.parameters, section.path), config_.notes,
-             Inherited::may_be_unknown),
+        map_(section.parameters, config_.notes, Inherited::may_be_unknown),
         context_{.signs = signs} {
     config_.name = section.name;
     config_.type = section.type;
-    config_.place = map_.value().place();
+    config_.place = map_.node().place;
     if (const auto type = map_.find("type")) config_.type = type->word();
     read_joints(section.name);
     read_all_gains();
@@ -42,7 +38,7 @@ class ControllerReader {
     read_trajectory();
     take_unused_controller_parameters(map_);
     refuse_common_gains();
-    if (config_.joints.empty() && map_.has_unknown()) static_cast<void>(map_.require("joints"));
+    if (config_.joints.empty() && map_.has_unknown()) map_.require("joints");
     map_.finish();
   }
 
@@ -50,21 +46,16 @@ class ControllerReader {
 
  private:
   void read_joints(const std::string& section) {
-    const ConfigNode& node = map_.value().node();
+    const ConfigNode& node = map_.node();
     const ConfigNode* gains = node.find("gains");
     if (const auto value =
             map_.find_one_of({"joints", "dof_names", "joint_names", "joint", "joint_name"})) {
-      if (value->node().key == "joint" || value->node().key == "joint_name") {
-        config_.joints = {{.name = value->name(), .place = value->place()}};
-      } else {
-        config_.joints = read_joint_list(*value);
-      }
+      config_.joints = read_joint_names(*value);
     } else if (gains != nullptr && gains->is_map()) {
-      const ConfigValue by_joint = map_.value().child(*gains);
       for (const ConfigNode& item : gains->items) {
         // The joints are those of the controller's own gains, if it has any.
-        if (item.is_inherited() && !gains->is_inherited()) continue;
-        config_.joints.push_back({.name = item.key, .place = by_joint.child(item).place()});
+        if (item.inherited && !gains->inherited) continue;
+        config_.joints.push_back({.name = item.key, .place = item.place});
       }
     } else if (!section.empty() &&
                (node.has_any({"p", "pid"}) || (robot_ != nullptr && robot_->has(section)))) {
@@ -77,12 +68,12 @@ class ControllerReader {
 
   /// Reads the gains of a joint from a map that has no other keys.
   void read_joint_gains(ConfiguredJoint& joint, ConfigMap map) {
-    refuse_second(joint, map.value());
-    static_cast<void>(map.require("p"));
+    refuse_second(joint, map.node());
+    map.require("p");
     read_gains(map, joint, context_);
     map.finish();
   }
-  static void refuse_second(const ConfiguredJoint& joint, const ConfigValue& value) {
+  static void refuse_second(const ConfiguredJoint& joint, const ConfigNode& value) {
     if (!joint.gains) return;
     value.refuse("gains of '" + shown(joint.name) + "' a second time", "one place");
   }
@@ -90,14 +81,14 @@ class ControllerReader {
   /// come from wildcards. If the controller has no joints, the missing key is `joints`.
   /// @param kind  of a joint's value
   void finish_by_joint(ConfigMap& map, ConfigNode::Kind kind = ConfigNode::Kind::map) {
-    for (const ConfigNode& item : map.value().node().items) {
-      const bool is_other = item.is_inherited() && item.kind == kind && !map.knows(item.key);
+    for (const ConfigNode& item : map.node().items) {
+      const bool is_other = item.inherited && item.kind == kind && !map.knows(item.key);
       if (!is_other || config_.joints.empty()) continue;
       map.note(*map.find(item.key),
                "not used: joint '" + shown(item.key) + "' is not this controller's");
     }
     if (config_.joints.empty() && map.has_unknown()) {
-      static_cast<void>(map_.require("joints"));
+      map_.require("joints");
     } else {
       map.finish();
     }
@@ -105,11 +96,11 @@ class ControllerReader {
   /// Refuses a list p, and one p or pid for several joints.
   void refuse_common_gains() {
     for (const std::string_view key : {"p", "pid"}) {
-      const ConfigNode* gain = map_.value().node().find(key);
+      const ConfigNode* gain = map_.node().find(key);
       if (gain == nullptr || config_.joints.size() < 2 || map_.knows(key)) continue;
-      map_.value().child(*gain).refuse("gains of several joints at once",
-                                       "gains of each joint below its name, such as " +
-                                           shown(config_.joints[0].name) + ": {p: ...}");
+      gain->refuse("gains of several joints at once",
+                   "gains of each joint below its name, such as " + shown(config_.joints[0].name) +
+                       ": {p: ...}");
     }
   }
 
@@ -159,8 +150,8 @@ class ControllerReader {
     const std::size_t before = map_.found();
     read_gains(map_, own, context_);
     if (map_.found() == before) return;
-    refuse_second(joint, map_.value());
-    static_cast<void>(map_.require("p"));
+    refuse_second(joint, map_.node());
+    map_.require("p");
     own.place = joint.place;
     joint = own;
   }
@@ -168,8 +159,8 @@ class ControllerReader {
   /// Reads Kp and Kd of computed torque controllers.
   void read_matrices() {
     const auto proportional = map_.find("Kp"), derivative = map_.find("Kd");
-    if (!proportional && derivative) static_cast<void>(map_.require("Kp"));
-    if (!derivative && proportional) static_cast<void>(map_.require("Kd"));
+    if (!proportional && derivative) map_.require("Kp");
+    if (!derivative && proportional) map_.require("Kd");
     if (!proportional || !derivative) return;
     const std::size_t n = config_.joints.size();
     const auto p = read_diagonal(*proportional, n), d = read_diagonal(*derivative, n);

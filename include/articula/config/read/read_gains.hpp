@@ -37,7 +37,6 @@ inline void read_clamps(ConfigMap& map, const std::string& name, double& low, do
   }
 }
 
-/// Reads the clamps of the integral and of the output.
 inline void read_all_clamps(ConfigMap& map, PidGains& gains, GainSigns signs) {
   if (const auto clamp = map.find("i_clamp")) {
     gains.integral_clamp_max = clamp->number_or_infinity();
@@ -103,7 +102,7 @@ inline void read_feedforward(ConfigMap& map, PidGains& gains, const GainContext&
 inline void read_other_parameters(ConfigMap& map, ConfiguredJoint& joint) {
   if (const auto value = map.find_one_of({"angle_wraparound", "normalize_error"})) {
     joint.angle_wraparound = value->truth();
-    joint.angle_wraparound_place = value->place();
+    joint.angle_wraparound_place = value->place;
   }
   for (const std::string_view key : {"save_i_term", "save_iterm"}) {
     const auto value = map.find(key);
@@ -148,7 +147,7 @@ inline void read_gains(ConfigMap& map, ConfiguredJoint& joint, const GainContext
   try {
     validate<1>({gains}, {joint.name}, context.signs);
   } catch (const std::invalid_argument& error) {
-    map.value().refuse(error.what(), "gains of a controller");
+    map.node().refuse(error.what(), "gains of a controller");
   }
   joint.gains = gains;
 }

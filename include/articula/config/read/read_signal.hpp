@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file One waveform in a configuration file.
+/// @file One waveform in a configuration file, and the bounds of a sum of waveforms.
 #pragma once
 
 #include "articula/config/read/section.hpp"
@@ -7,11 +7,13 @@
 #include "articula/reference/signal.hpp"
 #include "articula/text/numbers.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace articula::detail {
@@ -21,7 +23,6 @@ namespace articula::detail {
   return "at most the drive's limit, " + rounded_text(limit);
 }
 
-/// Reads the shape of one waveform.
 class SignalShapeReader {
  public:
   /// @param map    the waveform; its keys that do not belong to the shape are known already
@@ -34,7 +35,7 @@ class SignalShapeReader {
     if (const auto type = map_.find("type")) {
       const std::vector<std::string> shapes = {"sine", "sin",   "sinusoid", "step",
                                                "ramp", "chirp", "square"};
-      if (has_plugin_type(map_.value().node())) {
+      if (has_plugin_type(map_.node())) {
         static_cast<void>(type->word());
         map_.note(*type, "not used: a plugin's name; the waveform is a sine");
       } else {
@@ -88,7 +89,7 @@ class SignalShapeReader {
     return value ? limited(*value, value->number()) : 0;
   }
   /// Refuses a number beyond the drive's limit, since the loop would saturate the signal.
-  [[nodiscard]] double limited(const ConfigValue& value, double number) const {
+  [[nodiscard]] double limited(const ConfigNode& value, double number) const {
     if (std::abs(number) <= limit_) return number;
     value.refuse("an effort of " + rounded_text(std::abs(number)) + " N m or N",
                  limit_text(limit_));
@@ -97,17 +98,17 @@ class SignalShapeReader {
   /// The frequency [Hz], given as such, as a period or as an angular frequency.
   [[nodiscard]] double any_frequency() {
     const auto value = map_.find_one_of({"frequency", "period", "angular_frequency"});
-    if (!value) static_cast<void>(map_.require("frequency"));
-    const std::string key = value ? value->node().key : "";
+    if (!value) map_.require("frequency");
+    const std::string key = value ? value->key : "";
     if (key == "period") return frequency(*value, 1 / value->positive());
     if (key != "angular_frequency") return frequency(value);
     return frequency(*value, value->positive() / (2 * std::numbers::pi));
   }
-  [[nodiscard]] static double frequency(const std::optional<ConfigValue>& value) {
+  [[nodiscard]] static double frequency(const ConfigNode* value) {
     return value ? frequency(*value, value->positive()) : 1;
   }
   /// Refuses frequencies that no joint can follow: the unit is probably wrong.
-  [[nodiscard]] static double frequency(const ConfigValue& value, double hertz) {
+  [[nodiscard]] static double frequency(const ConfigNode& value, double hertz) {
     if (hertz > 1e6) value.refuse("at most 1e6 Hz");
     return hertz;
   }
@@ -115,5 +116,49 @@ class SignalShapeReader {
   ConfigMap& map_;
   double limit_;
 };
+
+/// The range of a sum of signals, 0 included.
+struct SignalBounds {
+  double low = 0;
+  double high = 0;
+};
+
+/// The range of a sum of signals. Steps and ramps are added in the course of time, so that opposite
+/// ones cancel. Waves are added as if their peaks coincided.
+[[nodiscard]] inline SignalBounds bounds_of(const std::vector<Signal>& signals) {
+  SignalBounds waves, lines;
+  std::vector<double> corners;
+  for (const Signal& signal : signals) {
+    std::visit(
+        [&](const auto& any) {
+          if constexpr (requires { any.height; }) {
+            corners.push_back(any.start);
+            if constexpr (requires { any.duration; }) corners.push_back(any.start + any.duration);
+          } else {
+            double offset = 0;
+            if constexpr (requires { any.offset; }) offset = any.offset;
+            waves.high += offset + std::abs(any.amplitude);
+            waves.low += offset - std::abs(any.amplitude);
+          }
+        },
+        signal);
+  }
+  for (const double corner : corners) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double time : {std::nextafter(corner, -infinity), corner}) {
+      double sum = 0;
+      for (const Signal& signal : signals) {
+        std::visit(
+            [&](const auto& any) {
+              if constexpr (requires { any.height; }) sum += any.sample(time).value;
+            },
+            signal);
+      }
+      lines.high = std::max(lines.high, sum);
+      lines.low = std::min(lines.low, sum);
+    }
+  }
+  return {std::min(0.0, waves.low + lines.low), std::max(0.0, waves.high + lines.high)};
+}
 
 }  // namespace articula::detail

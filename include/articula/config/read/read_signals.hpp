@@ -2,14 +2,12 @@
 /// @file The waveforms of a section of a configuration file.
 #pragma once
 
+#include "articula/config/read/read_mechanics.hpp"
 #include "articula/config/read/read_signal.hpp"
 #include "articula/config/read/robot_joints.hpp"
 #include "articula/config/read/section.hpp"
-#include "articula/config/read/signal_bounds.hpp"
-#include "articula/config/read/signal_config.hpp"
 #include "articula/config/read/unused_parameters.hpp"
 #include "articula/config/yaml/config_map.hpp"
-#include "articula/core/finite.hpp"
 #include "articula/reference/joint_signals.hpp"
 #include "articula/text/characters.hpp"
 #include "articula/text/file_error.hpp"
@@ -19,12 +17,22 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-namespace articula::detail {
+namespace articula {
+
+/// Waveforms from a file.
+struct SignalConfig {
+  std::vector<JointSignal> signals{};  ///< for JointSignals
+  /// Parameters without effect in this library, one line each with file, line and key.
+  std::vector<std::string> notes{};
+};
+
+namespace detail {
 
 /// A joint of a section whose map has waveforms, where the section should have `waveforms` with the
 /// joints in it; nullptr if there is none.
@@ -47,24 +55,21 @@ namespace articula::detail {
   return nullptr;
 }
 
-/// Reads the waveforms of a robot's joints.
 class SignalReader {
  public:
   /// @param efforts  limits of the drives, in the order of the joints [N m or N]
-  SignalReader(const RobotJoints& robot, std::vector<double> efforts, const std::string& file)
-      : robot_(robot), limits_(std::move(efforts)), drives_(limits_.size()), file_(file) {}
+  SignalReader(const RobotJoints& robot, std::vector<double> efforts)
+      : robot_(robot), limits_(std::move(efforts)), drives_(limits_.size()) {}
 
   [[nodiscard]] SignalConfig take() { return std::move(config_); }
 
   /// Reads all waveforms of a section: a map by joint, a list, or the section itself.
   void read(const ConfigSection& section) {
     config_.notes.insert(config_.notes.end(), section.notes.begin(), section.notes.end());
-    ConfigMap map(ConfigValue(file_, section.parameters, section.path), config_.notes,
-                  Inherited::may_be_unknown);
-    const ConfigNode& node = map.value().node();
+    ConfigMap map(section.parameters, config_.notes, Inherited::may_be_unknown);
+    const ConfigNode& node = map.node();
     if (const ConfigNode* joint = misplaced_waveforms(node, robot_)) {
-      throw FileError(map.value().child(*joint).key_place(),
-                      "waveforms below '" + shown(joint->key) + "'",
+      throw FileError(joint->key_place, "waveforms below '" + shown(joint->key) + "'",
                       "'waveforms' in the section itself, and the joints below it: waveforms: {" +
                           shown(joint->key) + ": {amplitude: ..., frequency: ...}}");
     }
@@ -101,11 +106,6 @@ class SignalReader {
   }
 
  private:
-  struct Joint {
-    std::string name;
-    FilePlace place;
-  };
-  /// The signals of a joint.
   struct Drive {
     std::vector<Signal> signals{};  ///< efforts
     FilePlace last{};               ///< of the last one of them
@@ -116,11 +116,12 @@ class SignalReader {
   /// Reads a section that is one waveform.
   void read_section_signal(const std::string& section, ConfigMap map) {
     const auto joint = named_joint(map);
-    if (section.empty() && !joint) static_cast<void>(map.require("joint"));
+    if (section.empty() && !joint) map.require("joint");
     take_unused_controller_parameters(map);
     if (section.empty() && !joint) map.finish();
-    const FilePlace place = map.value().place();
-    read_signal(std::move(map), joint.value_or(Joint{section, place}), SignalTarget::effort);
+    const FilePlace place = map.node().place;
+    read_signal(std::move(map), joint.value_or(ConfiguredJoint{.name = section, .place = place}),
+                SignalTarget::effort);
   }
 
   /// Reads a section with `waveforms`.
@@ -129,14 +130,14 @@ class SignalReader {
       static_cast<void>(type->word());
       map.note(*type, "not used: the types in the program decide what is commanded");
     }
-    const std::vector<Joint> joints = listed_joints(map);
+    const std::vector<ConfiguredJoint> joints = listed_joints(map);
     const auto waveforms = map.require("waveforms");
     const SignalTarget target = read_target(map, SignalTarget::effort);
     take_unused_controller_parameters(map);
     map.finish();
-    const auto read_one = [&](ConfigMap one, const Joint& joint) {
+    const auto read_one = [&](ConfigMap one, const ConfiguredJoint& joint) {
       static_cast<void>(robot_.index(joint.name, joint.place));
-      if (!joints.empty() && std::none_of(joints.begin(), joints.end(), [&](const Joint& each) {
+      if (!joints.empty() && std::none_of(joints.begin(), joints.end(), [&](const auto& each) {
             return each.name == joint.name;
           })) {
         throw FileError(joint.place,
@@ -147,14 +148,14 @@ class SignalReader {
       read_signal(std::move(one), joint, target);
     };
     note_if_empty(*waveforms);
-    if (waveforms->node().is_list()) {
-      for (const ConfigValue& item : waveforms->list()) {
+    if (waveforms->is_list()) {
+      for (const ConfigNode& item : waveforms->list()) {
         ConfigMap one(item, config_.notes);
         auto joint = named_joint(one);
         if (!joint && joints.size() == 1) joint = joints.front();
-        if (!joint && robot_.has(section)) joint = Joint{section, item.place()};
+        if (!joint && robot_.has(section)) joint = {.name = section, .place = item.place};
         if (!joint) {
-          static_cast<void>(one.require("joint"));
+          one.require("joint");
           one.finish();
         }
         read_one(std::move(one), *joint);
@@ -162,41 +163,33 @@ class SignalReader {
       return;
     }
     const ConfigMap by_joint(*waveforms, config_.notes);  // throws if it is no map
-    for (const ConfigNode& item : by_joint.value().node().items) {
-      const ConfigValue value = waveforms->child(item);
-      const Joint joint{item.key, value.place()};
+    for (const ConfigNode& item : waveforms->items) {
+      const ConfiguredJoint joint{.name = item.key, .place = item.place};
       static_cast<void>(robot_.index(joint.name, joint.place));  // before errors below the joint
-      note_if_empty(value);
-      const auto values = item.is_list() ? value.list() : std::vector{value};
-      for (const ConfigValue& each : values) read_one(ConfigMap(each, config_.notes), joint);
+      note_if_empty(item);
+      const std::span values = item.is_list() ? std::span(item.items) : std::span(&item, 1);
+      for (const ConfigNode& each : values) read_one(ConfigMap(each, config_.notes), joint);
     }
   }
 
-  void note_if_empty(const ConfigValue& value) {
-    const ConfigNode& node = value.node();
-    const bool is_empty = node.items.empty() && (node.is_list() || node.is_map());
-    if (is_empty)
-      empty_.emplace_back(value.place(), node.is_list() ? "an empty list" : "an empty map");
+  void note_if_empty(const ConfigNode& node) {
+    if (!node.items.empty() || !(node.is_list() || node.is_map())) return;
+    empty_.emplace_back(node.place, node.is_list() ? "an empty list" : "an empty map");
   }
 
   /// The joint that a waveform or a section names.
-  [[nodiscard]] static std::optional<Joint> named_joint(ConfigMap& map) {
+  [[nodiscard]] static std::optional<ConfiguredJoint> named_joint(ConfigMap& map) {
     const auto value = map.find_one_of({"joint", "joint_name"});
     if (!value) return {};
-    return Joint{value->name(), value->place()};
+    return read_joint_names(*value).front();
   }
   /// The joints beside `waveforms`; empty: any joint.
-  [[nodiscard]] std::vector<Joint> listed_joints(ConfigMap& map) const {
-    std::vector<Joint> joints;
+  [[nodiscard]] std::vector<ConfiguredJoint> listed_joints(ConfigMap& map) const {
+    std::vector<ConfiguredJoint> joints;
     if (const auto value = map.find_one_of({"joint", "joint_name", "joints"})) {
-      if (value->node().key == "joints") {
-        for (const ConfigValue& item : value->list()) joints.push_back({item.name(), item.place()});
-        if (joints.empty()) value->refuse("the names of joints");
-      } else {
-        joints.push_back({value->name(), value->place()});
-      }
+      joints = read_joint_names(*value);
     }
-    for (const Joint& joint : joints) static_cast<void>(robot_.index(joint.name, joint.place));
+    for (const auto& joint : joints) static_cast<void>(robot_.index(joint.name, joint.place));
     return joints;
   }
 
@@ -207,7 +200,7 @@ class SignalReader {
     return is_position ? SignalTarget::position : SignalTarget::effort;
   }
 
-  void read_signal(ConfigMap map, const Joint& joint, SignalTarget target) {
+  void read_signal(ConfigMap map, const ConfiguredJoint& joint, SignalTarget target) {
     const std::size_t index = robot_.index(joint.name, joint.place);
     target = read_target(map, target);
     const bool effort = target == SignalTarget::effort;
@@ -215,7 +208,7 @@ class SignalReader {
     const Signal signal = SignalShapeReader(map, limit).read();
     map.finish();
     const auto fault = std::visit([](const auto& any) { return any.fault(); }, signal);
-    if (!fault.empty()) map.value().refuse(std::string(fault), "a signal that can be evaluated");
+    if (!fault.empty()) map.node().refuse(std::string(fault), "a signal that can be evaluated");
     Drive& drive = drives_[index];
     SignalValue& sum = effort ? drive.effort : drive.motion;
     const SignalValue peak = std::visit([](const auto& any) { return any.peak(); }, signal);
@@ -223,21 +216,21 @@ class SignalReader {
     sum.rate += effort ? 0 : peak.rate;
     sum.acceleration += effort ? 0 : peak.acceleration;
     if (!is_finite(sum)) {
-      map.value().refuse("the signals on joint '" + robot_.names[index] + "' add up to no number",
-                         "signals whose sum is a number");
+      map.node().refuse("the signals on joint '" + robot_.names[index] + "' add up to no number",
+                        "signals whose sum is a number");
     }
     config_.signals.push_back({Name(joint.name), signal, target});
     if (!effort) return;
     drive.signals.push_back(signal);
-    drive.last = map.value().place();
+    drive.last = map.node().place;
   }
 
   const RobotJoints& robot_;
   std::vector<double> limits_;
   std::vector<Drive> drives_;
-  std::string file_;
   std::vector<std::pair<FilePlace, std::string>> empty_{};  ///< lists and maps without waveforms
   SignalConfig config_{};
 };
 
-}  // namespace articula::detail
+}  // namespace detail
+}  // namespace articula

@@ -19,17 +19,16 @@ struct UnusedParameters {
 };
 
 /// @throws FileError if a value has the wrong type
-inline void check_kind(const ConfigValue& value, UnusedParameters::Kind kind) {
+inline void check_kind(const ConfigNode& value, UnusedParameters::Kind kind) {
   using enum UnusedParameters::Kind;
-  const ConfigNode& node = value.node();
   if (kind == number) static_cast<void>(value.not_negative());
   if (kind == truth) static_cast<void>(value.truth());
   if (kind == word) static_cast<void>(value.word());
   if (kind == words) {
-    for (const ConfigValue& item : value.list()) static_cast<void>(item.word());
+    for (const ConfigNode& item : value.list()) static_cast<void>(item.word());
   }
-  if (kind == text && (node.is_map() || node.is_list())) value.refuse("a name");
-  if (kind == any_map && !node.is_map()) value.refuse("a map");
+  if (kind == text && (value.is_map() || value.is_list())) value.refuse("a name");
+  if (kind == any_map && !value.is_map()) value.refuse("a map");
 }
 
 /// Checks the types of parameters without effect, and adds a note on each.

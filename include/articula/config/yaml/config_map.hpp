@@ -2,7 +2,6 @@
 /// @file A map of a configuration whose keys the caller looks up; others are unknown keys.
 #pragma once
 
-#include "articula/config/yaml/config_value.hpp"
 #include "articula/config/yaml/node.hpp"
 #include "articula/config/yaml/scalar.hpp"
 #include "articula/text/file_error.hpp"
@@ -15,7 +14,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace articula::detail {
@@ -33,36 +31,31 @@ class ConfigMap {
   /// @param notes      receives a line on each value that has no effect
   /// @param inherited  treatment of unknown keys from other sections
   /// @throws FileError if the value is no map
-  ConfigMap(ConfigValue value, std::vector<std::string>& notes,
+  ConfigMap(const ConfigNode& node, std::vector<std::string>& notes,
             Inherited inherited = Inherited::must_be_known)
-      : value_(std::move(value)),
-        notes_(&notes),
-        tolerant_(inherited == Inherited::may_be_unknown) {
-    const ConfigNode& node = value_.node();
+      : node_(&node), notes_(&notes), tolerant_(inherited == Inherited::may_be_unknown) {
     if (node.is_map()) return;
     const std::string hint = key_hint(node.text, node.value_names);
-    value_.refuse("a map" + (hint.empty() ? hint : ", and " + hint));
+    node.refuse("a map" + (hint.empty() ? hint : ", and " + hint));
   }
 
-  [[nodiscard]] const ConfigValue& value() const noexcept { return value_; }
+  [[nodiscard]] const ConfigNode& node() const noexcept { return *node_; }
 
-  /// The value of a key, if there is one.
-  [[nodiscard]] std::optional<ConfigValue> find(std::string_view key) {
+  /// The value of a key; null if there is none.
+  [[nodiscard]] const ConfigNode* find(std::string_view key) {
     if (!knows(key)) known_.emplace_back(key);
-    const ConfigNode* item = value_.node().find(key);
-    if (item == nullptr) return {};
-    ++found_;
-    return value_.child(*item);
+    const ConfigNode* item = node_->find(key);
+    found_ += item == nullptr ? 0 : 1;
+    return item;
   }
-  /// The value of one of several keys with the same meaning, if there is one.
+  /// The value of one of several keys with the same meaning; null if there is none.
   /// @throws FileError if there are several
-  [[nodiscard]] std::optional<ConfigValue> find_one_of(
-      std::initializer_list<std::string_view> keys) {
-    std::optional<ConfigValue> found;
+  [[nodiscard]] const ConfigNode* find_one_of(std::initializer_list<std::string_view> keys) {
+    const ConfigNode* found = nullptr;
     for (const std::string_view key : keys) {
-      const auto value = find(key);
+      const ConfigNode* value = find(key);
       if (value && found) {
-        value->refuse("'" + found->node().key + "' has the same meaning", "one of the two keys");
+        value->refuse("'" + found->key + "' has the same meaning", "one of the two keys");
       }
       if (value) found = value;
     }
@@ -70,15 +63,14 @@ class ConfigMap {
   }
   /// The value of a key that must be there. If it is missing, `finish()` throws, since a misspelt
   /// key may be the reason.
-  [[nodiscard]] std::optional<ConfigValue> require(std::string_view key) {
-    auto found = find(key);
+  const ConfigNode* require(std::string_view key) {
+    const ConfigNode* found = find(key);
     if (!found) missing_.emplace_back(key);
     return found;
   }
   [[nodiscard]] std::optional<ConfigMap> find_map(std::string_view key) {
-    const auto found = find(key);
-    if (!found) return {};
-    return ConfigMap(*found, *notes_);
+    const ConfigNode* found = find(key);
+    return found ? std::optional(ConfigMap(*found, *notes_)) : std::nullopt;
   }
   /// These read the value of a key into a variable, which keeps its value if there is no such key.
   void read_number(std::string_view key, double& number) {
@@ -103,18 +95,15 @@ class ConfigMap {
   }
   [[nodiscard]] bool has_unknown() const { return !unknown().empty(); }
 
-  /// Adds a note on a value.
-  void note(const ConfigValue& value, std::string_view text) const {
-    notes_->push_back(value.place().text() + std::string(text));
+  void note(const ConfigNode& value, std::string_view text) const {
+    notes_->push_back(value.place.text() + std::string(text));
   }
 
   /// @throws FileError if the map has an unknown key, or lacks a required one
   void finish() const {
     constexpr std::size_t listed = 3, tried = 16;
-    for (const ConfigNode& item : value_.node().items) {
-      if (tolerant_ && item.is_inherited() && !knows(item.key)) {
-        note(value_.child(item), "not used here");
-      }
+    for (const ConfigNode& item : node_->items) {
+      if (tolerant_ && item.inherited && !knows(item.key)) note(item, "not used here");
     }
     const auto others = unknown();
     refuse_malformed(others);
@@ -128,17 +117,15 @@ class ConfigMap {
       if (misspelt == last) {
         const std::string unknown =
             wrong == nullptr ? "" : "; its key '" + shown(wrong->key) + "' is unknown";
-        value_.refuse("the key '" + missing_.front() + "' is missing", "it in this map" + unknown);
+        node_->refuse("the key '" + missing_.front() + "' is missing", "it in this map" + unknown);
       }
       wrong = *misspelt;
     }
     if (wrong != nullptr) refuse_key(*wrong, one_of_words(wrong->key, known_, listed));
   }
 
-  /// @throws FileError about a key that is unknown
   [[noreturn]] void refuse_key(const ConfigNode& item, const std::string& expected) const {
-    throw FileError(value_.child(item).key_place(), "unknown key '" + shown(item.key) + "'",
-                    expected);
+    throw FileError(item.key_place, "unknown key '" + shown(item.key) + "'", expected);
   }
 
  private:
@@ -155,13 +142,13 @@ class ConfigMap {
   }
   [[nodiscard]] std::vector<const ConfigNode*> unknown() const {
     std::vector<const ConfigNode*> items;
-    for (const ConfigNode& item : value_.node().items) {
-      if (!(tolerant_ && item.is_inherited()) && !knows(item.key)) items.push_back(&item);
+    for (const ConfigNode& item : node_->items) {
+      if (!(tolerant_ && item.inherited) && !knows(item.key)) items.push_back(&item);
     }
     return items;
   }
 
-  ConfigValue value_;
+  const ConfigNode* node_;
   std::vector<std::string>* notes_;
   bool tolerant_;
   std::vector<std::string> known_{}, missing_{};

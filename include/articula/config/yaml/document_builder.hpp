@@ -2,7 +2,6 @@
 /// @file The tree of a YAML document, built from the events of yaml-cpp.
 #pragma once
 
-#include "articula/config/yaml/check_text.hpp"
 #include "articula/config/yaml/filled_text.hpp"
 #include "articula/config/yaml/node.hpp"
 #include "articula/config/yaml/scalar.hpp"
@@ -34,14 +33,12 @@ class ConfigBuilder final : public YAML::EventHandler {
 
   /// @param text    the text that is parsed; it must outlive this
   /// @param values  of placeholders
-  ConfigBuilder(std::string file, const FilledText& text, const ConfigValues& values)
-      : file_(std::move(file)), text_(&text) {
+  ConfigBuilder(const FilledText& text, const ConfigValues& values) : text_(&text) {
     for (const auto& [name, value] : values) {
       value_names_ += (value_names_.empty() ? "'" : ", '") + shown(name) + "'";
     }
   }
 
-  /// The root of the document.
   [[nodiscard]] ConfigNode take() { return std::move(root_); }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
@@ -51,7 +48,7 @@ class ConfigBuilder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    add({.mark = at(mark)}, anchor);
+    add({.place = at(mark)}, anchor);
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
@@ -59,7 +56,7 @@ class ConfigBuilder final : public YAML::EventHandler {
     add({.kind = ConfigNode::Kind::scalar,
          .quoted = tag == "!" || tag.ends_with(":str"),
          .text = value,
-         .mark = at(mark)},
+         .place = at(mark)},
         anchor);
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -74,12 +71,12 @@ class ConfigBuilder final : public YAML::EventHandler {
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
     check_tag(at(mark), tag, {"seq"});
-    open({.kind = ConfigNode::Kind::list, .mark = at(mark)}, anchor);
+    open({.kind = ConfigNode::Kind::list, .place = at(mark)}, anchor);
   }
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                   YAML::EmitterStyle::value) override {
     check_tag(at(mark), tag, {"map"});
-    open({.kind = ConfigNode::Kind::map, .mark = at(mark)}, anchor);
+    open({.kind = ConfigNode::Kind::map, .place = at(mark)}, anchor);
   }
   void OnSequenceEnd() override { close(); }
   void OnMapEnd() override {
@@ -88,22 +85,27 @@ class ConfigBuilder final : public YAML::EventHandler {
   }
 
  private:
+  /// The number of levels of a tree.
+  [[nodiscard]] static std::size_t node_height(const ConfigNode& node) noexcept {
+    std::size_t height = 0;
+    for (const ConfigNode& item : node.items) height = std::max(height, node_height(item));
+    return height + 1;
+  }
+
   /// A list or map that is not complete yet.
   struct Open {
     ConfigNode node;
     YAML::anchor_t anchor = 0;
     bool has_key = false;
     std::string key{};  ///< of the next value
-    ConfigMark key_mark{};
+    FilePlace key_place{};
   };
 
-  /// A place in the file.
-  [[nodiscard]] ConfigMark at(const YAML::Mark& mark) const {
-    return text_->in_file({std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1});
-  }
-  [[noreturn]] void refuse(ConfigMark mark, const std::string& reason,
+  [[nodiscard]] FilePlace at(const YAML::Mark& mark) const { return text_->in_file(mark); }
+  [[noreturn]] void refuse(FilePlace place, const std::string& reason,
                            const std::string& expected) const {
-    throw FileError({file_, mark.line, mark.column, path()}, reason, expected);
+    place.key = path();
+    throw FileError(place, reason, expected);
   }
   /// The keys from the top to the current value.
   [[nodiscard]] std::string path() const {
@@ -113,17 +115,17 @@ class ConfigBuilder final : public YAML::EventHandler {
     }
     return result;
   }
-  void check_tag(ConfigMark mark, const std::string& tag,
+  void check_tag(const FilePlace& place, const std::string& tag,
                  std::initializer_list<const char*> allowed) const {
     const bool known = tag.empty() || tag == "?" || tag == "!" ||
                        std::any_of(allowed.begin(), allowed.end(), [&](const char* name) {
                          return tag == std::string("tag:yaml.org,2002:") + name;
                        });
-    if (!known) refuse(mark, "the tag '" + shown(tag) + "'", "no tag here");
+    if (!known) refuse(place, "the tag '" + shown(tag) + "'", "no tag here");
   }
-  void check_depth(std::size_t depth, ConfigMark mark) const {
+  void check_depth(std::size_t depth, const FilePlace& place) const {
     if (depth > deepest) {
-      refuse(mark, "it is nested too deeply",
+      refuse(place, "it is nested too deeply",
              "at most " + std::to_string(deepest) + " nested lists and maps");
     }
   }
@@ -131,29 +133,29 @@ class ConfigBuilder final : public YAML::EventHandler {
   void check_keys(const ConfigNode& map) const {
     std::map<std::string_view, int> lines;
     for (const ConfigNode& item : map.items) {
-      const auto [known, is_new] = lines.try_emplace(item.key, item.key_mark.line);
+      const auto [known, is_new] = lines.try_emplace(item.key, item.key_place.line);
       if (is_new) continue;
-      refuse(item.key_mark,
+      refuse(item.key_place,
              "the key '" + shown(item.key) + "' is also in line " + std::to_string(known->second),
              "every key once");
     }
   }
-  void count(std::size_t more, ConfigMark mark) {
+  void count(std::size_t more, const FilePlace& place) {
     nodes_ += more;
     if (nodes_ > most_nodes) {
-      refuse(mark, "it is too large, copies of aliases included",
+      refuse(place, "it is too large, copies of aliases included",
              "at most " + std::to_string(most_nodes) + " values");
     }
   }
   void open(ConfigNode node, YAML::anchor_t anchor) {
     if (awaits_key()) {
-      const std::string_view placeholder = placeholder_in(line_of(text_->text(), node.mark.line));
+      const std::string_view placeholder = placeholder_in(line_of(text_->text(), node.place.line));
       if (placeholder.starts_with('{')) {  // to YAML, {{ kp }} is a map in a map
-        refuse(node.mark, placeholder_text(placeholder), "its value" + value_example(placeholder));
+        refuse(node.place, placeholder_text(placeholder), "its value" + value_example(placeholder));
       }
-      refuse(node.mark, node_text(node) + " as a key", "a word");
+      refuse(node.place, node.named() + " as a key", "a word");
     }
-    check_depth(stack_.size() + 1, node.mark);
+    check_depth(stack_.size() + 1, node.place);
     stack_.push_back({.node = std::move(node), .anchor = anchor});
   }
   void close() {
@@ -166,9 +168,9 @@ class ConfigBuilder final : public YAML::EventHandler {
   }
   /// Takes a complete node: a key, or a value for the innermost open list or map.
   void add(ConfigNode node, YAML::anchor_t anchor) {
-    count(1, node.mark);
+    count(1, node.place);
     if (anchor != 0) {
-      count(node_count(node), node.mark);
+      count(node_count(node), node.place);
       anchors_[anchor] = node;
     }
     if (stack_.empty()) {
@@ -178,31 +180,30 @@ class ConfigBuilder final : public YAML::EventHandler {
     Open& parent = stack_.back();
     if (awaits_key()) {
       if (node.kind != ConfigNode::Kind::scalar || node.text.empty()) {
-        refuse(node.mark, node_text(node) + " as a key", "a word");
+        refuse(node.place, node.named() + " as a key", "a word");
       }
       if (node.text == "<<" && !node.quoted) {
-        refuse(node.mark, "the merge key <<", "the values themselves");
+        refuse(node.place, "the merge key <<", "the values themselves");
       }
       if (!node.quoted && !odd_character_in(node.text).empty()) {
-        refuse(node.mark, "the key " + quoted_text(node.text), "an ordinary blank, or none");
+        refuse(node.place, "the key " + quoted_text(node.text), "an ordinary blank, or none");
       }
       parent.has_key = true;
       parent.key = std::move(node.text);
-      parent.key_mark = node.mark;
+      parent.key_place = node.place;
       return;
     }
     if (parent.node.is_map()) {
       node.key = std::move(parent.key);
-      node.key_mark = parent.key_mark;
+      node.key_place = parent.key_place;
       // yaml-cpp gives a missing value the place of the next token.
-      if (node.kind == ConfigNode::Kind::nothing) node.mark = node.key_mark;
+      if (node.kind == ConfigNode::Kind::nothing) node.place = node.key_place;
       parent.has_key = false;
     }
     if (has_placeholder(node.key) || has_placeholder(node.text)) node.value_names = value_names_;
     parent.node.items.push_back(std::move(node));
   }
 
-  std::string file_;
   const FilledText* text_;
   std::string value_names_{};
   bool started_ = false;

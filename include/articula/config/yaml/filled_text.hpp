@@ -2,13 +2,13 @@
 /// @file A text with values in place of placeholders, and where its characters are in the file.
 #pragma once
 
-#include "articula/config/yaml/node.hpp"
 #include "articula/config/yaml/source.hpp"
 #include "articula/text/file_error.hpp"
 #include "articula/text/placeholder.hpp"
 
+#include <yaml-cpp/mark.h>
+
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -17,6 +17,25 @@
 
 namespace articula::detail {
 
+/// Calls `use` with the number of each line, from 1, and the line.
+template <class Use>
+void for_each_line(std::string_view text, Use use) {
+  for (int number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    use(number, line);
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+  }
+}
+
+/// A line of a text, from 1; empty if there is none.
+[[nodiscard]] inline std::string_view line_of(std::string_view text, int wanted) {
+  std::string_view found;
+  for_each_line(text, [&](int number, std::string_view line) {
+    if (number == wanted) found = line;
+  });
+  return found;
+}
+
 /// A text in which values have replaced placeholders.
 class FilledText {
  public:
@@ -24,7 +43,7 @@ class FilledText {
   /// @param values  of placeholders; placeholders without a value remain
   /// @throws FileError if a value has control characters, or the result is larger than a source may
   ///         be
-  FilledText(const std::string& file, std::string text, const ConfigValues& values) {
+  FilledText(const std::string& file, std::string text, const ConfigValues& values) : file_(file) {
     for (const auto& [name, value] : values) {
       const bool is_line = std::none_of(
           value.begin(), value.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; });
@@ -43,15 +62,17 @@ class FilledText {
 
   /// The place in the file of a place in this text. All characters of a value are at its
   /// placeholder.
-  [[nodiscard]] ConfigMark in_file(ConfigMark mark) const noexcept {
+  [[nodiscard]] FilePlace in_file(const YAML::Mark& mark) const {
+    FilePlace place{file_, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
     const auto next = std::lower_bound(
-        changes_.begin(), changes_.end(), mark, [](const Change& change, const ConfigMark& at) {
+        changes_.begin(), changes_.end(), place, [](const Change& change, const FilePlace& at) {
           return std::pair(change.line, change.column) < std::pair(at.line, at.column);
         });
-    if (next == changes_.begin() || std::prev(next)->line != mark.line) return mark;
+    if (next == changes_.begin() || std::prev(next)->line != place.line) return place;
     const Change& last = *std::prev(next);
-    const int behind = mark.column - last.column - last.new_length;
-    return {mark.line, last.file_column + (behind < 0 ? 0 : last.old_length + behind)};
+    const int behind = place.column - last.column - last.new_length;
+    place.column = last.file_column + (behind < 0 ? 0 : last.old_length + behind);
+    return place;
   }
 
  private:
@@ -99,6 +120,7 @@ class FilledText {
     }
   }
 
+  std::string file_;
   std::string text_{};
   std::vector<Change> changes_{};
 };

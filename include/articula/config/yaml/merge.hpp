@@ -4,6 +4,7 @@
 
 #include "articula/config/yaml/document.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -11,12 +12,19 @@
 
 namespace articula::detail {
 
+[[nodiscard]] inline bool same_value(const ConfigNode& a, const ConfigNode& b) noexcept {
+  return a.kind == b.kind && a.quoted == b.quoted && a.text == b.text &&
+         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(),
+                    [](const ConfigNode& x, const ConfigNode& y) {
+                      return x.key == y.key && same_value(x, y);
+                    });
+}
+
 /// Marks the entries of a map, and all below them, as inherited from another section.
-/// @param path  of the map, keys from the top
-inline void mark_inherited(ConfigNode& map, const std::string& path) {
+inline void mark_inherited(ConfigNode& map) {
   for (ConfigNode& item : map.items) {
-    item.origin = path + "." + shown(item.key);
-    mark_inherited(item, item.origin);
+    item.inherited = true;
+    mark_inherited(item);
   }
 }
 
@@ -34,11 +42,8 @@ inline void add_missing(ConfigNode& map, const ConfigNode& additions) {
 
 /// Replaces entries of a map by inherited ones, and adds those that it lacks. Maps in both are
 /// merged.
-/// @param file   name of the file
-/// @param path   of the map, keys from the top
 /// @param notes  receives a line on each value that has changed
 inline void replace_entries(ConfigNode& map, const ConfigNode& replacements,
-                            const std::string& file, const std::string& path,
                             std::vector<std::string>& notes) {
   for (const ConfigNode& item : replacements.items) {
     ConfigNode* same = map.find(item.key);
@@ -46,15 +51,13 @@ inline void replace_entries(ConfigNode& map, const ConfigNode& replacements,
       map.items.push_back(item);
       continue;
     }
-    const std::string here = same->origin.empty() ? path + "." + shown(item.key) : same->origin;
     if (same->is_map() && item.is_map()) {
-      replace_entries(*same, item, file, here, notes);
+      replace_entries(*same, item, notes);
       continue;
     }
     if (!same_value(*same, item)) {
-      notes.push_back(same->key_place(file, here).text() + "not used: " + item.origin +
-                      " in line " + std::to_string(item.key_mark.line) +
-                      " comes later and counts, as in ROS 2");
+      notes.push_back(same->key_place.text() + "not used: " + item.place.key + " in line " +
+                      std::to_string(item.key_place.line) + " comes later and counts, as in ROS 2");
     }
     *same = item;
   }
@@ -77,10 +80,11 @@ inline void insert_dotted(const FilePlace& place, ConfigNode& map, std::string_v
   if (is_new) {
     map.items.push_back({.kind = ConfigNode::Kind::map,
                          .key = std::string(first),
-                         .mark = item.mark,
-                         .key_mark = item.key_mark,
+                         .place = item.place,
+                         .key_place = item.key_place,
                          .value_names = item.value_names});
     same = &map.items.back();
+    same->place.key = same->key_place.key = path_in(map, first);
   }
   if (same->is_map() && inner) {
     insert_dotted(place, *same, key.substr(dot + 1), item, depth + 1);
@@ -92,9 +96,10 @@ inline void insert_dotted(const FilePlace& place, ConfigNode& map, std::string_v
     *same = item;
     same->key = first;
   } else {
+    FilePlace second = item.key_place;
+    second.key = place.key;
     throw FileError(
-        item.key_place(place.file, place.key),
-        "'" + shown(item.key) + "' is also in line " + std::to_string(same->key_mark.line),
+        second, "'" + shown(item.key) + "' is also in line " + std::to_string(same->key_place.line),
         "every key once");
   }
 }

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A YAML document as a tree of nodes with their places in the file.
+/// @file A YAML document as a tree of nodes, converted to the types that callers expect.
 #pragma once
 
+#include "articula/config/yaml/scalar.hpp"
+#include "articula/core/finite.hpp"
+#include "articula/text/characters.hpp"
 #include "articula/text/file_error.hpp"
+#include "articula/text/number_hint.hpp"
+#include "articula/text/placeholder.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <string>
@@ -13,30 +20,23 @@
 
 namespace articula::detail {
 
-/// Line and column in a file, both from 1.
-struct ConfigMark {
-  int line = 1;
-  int column = 1;
-};
-
-/// A scalar, list or map, or nothing. Maps keep the order of the file.
+/// A scalar, list or map, or nothing, with its place in the file. Maps keep the order of the file.
+/// Each conversion throws a FileError if the value has another type or is out of range.
 struct ConfigNode {
   enum class Kind : unsigned char { nothing, scalar, list, map };
 
   Kind kind = Kind::nothing;
-  bool quoted = false;     ///< a scalar in quotation marks: always text
-  std::string text{};      ///< of a scalar
-  std::string key{};       ///< in a map
-  std::string origin{};    ///< keys from the top, if the node comes from a section with wildcards
-  bool inherited = false;  ///< it comes from such a section
-  ConfigMark mark{};       ///< of the value
-  ConfigMark key_mark{};   ///< of the key
+  bool quoted = false;              ///< a scalar in quotation marks: always text
+  bool inherited = false;           ///< it comes from a section with wildcards
+  std::string text{};               ///< of a scalar
+  std::string key{};                ///< in a map
+  FilePlace place{};                ///< of the value
+  FilePlace key_place{};            ///< of the key
   std::string value_names{};        ///< values of the source, if a placeholder here has none
   std::vector<ConfigNode> items{};  ///< of a list or map
 
   [[nodiscard]] bool is_map() const noexcept { return kind == Kind::map; }
   [[nodiscard]] bool is_list() const noexcept { return kind == Kind::list; }
-  [[nodiscard]] bool is_inherited() const noexcept { return !origin.empty(); }
 
   /// The value of a key; none if there is no such key, or this is no map.
   [[nodiscard]] const ConfigNode* find(std::string_view wanted) const noexcept {
@@ -54,34 +54,122 @@ struct ConfigNode {
                        [&](std::string_view wanted) { return find(wanted) != nullptr; });
   }
 
-  /// The place of the key.
-  /// @param path  keys from the top
-  [[nodiscard]] FilePlace key_place(const std::string& file, const std::string& path) const {
-    return {file, key_mark.line, key_mark.column, path};
+  /// The node as a message names it.
+  [[nodiscard]] std::string named() const {
+    if (is_map()) return "a map";
+    if (is_list()) return "a list of " + std::to_string(items.size());
+    if (kind == Kind::nothing) return "nothing";
+    if (has_placeholder(text)) return placeholder_text(placeholder_in(text));
+    if (quoted) return "the quoted text '" + shown(text) + "'";
+    const ParsedNumber number = parse_number(text);
+    if (!number.is_number) return "the word " + quoted_text(text);
+    return "the number " + shown(text) +
+           (number.in_range ? "" : ", which is beyond the range of double");
+  }
+  [[noreturn]] void refuse(const std::string& reason, const std::string& expected) const {
+    throw FileError(place, reason, expected);
+  }
+  [[noreturn]] void refuse(const std::string& expected) const {
+    refuse(named(), expected + value_hint(text, value_names));
+  }
+
+  /// A finite number.
+  [[nodiscard]] double number() const {
+    const double value = number_or_infinity();
+    if (!is_finite(value)) refuse("a finite number");
+    return value;
+  }
+  [[nodiscard]] double number_or_infinity() const {
+    const ParsedNumber number = parsed();
+    if (!number.in_range || std::isnan(number.value)) refuse("a number" + hint());
+    return number.value;
+  }
+  [[nodiscard]] double not_negative() const {
+    const double value = number();
+    if (value < 0) refuse("a number >= 0");
+    return value;
+  }
+  [[nodiscard]] double positive() const {
+    const double value = number();
+    if (value <= 0) refuse("a number > 0");
+    return value;
+  }
+  [[nodiscard]] int integer(int lowest, int highest) const {
+    const ParsedNumber number = parsed();
+    const bool in_range = number.in_range && number.value >= lowest && number.value <= highest;
+    if (!in_range || number.value != std::floor(number.value)) {
+      refuse("a whole number from " + std::to_string(lowest) + " to " + std::to_string(highest) +
+             hint());
+    }
+    return static_cast<int>(number.value);
+  }
+  [[nodiscard]] bool truth() const {
+    const auto value = is_plain() ? as_truth(text) : std::nullopt;
+    if (!value) refuse("true or false");
+    return *value;
+  }
+  /// A text. Without quotation marks it must be neither a number nor a truth value.
+  [[nodiscard]] const std::string& word() const {
+    const bool is_word =
+        !parse_number(text).is_number && !as_truth(text) && odd_character_in(text).empty();
+    if (text.empty() || !(quoted || is_word)) refuse("a name");
+    return text;
+  }
+  /// A word without placeholders: the name of a link or joint.
+  [[nodiscard]] const std::string& name() const {
+    if (has_placeholder(word())) refuse("a name");
+    return text;
+  }
+  /// The index of this word among some words.
+  [[nodiscard]] std::size_t index_in(const std::vector<std::string>& words) const {
+    for (std::size_t k = 0; k < words.size(); ++k) {
+      if (kind == Kind::scalar && text == words[k]) return k;
+    }
+    refuse(named(), one_of_words(text, words));
+  }
+  [[nodiscard]] const std::vector<ConfigNode>& list() const {
+    if (!is_list()) {
+      const bool has_commas = is_plain() && text.find(',') != std::string::npos;
+      refuse(has_commas ? "a list in brackets, [" + shown(text) + "]" : "a list");
+    }
+    return items;
+  }
+
+ private:
+  [[nodiscard]] bool is_plain() const noexcept { return kind == Kind::scalar && !quoted; }
+  [[nodiscard]] ParsedNumber parsed() const {
+    return is_plain() ? parse_number(text) : ParsedNumber{};
+  }
+  /// How to correct a value that should be a number.
+  [[nodiscard]] std::string hint() const {
+    const bool is_number = parse_number(text).is_number;
+    if (quoted && is_number) return " without quotes";
+    if (!is_plain() || is_number) return "";
+    const bool is_infinity = is_one_of(text, {"inf", "infinity", "-inf", "-infinity"});
+    return is_infinity ? "; infinity is .inf" : number_hint(text);
   }
 };
 
-/// The number of nodes in a tree.
+/// The keys from the top to a value of a map.
+[[nodiscard]] inline std::string path_in(const ConfigNode& map, std::string_view key) {
+  return (map.place.key.empty() ? "" : map.place.key + ".") + shown(key);
+}
+
+/// Sets the file and the keys from the top in the places of a tree.
+inline void set_paths(ConfigNode& node, const std::string& file, const std::string& path) {
+  node.place.file = node.key_place.file = file;
+  node.place.key = node.key_place.key = path;
+  for (std::size_t k = 0; k < node.items.size(); ++k) {
+    ConfigNode& item = node.items[k];
+    set_paths(item, file,
+              node.is_list() ? path + "[" + std::to_string(k) + "]" : path_in(node, item.key));
+  }
+}
+
 [[nodiscard]] inline std::size_t node_count(const ConfigNode& node) noexcept {
   std::size_t count = 1;
   for (const ConfigNode& item : node.items) count += node_count(item);
   return count;
-}
-
-/// True if two trees have the same values.
-[[nodiscard]] inline bool same_value(const ConfigNode& a, const ConfigNode& b) noexcept {
-  return a.kind == b.kind && a.quoted == b.quoted && a.text == b.text &&
-         std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(),
-                    [](const ConfigNode& x, const ConfigNode& y) {
-                      return x.key == y.key && same_value(x, y);
-                    });
-}
-
-/// The number of levels of a tree.
-[[nodiscard]] inline std::size_t node_height(const ConfigNode& node) noexcept {
-  std::size_t height = 0;
-  for (const ConfigNode& item : node.items) height = std::max(height, node_height(item));
-  return height + 1;
 }
 
 }  // namespace articula::detail

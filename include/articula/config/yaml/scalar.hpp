@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file YAML's scalars: numbers, truth values and words, and their names in messages.
+/// @file YAML's scalars: numbers, truth values and words, and hints about them in messages.
 #pragma once
 
-#include "articula/config/yaml/node.hpp"
 #include "articula/text/characters.hpp"
-#include "articula/text/numbers.hpp"
 #include "articula/text/placeholder.hpp"
 
 #include <algorithm>
@@ -97,19 +95,6 @@ struct ParsedNumber {
   if (key.find(':') != std::string_view::npos) return "a blank behind the colon";
   if (key.find('=') != std::string_view::npos) return "a colon and a blank in place of '='";
   return "";
-}
-
-/// A node as a message names it.
-[[nodiscard]] inline std::string node_text(const ConfigNode& node) {
-  if (node.is_map()) return "a map";
-  if (node.is_list()) return "a list of " + std::to_string(node.items.size());
-  if (node.kind == ConfigNode::Kind::nothing) return "nothing";
-  if (has_placeholder(node.text)) return placeholder_text(placeholder_in(node.text));
-  if (node.quoted) return "the quoted text '" + shown(node.text) + "'";
-  const ParsedNumber number = parse_number(node.text);
-  if (!number.is_number) return "the word " + quoted_text(node.text);
-  return "the number " + shown(node.text) +
-         (number.in_range ? "" : ", which is beyond the range of double");
 }
 
 }  // namespace articula::detail

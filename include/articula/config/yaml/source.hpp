@@ -4,6 +4,7 @@
 
 #include "articula/text/text_source.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -32,12 +33,9 @@ class ConfigSource : public detail::TextSource {
 
   /// @param file    its name or path
   /// @param values  of placeholders
-  ConfigSource(const std::filesystem::path& file, ConfigValues values = {})  // NOLINT: a source
-      : TextSource(file.string()), values_(std::move(values)) {}
-  ConfigSource(const std::string& file, ConfigValues values = {})  // NOLINT: likewise
-      : TextSource(file), values_(std::move(values)) {}
-  ConfigSource(const char* file, ConfigValues values = {})  // NOLINT: likewise
-      : TextSource(file), values_(std::move(values)) {}
+  template <std::convertible_to<std::filesystem::path> File>
+  ConfigSource(const File& file, ConfigValues values = {})  // NOLINT: a file is a source
+      : TextSource(std::filesystem::path(file).string()), values_(std::move(values)) {}
 
   /// A source that is a string.
   /// @param yaml    the YAML

@@ -11,9 +11,9 @@ namespace articula {
 /// The numbers that must not jump when one command follows another: efforts, velocities or
 /// positions; of a MultiModeCommand the whole effort that it makes at the measured state. N x 1.
 /// Real-time: yes.
-template <int N, JointCommand<N> Command>
-[[nodiscard]] JointVector<N> numbers_of(const Command& command,
-                                        const JointState<N>& state) noexcept {
+template <int N, class S, JointCommand<N, S> Command>
+[[nodiscard]] JointVector<N, S> numbers_of(const Command& command,
+                                           const JointState<N, S>& state) noexcept {
   if constexpr (requires { command.stiffness; }) {
     return spring_pull(command, state) + command.effort;
   } else {

@@ -4,10 +4,10 @@
 
 #include "articula/core/joint_array.hpp"
 #include "articula/core/joint_command.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
-#include <concepts>
 #include <limits>
 
 namespace articula::detail {
@@ -18,8 +18,9 @@ struct CommandRange {
   JointArray<double, N> lowest{}, highest{};
 
   /// The nearest value in the range of a joint. A NaN stays one. Real-time: yes.
-  [[nodiscard]] double clamp(double value, int joint) const noexcept {
-    return std::clamp(value, lowest[joint], highest[joint]);
+  template <class S>
+  [[nodiscard]] S clamp(const S& value, int joint) const noexcept {
+    return articula::clamp(value, lowest[joint], highest[joint]);
   }
 };
 
@@ -32,10 +33,11 @@ template <class Command, Robot R>
   CommandRange<joint_count<R>> range;
   for (int j = 0; j < joint_count<R>; ++j) {
     const JointLimits& limits = model_of(robot).joints[j].limits;
-    double lowest = limits.lower, highest = limits.upper;
-    if constexpr (!std::same_as<Command, PositionCommand<joint_count<R>>>) {
-      highest = requires(Command command) { command.effort; } ? limits.effort : limits.velocity;
-      lowest = -highest;
+    double highest = limits.upper, lowest = limits.lower;
+    if constexpr (requires(Command command) { command.effort; }) {
+      lowest = -(highest = limits.effort);
+    } else if constexpr (requires(Command command) { command.velocity; }) {
+      lowest = -(highest = limits.velocity);
     }
     range.lowest[j] = std::max(lowest, -largest);
     range.highest[j] = std::min(highest, largest);

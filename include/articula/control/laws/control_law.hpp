@@ -11,15 +11,15 @@ namespace articula {
 
 namespace detail {
 
-template <class L, int N>
-concept StartsLaw = requires(L& law, const ControlInput<N>& input) {
+template <class L, int N, class S = double>
+concept StartsLaw = requires(L& law, const ControlInput<N, S>& input) {
   { law.start(input) } noexcept;
 };
 
 /// A law whose memory can begin with a command: `start` returns its share.
-template <class L, int N>
-concept SharesApplied = requires(L& law, const ControlInput<N>& input) {
-  { law.start(input) } noexcept -> std::convertible_to<JointVector<N>>;
+template <class L, int N, class S = double>
+concept SharesApplied = requires(L& law, const ControlInput<N, S>& input) {
+  { law.start(input) } noexcept -> std::convertible_to<JointVector<N, S>>;
 };
 
 }  // namespace detail
@@ -44,9 +44,10 @@ concept SharesApplied = requires(L& law, const ControlInput<N>& input) {
 /// For a term that is a whole controller, see Controller.
 /// @tparam L  the law
 /// @tparam N  number of joints
-template <class L, int N>
-concept ControlLaw = requires(L& law, const ControlInput<N>& input) {
-  { law.output(input) } noexcept -> std::convertible_to<JointVector<N>>;
-} && (detail::StartsLaw<L, N> || !requires { &L::start; });
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <class L, int N, class S = double>
+concept ControlLaw = requires(L& law, const ControlInput<N, S>& input) {
+  { law.output(input) } noexcept -> std::convertible_to<JointVector<N, S>>;
+} && (detail::StartsLaw<L, N, S> || !requires { &L::start; });
 
 }  // namespace articula

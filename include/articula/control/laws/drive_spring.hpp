@@ -13,9 +13,9 @@ namespace articula {
 
 /// The effort of springs and dampers at a measured state: K (q_ref - q) + D (v_ref - v), without the
 /// commanded effort [N m or N], N x 1. Real-time: yes.
-template <int N>
-[[nodiscard]] JointVector<N> spring_pull(const MultiModeCommand<N>& command,
-                                         const JointState<N>& state) noexcept {
+template <int N, class S>
+[[nodiscard]] JointVector<N, S> spring_pull(const MultiModeCommand<N, S>& command,
+                                            const JointState<N, S>& state) noexcept {
   return command.stiffness.cwiseProduct(command.position - state.position) +
          command.damping.cwiseProduct(command.velocity - state.velocity);
 }

@@ -10,24 +10,25 @@ namespace articula {
 /// feed-forward.
 /// @tparam N       number of joints
 /// @tparam Member  which one, in the unit of the command
-template <int N, JointVector<N> JointReference<N>::* Member>
+/// @tparam S       type of a number: double, or a pack with the numbers of several robots
+template <int N, auto Member, class S = double>
 struct Feedforward {
   /// The reference's member, N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) const noexcept {
+  [[nodiscard]] JointVector<N, S> output(const ControlInput<N, S>& in) const noexcept {
     return in.reference.*Member;
   }
 };
 
 /// The effort that the reference asks for.
-template <int N>
-using EffortFeedforward = Feedforward<N, &JointReference<N>::effort>;
+template <int N, class S = double>
+using EffortFeedforward = Feedforward<N, &JointReference<N, S>::effort, S>;
 
 /// The velocity that the reference asks for, in a controller of velocity drives.
-template <int N>
-using VelocityFeedforward = Feedforward<N, &JointReference<N>::velocity>;
+template <int N, class S = double>
+using VelocityFeedforward = Feedforward<N, &JointReference<N, S>::velocity, S>;
 
 /// The position that the reference asks for, in a controller of position drives.
-template <int N>
-using PositionFeedforward = Feedforward<N, &JointReference<N>::position>;
+template <int N, class S = double>
+using PositionFeedforward = Feedforward<N, &JointReference<N, S>::position, S>;
 
 }  // namespace articula

@@ -10,7 +10,8 @@ namespace articula {
 /// Cancels the joints' own damping and Coulomb friction at the measured velocity: effort = D v + f
 /// sign(v). Source: [Siciliano et al. 2009, equation 8.56], where it is part of n(q, v).
 /// @tparam R  the robot
-template <Robot R>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
 class FrictionCompensation {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
@@ -21,8 +22,8 @@ class FrictionCompensation {
   explicit FrictionCompensation(const R& robot) : robot_(robot) {}
 
   /// D v + f sign(v) [N m or N], N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<joint_count> output(
-      const ControlInput<joint_count>& in) const noexcept {
+  [[nodiscard]] JointVector<joint_count, S> output(
+      const ControlInput<joint_count, S>& in) const noexcept {
     return -friction_effort(robot_, in.state.velocity);
   }
 

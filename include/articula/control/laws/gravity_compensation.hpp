@@ -4,14 +4,15 @@
 
 #include "articula/core/control_input.hpp"
 #include "articula/dynamics/gravity.hpp"
-#include "articula/model/dynamic_robot.hpp"
+#include "articula/model/robot.hpp"
 
 namespace articula {
 
 /// Holds the robot against gravity at its measured position: effort = g(q). Alone it lets the robot
 /// float.
 /// @tparam R  the robot
-template <Robot R>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class S = double>
 class GravityCompensation {
   static_assert(detail::has_masses<R, GravityCompensation>);
 
@@ -24,8 +25,8 @@ class GravityCompensation {
   explicit GravityCompensation(const R& robot) : robot_(robot) {}
 
   /// g(q) [N m or N], N x 1. Real-time: yes.
-  [[nodiscard]] JointVector<joint_count> output(
-      const ControlInput<joint_count>& in) const noexcept {
+  [[nodiscard]] JointVector<joint_count, S> output(
+      const ControlInput<joint_count, S>& in) const noexcept {
     return gravity(robot_, in.state.position);
   }
 

@@ -5,6 +5,7 @@
 #include "articula/control/laws/pid_gains.hpp"
 #include "articula/core/control_input.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/scalar.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,19 @@
 namespace articula {
 
 /// The input of one joint's PID in a cycle.
-struct PidInput {
-  double error = 0;                   ///< e = r - y, of the variable that is controlled
-  double measured = 0;                ///< y
-  double rate_error = 0;              ///< c r' - y', of measured y', if that is so
-  bool rate_is_measured = true;       ///< else the derivative is made of differences
-  double velocity_reference = 0;      ///< v_ref, for the feed-forward
-  double acceleration_reference = 0;  ///< a_ref, for the feed-forward
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <class S>
+struct BasicPidInput {
+  S error = 0;                   ///< e = r - y, of the variable that is controlled
+  S measured = 0;                ///< y
+  S rate_error = 0;              ///< c r' - y', of measured y', if that is so
+  bool rate_is_measured = true;  ///< else the derivative is made of differences
+  S velocity_reference = 0;      ///< v_ref, for the feed-forward
+  S acceleration_reference = 0;  ///< a_ref, for the feed-forward
 };
+
+/// The input of one joint's PID of one robot.
+using PidInput = BasicPidInput<double>;
 
 /// The PID law of one joint, with all that its gains can ask for. In cycle k, dt after the last
 /// one,
@@ -48,12 +54,17 @@ struct PidInput {
 ///
 /// or conditional integration: the last step of an integral that pushed further is taken back.
 /// Source: [Åström, Hägglund 2006, sections 3.3 to 3.5].
-class JointPid {
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots, which have the
+///            same gains
+template <class S>
+class BasicJointPid {
  public:
+  using Input = BasicPidInput<S>;
+
   /// Forgets the past: the integral is 0. Real-time: yes.
   void start() noexcept {
     integral_ = previous_integral_ = rate_ = 0;
-    past_ = Past::none;
+    begun_ = gap_ = mask_of<S>(false);
   }
 
   /// The slowest integral that begins with what may have been a push, see `prime` [s].
@@ -65,10 +76,10 @@ class JointPid {
   /// than ten seconds and the output may have been a push. It stays 0 without an integral gain, and
   /// with an output that is not finite, too. Real-time: yes.
   /// @param held  push or load
-  void prime(const PidGains& g, double output, Held held) noexcept {
+  void prime(const PidGains& g, const S& output, Held held) noexcept {
     const bool soon = g.proportional <= slowest_primed * g.integral;
-    if (g.integral == 0 || (held != Held::load && !soon) || !is_finite(output)) return;
-    set_integral(g, output);
+    if (g.integral == 0 || (held != Held::load && !soon)) return;
+    set_integral(g, select(is_finite(output), output, integral_));
     previous_integral_ = integral_;
   }
 
@@ -79,51 +90,54 @@ class JointPid {
   /// @param turn    what the error is counted modulo: 2 pi for a joint that turns for ever, 0:
   ///                nothing
   /// Real-time: yes.
-  [[nodiscard]] double update(const PidGains& g, const PidInput& in, double period,
-                              double turn = 0) noexcept {
-    if (past_ == Past::none) {
-      origin_ = last_measured_ = in.measured;
-      last_error_ = in.error;
+  [[nodiscard]] S update(const PidGains& g, const Input& in, double period,
+                         double turn = 0) noexcept {
+    using std::abs;
+    if (!all_of(begun_)) {
+      replace_where(!begun_, origin_, in.measured);
+      replace_where(!begun_, last_measured_, in.measured);
+      replace_where(!begun_, last_error_, in.error);
     }
-    const double rate = filtered(g, rate_of(g, in, period, turn), period);
+    const S rate = filtered(g, rate_of(g, in, period, turn), period);
     period_ = period;
     // The clamps may be new.
-    integral_ = std::clamp(integral_, g.integral_clamp_min, g.integral_clamp_max);
+    integral_ = clamp(integral_, g.integral_clamp_min, g.integral_clamp_max);
     previous_integral_ = integral_;
-    if (!(std::abs(in.error) <= g.error_deadband)) {
-      set_integral(g, integral_ + g.integral * in.error * period);
+    S next = integral_ + g.integral * in.error * period;
+    replace_where(abs(in.error) <= g.error_deadband, next, integral_);
+    set_integral(g, next);
+    const S proportional = weighted(g.position_weight, in.error, in.measured - origin_);
+    const S output = g.proportional * proportional + integral_ + g.derivative * rate +
+                     g.velocity_feedforward * in.velocity_reference +
+                     g.acceleration_feedforward * in.acceleration_reference;
+    const S within = clamp(output, g.output_clamp_min, g.output_clamp_max);
+    const S excess = output - within;
+    if (any_of(excess != 0)) {  // also where it is NaN
+      if (!all_of(is_finite(output))) return overflown(g, in, rate, output, period);
+      limit_windup(g, excess);
     }
-    const double proportional = weighted(g.position_weight, in.error, in.measured - origin_);
-    const double output = g.proportional * proportional + integral_ + g.derivative * rate +
-                          g.velocity_feedforward * in.velocity_reference +
-                          g.acceleration_feedforward * in.acceleration_reference;
-    const double within = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
-    const double excess = output - within;
-    const bool unusual = excess != 0;  // also where it is NaN
-    if (unusual && !is_finite(output)) return overflown(g, in, rate, period);
     remember(in, period);
-    if (unusual) limit_windup(g, excess);
     return within;
   }
 
   /// Keeps the integral from winding up when an output was cut off (anti-windup).
-  /// @param excess  the output minus what was left of it; that of an overflow may be anything
+  /// @param excess  the output minus what was left of it; that of an overflow may be anything; 0
+  ///                changes nothing
   /// Real-time: yes.
-  void limit_windup(const PidGains& g, double excess) noexcept {
-    if (!is_finite(excess)) {
-      integral_ = previous_integral_;
-    } else if (g.anti_windup == AntiWindup::conditional_integration) {
-      const bool pushes_further = (excess > 0 && integral_ > previous_integral_) ||
-                                  (excess < 0 && integral_ < previous_integral_);
-      if (pushes_further) integral_ = previous_integral_;
+  void limit_windup(const PidGains& g, const S& excess) noexcept {
+    if (g.anti_windup == AntiWindup::conditional_integration) {
+      const auto rises = integral_ > previous_integral_, falls = integral_ < previous_integral_;
+      const auto above = excess > 0, below = excess < 0;
+      replace_where((above & rises) | (below & falls), integral_, previous_integral_);
     } else if (g.anti_windup == AntiWindup::back_calculation && g.integral != 0) {
       // A step beyond T_t would overshoot what it is to follow.
       set_integral(g, integral_ - std::min(1.0, period_ / tracking_time(g)) * excess);
     }
+    replace_where(!is_finite(excess), integral_, previous_integral_);
   }
 
   /// The integral term I [output]. Real-time: yes.
-  [[nodiscard]] double integral() const noexcept { return integral_; }
+  [[nodiscard]] const S& integral() const noexcept { return integral_; }
 
   /// T_t [s] of back-calculation. Real-time: yes.
   [[nodiscard]] static double tracking_time(const PidGains& g) noexcept {
@@ -134,95 +148,107 @@ class JointPid {
 
   /// The difference of two angles, the short way round. Real-time: yes.
   /// @param turn  a full turn; 0: the difference as it is
-  [[nodiscard]] static double short_way(double difference, double turn) noexcept {
-    return turn > 0 ? std::remainder(bounded(1, difference), turn) : difference;
+  [[nodiscard]] static S short_way(const S& difference, double turn) noexcept {
+    if (!(turn > 0)) return difference;
+    S rest = bounded(1, difference);
+    for (int k = 0; k < lanes<S>; ++k) {
+      set_lane(rest, k, std::remainder(lane_of(rest, k), turn));
+    }
+    return rest;
   }
 
  private:
-  /// What is known of the cycle before.
-  enum class Past : unsigned char {
-    none,   ///< there was no good input since the start
-    gap,    ///< its input was no number: a difference from before tells nothing
-    known,  ///< its error and its measured value
-  };
-
   /// A product that has overflowed, or one of its factors, as a number that leaves room for sums. A
   /// NaN stays one.
-  [[nodiscard]] static double bounded(double factor, double value) noexcept {
+  [[nodiscard]] static S bounded(double factor, const S& value) noexcept {
     constexpr double huge = 1e300;
-    return std::clamp(factor * std::clamp(value, -huge, huge), -huge, huge);
+    return clamp(factor * clamp(value, -huge, huge), -huge, huge);
   }
 
   /// weight r - y = weight e - (1 - weight) y.
-  [[nodiscard]] static double weighted(double weight, double error, double measured) noexcept {
+  [[nodiscard]] static S weighted(double weight, const S& error, const S& measured) noexcept {
     return weight == 1 ? error : weight * error - (1 - weight) * measured;
   }
 
-  void remember(const PidInput& in, double period) noexcept {
+  void remember(const Input& in, double period) noexcept {
     if (period > 0) {
       last_error_ = in.error;
       last_measured_ = in.measured;
     }
-    past_ = Past::known;
+    begun_ = mask_of<S>(true);
+    gap_ = mask_of<S>(false);
   }
 
-  /// The output where the sum of terms is no number: of inputs that are none, or of an overflow.
-  [[nodiscard, gnu::cold]] double overflown(const PidGains& g, const PidInput& in, double rate,
-                                            double period) noexcept {
-    const bool is_difference =
-        !in.rate_is_measured || g.derivative_of != DerivativeOf::measured_velocity;
-    if (is_difference && !is_finite(rate)) rate = rate_;
-    const double b = g.position_weight;
-    const double proportional =
-        bounded(b, in.error) - (b == 1 ? 0 : bounded(1 - b, in.measured - origin_));
-    if (is_finite(in.error) && is_finite(in.measured)) {
-      remember(in, period);
-    } else if (past_ == Past::known) {
-      past_ = Past::gap;
+  /// The output where a sum of terms is no number: of inputs that are none, or of an overflow.
+  /// @param sum  of the terms, which stays where it is finite
+  [[nodiscard, gnu::cold, gnu::noinline]] S overflown(const PidGains& g, const Input& in, S rate,
+                                                      const S& sum, double period) noexcept {
+    if (!in.rate_is_measured || g.derivative_of != DerivativeOf::measured_velocity) {
+      replace_where(!is_finite(rate), rate, rate_);
     }
-    const double output = bounded(g.proportional, proportional) + bounded(1, integral_) +
-                          bounded(g.derivative, rate) +
+    const double b = g.position_weight;
+    const S measured = b == 1 ? S(0) : bounded(1 - b, in.measured - origin_);
+    const S bounded_sum = bounded(g.proportional, bounded(b, in.error) - measured) +
+                          bounded(1, integral_) + bounded(g.derivative, rate) +
                           bounded(g.velocity_feedforward, in.velocity_reference) +
                           bounded(g.acceleration_feedforward, in.acceleration_reference);
-    const double within = std::clamp(output, g.output_clamp_min, g.output_clamp_max);
-    if (within != output) limit_windup(g, output - within);
+    const auto usual = is_finite(sum);
+    const S output = select(usual, sum, bounded_sum);
+    const S within = clamp(output, g.output_clamp_min, g.output_clamp_max);
+    limit_windup(g, output - within);
+
+    const auto has_error = is_finite(in.error), has_value = is_finite(in.measured);
+    const MaskOf<S> known = usual | (has_error & has_value), begun = begun_;
+    Input last = in;
+    replace_where(!known, last.error, last_error_);
+    replace_where(!known, last.measured, last_measured_);
+    remember(last, period);
+    gap_ = begun & !known;
+    begun_ = begun | known;
     return within;
   }
 
-  [[nodiscard]] double rate_of(const PidGains& g, const PidInput& in, double period,
-                               double turn) const noexcept {
+  [[nodiscard]] S rate_of(const PidGains& g, const Input& in, double period,
+                          double turn) const noexcept {
     if (in.rate_is_measured && g.derivative_of == DerivativeOf::measured_velocity) {
       return in.rate_error;
     }
-    if (!(period > 0) || past_ == Past::gap) return rate_;
+    if (!(period > 0)) return rate_;
     const double weight = g.derivative_of == DerivativeOf::error ? g.velocity_weight : 0;
-    return weighted(weight, short_way(in.error - last_error_, turn), in.measured - last_measured_) /
-           period;
+    const S error = short_way(in.error - last_error_, turn);
+    return select(gap_, rate_, weighted(weight, error, in.measured - last_measured_) / period);
   }
 
-  [[nodiscard]] double filtered(const PidGains& g, double rate, double period) noexcept {
+  [[nodiscard]] S filtered(const PidGains& g, const S& rate, double period) noexcept {
     const double time = g.derivative_filter_time;
-    if (time > 0 && !(period > 0)) return rate_;
-    const bool unfiltered = past_ == Past::none || !(time > 0) || !is_finite(rate);
-    const double next = unfiltered ? rate : rate_ + period / (time + period) * (rate - rate_);
-    if (is_finite(next)) rate_ = next;  // an overflow is not to be remembered
+    S next = rate;
+    if (time > 0) {
+      if (!(period > 0)) return rate_;
+      const auto filters = begun_ & is_finite(rate);
+      next = select(filters, rate_ + period / (time + period) * (rate - rate_), rate);
+    }
+    replace_where(is_finite(next), rate_, next);  // an overflow is not to be remembered
     return next;
   }
 
   /// A step that overflows is not taken.
-  void set_integral(const PidGains& g, double next) noexcept {
-    next = std::clamp(next, g.integral_clamp_min, g.integral_clamp_max);
-    if (is_finite(next)) integral_ = next;
+  void set_integral(const PidGains& g, S next) noexcept {
+    next = clamp(next, g.integral_clamp_min, g.integral_clamp_max);
+    replace_where(is_finite(next), integral_, next);
   }
 
-  double integral_ = 0;           ///< I [output]
-  double previous_integral_ = 0;  ///< I before the last step [output]
-  double rate_ = 0;               ///< D
-  double last_error_ = 0;
-  double last_measured_ = 0;
-  double origin_ = 0;  ///< y at the start
-  double period_ = 0;  ///< dt of the last update [s]
-  Past past_ = Past::none;
+  S integral_ = 0;           ///< I [output]
+  S previous_integral_ = 0;  ///< I before the last step [output]
+  S rate_ = 0;               ///< D
+  S last_error_ = 0;
+  S last_measured_ = 0;
+  S origin_ = 0;                         ///< y at the start
+  MaskOf<S> begun_ = mask_of<S>(false);  ///< there was a good input since the start
+  MaskOf<S> gap_ = mask_of<S>(false);    ///< the last one was no number: differences tell nothing
+  double period_ = 0;                    ///< dt of the last update [s]
 };
+
+/// The PID law of one joint of one robot.
+using JointPid = BasicJointPid<double>;
 
 }  // namespace articula

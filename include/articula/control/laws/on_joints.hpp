@@ -22,7 +22,9 @@ namespace articula {
 ///
 /// @tparam N    number of joints of the robot
 /// @tparam Law  for all N joints
-template <int N, ControlLaw<N> Law>
+/// @tparam S    type of a number: double, or a pack with the numbers of several robots
+template <int N, class Law, class S = double>
+  requires ControlLaw<Law, N, S>
 class OnJoints {
  public:
   /// @param robot   whose joints these are
@@ -45,12 +47,12 @@ class OnJoints {
   /// Starts the law with what was applied on its joints.
   /// @return  the law's share of that, N x 1, if it has one
   /// Real-time: yes, if the law's is.
-  auto start(const ControlInput<N>& in) noexcept
-    requires detail::StartsLaw<Law, N>
+  auto start(const ControlInput<N, S>& in) noexcept
+    requires detail::StartsLaw<Law, N, S>
   {
-    const ControlInput<N> own{
+    const ControlInput<N, S> own{
         in.state, in.reference, in.period, {chosen(in.applied.numbers), in.applied.held}};
-    if constexpr (detail::SharesApplied<Law, N>) {
+    if constexpr (detail::SharesApplied<Law, N, S>) {
       return chosen(law_.start(own));
     } else {
       law_.start(own);
@@ -58,7 +60,7 @@ class OnJoints {
   }
 
   /// The law's output on its joints, 0 on the others, N x 1. Real-time: yes, if the law's is.
-  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) noexcept {
+  [[nodiscard]] JointVector<N, S> output(const ControlInput<N, S>& in) noexcept {
     return chosen(law_.output({in.state, in.reference, in.period, in.applied, chosen(in.cut)}));
   }
 
@@ -71,11 +73,12 @@ class OnJoints {
 
   /// Calls function(law, scope).
   void for_each_part(auto&& function) const { function(law_, PartScope<N>{.joints = chosen_}); }
+  void for_each_part(auto&& function) { function(law_, PartScope<N>{.joints = chosen_}); }
 
  private:
   /// The values of the law's joints; a NaN of another joint does not get through.
-  [[nodiscard]] JointVector<N> chosen(const JointVector<N>& values) const noexcept {
-    return (chosen_.array() != 0).select(values, JointVector<N>::Zero());
+  [[nodiscard]] JointVector<N, S> chosen(const JointVector<N, S>& values) const noexcept {
+    return for_each_joint<N, S>([&](int j) noexcept { return chosen_[j] != 0 ? values[j] : S(0); });
   }
 
   Law law_;

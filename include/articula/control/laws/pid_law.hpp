@@ -32,7 +32,9 @@ enum class PidOf : unsigned char {
 /// @tparam N         number of joints
 /// @tparam Variable  what is controlled; gains are per rad/s instead of rad where it is the
 ///                   velocity
-template <int N, PidOf Variable = PidOf::position>
+/// @tparam S         type of a number: double, or a pack with the numbers of several robots, which
+///                   have the same gains
+template <int N, PidOf Variable = PidOf::position, class S = double>
 class PidLaw {
  public:
   /// For joints that have two ends.
@@ -61,14 +63,14 @@ class PidLaw {
   /// integral could not take that back soon begin with 0, see JointPid::prime.
   /// @return  the integral terms and feed-forwards if a command was applied, else 0, N x 1
   /// Real-time: yes. O(N).
-  JointVector<N> start(const ControlInput<N>& in) noexcept {
-    JointVector<N> share = JointVector<N>::Zero();
+  JointVector<N, S> start(const ControlInput<N, S>& in) noexcept {
+    JointVector<N, S> share = JointVector<N, S>::Zero();
     for (int j = 0; j < N; ++j) {
       pids_[j].start();
       if (!in.applied.reached_drives()) continue;
       const PidGains& g = gains_[j];
-      const double feedforward = g.velocity_feedforward * in.reference.velocity[j] +
-                                 g.acceleration_feedforward * in.reference.acceleration[j];
+      const S feedforward = g.velocity_feedforward * in.reference.velocity[j] +
+                            g.acceleration_feedforward * in.reference.acceleration[j];
       pids_[j].prime(g, in.applied.numbers[j] - feedforward, in.applied.held);
       share[j] = pids_[j].integral() + feedforward;
     }
@@ -80,16 +82,17 @@ class PidLaw {
   /// @param in  position and velocity of state and reference are used, and the reference's
   ///            acceleration by a feed-forward gain
   /// Real-time: yes. O(N).
-  [[nodiscard]] JointVector<N> output(const ControlInput<N>& in) noexcept {
-    JointVector<N> output;
+  [[nodiscard, gnu::always_inline]] JointVector<N, S> output(
+      const ControlInput<N, S>& in) noexcept {
+    JointVector<N, S> output;
     for (int j = 0; j < N; ++j) {
       const PidGains& g = gains_[j];
-      if (in.cut[j] != 0) pids_[j].limit_windup(g, in.cut[j]);
-      const double q = in.state.position[j], v = in.state.velocity[j];
-      PidInput input{.velocity_reference = in.reference.velocity[j],
-                     .acceleration_reference = in.reference.acceleration[j]};
+      if (any_of(in.cut[j] != 0)) pids_[j].limit_windup(g, in.cut[j]);
+      const S &q = in.state.position[j], &v = in.state.velocity[j];
+      BasicPidInput<S> input{.velocity_reference = in.reference.velocity[j],
+                             .acceleration_reference = in.reference.acceleration[j]};
       if constexpr (Variable == PidOf::position) {
-        input.error = JointPid::short_way(in.reference.position[j] - q, turns_[j]);
+        input.error = BasicJointPid<S>::short_way(in.reference.position[j] - q, turns_[j]);
         input.measured = q;
         input.rate_error = g.velocity_weight * in.reference.velocity[j] - v;
       } else {
@@ -118,8 +121,8 @@ class PidLaw {
 
   /// The integral terms I in the last output [output], N x 1. Anti-windup changes them at the next
   /// output. Real-time: yes.
-  [[nodiscard]] JointVector<N> integral() const noexcept {
-    JointVector<N> terms;
+  [[nodiscard]] JointVector<N, S> integral() const noexcept {
+    JointVector<N, S> terms;
     for (int j = 0; j < N; ++j) terms[j] = pids_[j].integral();
     return terms;
   }
@@ -128,7 +131,7 @@ class PidLaw {
   explicit PidLaw(const ValidPidGains<N>& gains) : gains_(gains) {}
 
   ValidPidGains<N> gains_;
-  JointArray<JointPid, N> pids_{};
+  JointArray<BasicJointPid<S>, N> pids_{};
   JointArray<double, N> turns_{};  ///< a full turn [rad], or 0
 };
 

@@ -26,14 +26,17 @@ namespace articula {
 /// The laws learn in the next cycle what was cut off from the total. For limits of motion see
 /// Limited, for different control modes Switch.
 /// @tparam R     the robot
-/// @tparam C     an EffortCommand, VelocityCommand or PositionCommand
+/// @tparam C     an EffortCommand, VelocityCommand or PositionCommand, over the laws' scalar
 /// @tparam Laws  the summands
-template <Robot R, JointCommand<joint_count<R>> C, ControlLaw<joint_count<R>>... Laws>
+template <Robot R, class C, class... Laws>
+  requires(ControlLaw<Laws, joint_count<R>, typename detail::CommandScalar<C>::Type> && ...)
 class SumController {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using Command = C;
-  using Input = ControlInput<joint_count>;
+  using Scalar = typename detail::CommandScalar<C>::Type;
+  using Input = ControlInput<joint_count, Scalar>;
+  static_assert(JointCommand<C, joint_count, Scalar>);
 
   /// @param robot  whose limits hold
   /// @param laws   ready for use
@@ -48,7 +51,7 @@ class SumController {
     Input rest{in.state, in.reference, in.period, in.applied};
     for_each_law([&](auto& law) noexcept {
       using Law = std::remove_reference_t<decltype(law)>;
-      if constexpr (!detail::SharesApplied<Law, joint_count>) {
+      if constexpr (!detail::SharesApplied<Law, joint_count, Scalar>) {
         start_law(law, in);
         if (!in.applied.reached_drives()) return;
         rest.applied.numbers -= law.output(Input{in.state, in.reference, in.period});
@@ -57,7 +60,7 @@ class SumController {
     });
     for_each_law([&](auto& law) noexcept {
       using Law = std::remove_reference_t<decltype(law)>;
-      if constexpr (detail::SharesApplied<Law, joint_count>)
+      if constexpr (detail::SharesApplied<Law, joint_count, Scalar>)
         rest.applied.numbers -= law.start(rest);
     });
   }
@@ -90,6 +93,9 @@ class SumController {
   void for_each_part(auto&& function) const {
     std::apply([&](const auto&... law) { (function(law), ...); }, laws_);
   }
+  void for_each_part(auto&& function) {
+    std::apply([&](auto&... law) { (function(law), ...); }, laws_);
+  }
 
   /// One of the laws, by its type.
   template <class Law>
@@ -98,11 +104,11 @@ class SumController {
   }
 
  private:
-  using Vector = JointVector<joint_count>;
+  using Vector = JointVector<joint_count, Scalar>;
 
   template <class Law>
   static void start_law(Law& law, const Input& in) noexcept {
-    if constexpr (detail::StartsLaw<Law, joint_count>) law.start(in);
+    if constexpr (detail::StartsLaw<Law, joint_count, Scalar>) law.start(in);
   }
 
   void for_each_law(auto function) noexcept {

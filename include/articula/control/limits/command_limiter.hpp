@@ -11,7 +11,9 @@
 #include "articula/core/joint_command.hpp"
 
 #include <cmath>
+#include <concepts>
 #include <limits>
+#include <type_traits>
 
 namespace articula::detail {
 
@@ -27,10 +29,14 @@ class CommandLimiter;
 /// The request at which the steps of single joints and of efforts brake.
 inline constexpr double no_request = std::numeric_limits<double>::quiet_NaN();
 
-template <Robot R>
-class CommandLimiter<R, PositionCommand<joint_count<R>>> {
+/// For positions and velocities, each joint by itself.
+template <Robot R, class Command>
+  requires(!requires(Command command) { command.effort; })
+class CommandLimiter<R, Command> {
   static constexpr int N = joint_count<R>;
+  static constexpr bool of_positions = std::same_as<Command, PositionCommand<N>>;
   using Vector = JointVector<N>;
+  using State = std::conditional_t<of_positions, PositionLimitState, StoppingMotion>;
 
  public:
   CommandLimiter(const R&, const CommandLimits<N>& kept) : limits(kept) {}
@@ -41,64 +47,38 @@ class CommandLimiter<R, PositionCommand<joint_count<R>>> {
                               in.period)};
     }
   }
-  Vector limit(const ControlInput<N>& in, PositionCommand<N>& command,
-               LimitReport<N>& report) noexcept {
+  Vector limit(const ControlInput<N>& in, Command& command, LimitReport<N>& report) noexcept {
+    Vector numbers = values_of(command);
     for (int j = 0; j < N; ++j) {
-      const PositionStep step =
-          limit_position(states_[j], command.position[j], limits.of_joint(j), in.period);
-      states_[j] = step.next;
-      report[j] = step.report;
-      command.position[j] = step.next.stop.motion().position;
+      const JointCommandLimits own = limits.of_joint(j);
+      if constexpr (of_positions) {
+        const PositionStep step = limit_position(states_[j], numbers[j], own, in.period);
+        take(step, step.next.stop.motion().position, j, numbers, report);
+      } else {
+        const MotionStep step =
+            limit_velocity(states_[j], in.state.position[j], numbers[j], own, in.period);
+        take(step, step.next.motion().velocity, j, numbers, report);
+      }
     }
-    return command.position;
+    command = {numbers};
+    return numbers;
   }
-  Vector brake(const ControlInput<N>& in, PositionCommand<N>& command,
-               LimitReport<N>& report) noexcept {
-    command.position.setConstant(no_request);
+  Vector brake(const ControlInput<N>& in, Command& command, LimitReport<N>& report) noexcept {
+    command = {Vector::Constant(no_request)};
     return limit(in, command, report);
   }
 
   CommandLimits<N> limits;
 
  private:
-  JointArray<PositionLimitState, N> states_{};
-};
-
-template <Robot R>
-class CommandLimiter<R, VelocityCommand<joint_count<R>>> {
-  static constexpr int N = joint_count<R>;
-  using Vector = JointVector<N>;
-
- public:
-  CommandLimiter(const R&, const CommandLimits<N>& kept) : limits(kept) {}
-
-  void start(const ControlInput<N>& in) noexcept {
-    for (int j = 0; j < N; ++j) {
-      states_[j] =
-          stop_from({in.state.position[j], in.state.velocity[j], 0}, limits.of_joint(j), in.period);
-    }
-  }
-  Vector limit(const ControlInput<N>& in, VelocityCommand<N>& command,
-               LimitReport<N>& report) noexcept {
-    for (int j = 0; j < N; ++j) {
-      const MotionStep step = limit_velocity(states_[j], in.state.position[j], command.velocity[j],
-                                             limits.of_joint(j), in.period);
-      states_[j] = step.next;
-      report[j] = step.report;
-      command.velocity[j] = step.next.motion().velocity;
-    }
-    return command.velocity;
-  }
-  Vector brake(const ControlInput<N>& in, VelocityCommand<N>& command,
-               LimitReport<N>& report) noexcept {
-    command.velocity.setConstant(no_request);
-    return limit(in, command, report);
+  void take(const auto& step, double number, int joint, Vector& numbers,
+            LimitReport<N>& report) noexcept {
+    states_[joint] = step.next;
+    report[joint] = step.report;
+    numbers[joint] = number;
   }
 
-  CommandLimits<N> limits;
-
- private:
-  JointArray<StoppingMotion, N> states_{};
+  JointArray<State, N> states_{};
 };
 
 /// For commands that contain efforts.

@@ -8,7 +8,7 @@
 #include "articula/dynamics/friction_effort.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/nonlinear_effects.hpp"
-#include "articula/model/dynamic_robot.hpp"
+#include "articula/model/robot.hpp"
 
 #include <Eigen/Cholesky>
 

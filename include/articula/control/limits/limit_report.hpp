@@ -21,7 +21,7 @@ struct JointLimitReport {
   bool damping = false;     ///< likewise
   bool non_finite = false;  ///< command, reference or state were not finite: the joint brakes
   double asked = 0;         ///< before limits [rad, m; rad/s, m/s; N m, N]; may be NaN or infinite
-  double given = 0;         ///< after limits, likewise; finite
+  double limited = 0;       ///< after limits, likewise; finite
 
   /// Whether a limit changed the command. Real-time: yes.
   [[nodiscard]] constexpr bool any() const noexcept {

@@ -84,7 +84,7 @@ class Limited {
     Input inner{in.state, in.reference, in.period, in.applied, clip_};
     if (passes_cut_) inner.cut += in.cut;
     if (braked_cycles_ > detail::borne_cycles) {
-      inner.applied = {given_, Held::load};
+      inner.applied = {limited_, Held::load};
       inner.cut.setZero();
       start_controller(controller_, inner);
     }
@@ -98,7 +98,7 @@ class Limited {
     }
     Command command = own.command;
     note(asked, limiter_.limit(in, command, report_));
-    clip_ = asked - given_;
+    clip_ = asked - limited_;
     return {command, own.verdict};
   }
 
@@ -120,6 +120,7 @@ class Limited {
 
   /// Calls function(controller).
   void for_each_part(auto&& function) const { function(controller_); }
+  void for_each_part(auto&& function) { function(controller_); }
 
   /// Goes on with other gains of the controller. Real-time: yes.
   template <class Gains>
@@ -151,29 +152,29 @@ class Limited {
   }
 
   /// Notes the numbers of a command and what became of them.
-  void note(const Vector& asked, const Vector& given) noexcept {
+  void note(const Vector& asked, const Vector& limited) noexcept {
     for (int j = 0; j < joint_count; ++j) {
       JointLimitReport& report = report_[j];
       // A change by rounding is not reported. What is no number always is, and so is a stiffness or
       // damping that has changed, though it may pull nothing at this state.
-      if (std::abs(asked[j] - given[j]) <= 1e-12 * (1 + std::abs(given[j]))) {
+      if (std::abs(asked[j] - limited[j]) <= 1e-12 * (1 + std::abs(limited[j]))) {
         report = {.stiffness = report.stiffness,
                   .damping = report.damping,
                   .non_finite = report.non_finite};
       }
       report.asked = asked[j];
-      report.given = given[j];
+      report.limited = limited[j];
     }
-    given_ = given;
+    limited_ = limited;
   }
 
   C controller_;
   detail::CommandLimiter<R, Command> limiter_;
   LimitReport<joint_count> report_{};
-  Vector given_ = Vector::Zero();  ///< numbers of the last command, at which the joints are held
-  Vector clip_ = Vector::Zero();   ///< of the controller's last command, by these limits
-  bool passes_cut_ = false;        ///< the last command was the controller's, within limits
-  int braked_cycles_ = 0;          ///< without a reference, counted to one more than are borne
+  Vector limited_ = Vector::Zero();  ///< numbers of the last command, at which the joints are held
+  Vector clip_ = Vector::Zero();     ///< of the controller's last command, by these limits
+  bool passes_cut_ = false;          ///< the last command was the controller's, within limits
+  int braked_cycles_ = 0;            ///< without a reference, counted to one more than are borne
 };
 
 }  // namespace articula

@@ -17,7 +17,8 @@
 namespace articula {
 
 /// Lets the commands of one controller go on where those of another left off. With u_k the
-/// controller's own command of cycle k, y_k what is given, dt the period and r the slew:
+/// controller's own command of cycle k, y_k the command after the transfer, dt the period and r the
+/// slew:
 ///
 ///     when it takes over   y_k = y_k-1,             c_k = y_k - u_k
 ///     from then on         y_k = clamp(u_k + c_k),  c_k = c_k-1 moved towards 0 by at most r dt
@@ -77,14 +78,14 @@ class BumplessTransfer {
   void take_over() noexcept { takes_over_ = true; }
 
   /// Sets what was applied in the end in place of the last command, finite, N x 1. Real-time: yes.
-  void set_applied(const Vector& numbers) noexcept { given_ = bounded(numbers); }
+  void set_applied(const Vector& numbers) noexcept { applied_ = bounded(numbers); }
 
   /// Whether a command can be passed on: whether its numbers are finite. Real-time: yes.
   [[nodiscard]] static bool passable(const C& command, const State& state) noexcept {
     return is_finite(command) && is_finite(numbers_of(command, state));
   }
 
-  /// The command that is given.
+  /// The command after the transfer.
   /// @param command  the controller's own, passable
   /// @param state    measured joints
   /// @param period   dt [s]
@@ -92,19 +93,19 @@ class BumplessTransfer {
   [[nodiscard]] C pass(const C& command, const State& state, double period) noexcept {
     const Vector own = bounded(numbers_of(command, state));
     if (takes_over_) {
-      carried_ = given_ - own;
+      carried_ = applied_ - own;
     } else {
       const Vector step = slew_ * period;
       carried_ -= carried_.cwiseMax(-step).cwiseMin(step);
     }
     takes_over_ = false;
-    given_ = bounded(own + carried_);
-    carried_ = given_ - own;
+    applied_ = bounded(own + carried_);
+    carried_ = applied_ - own;
     return with_total(command, own, state);
   }
 
   /// The numbers that the next command goes on from, N x 1. Real-time: yes.
-  [[nodiscard]] const Vector& given() const noexcept { return given_; }
+  [[nodiscard]] const Vector& applied() const noexcept { return applied_; }
   /// c, what is still carried, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& carried() const noexcept { return carried_; }
   /// r, N x 1. Real-time: yes.
@@ -122,28 +123,23 @@ class BumplessTransfer {
     return for_each_joint<joint_count>([&](int j) { return range_.clamp(values[j], j); });
   }
 
-  /// The command with what is given in place of its own number.
-  [[nodiscard]] C with_total(const C& command, const Vector& own,
-                             const State& state) const noexcept {
+  /// The command with the transferred numbers in place of its own.
+  [[nodiscard]] C with_total(C command, const Vector& own, const State& state) const noexcept {
     if constexpr (requires { command.stiffness; }) {
-      C given = command;
-      const Vector springs = spring_pull(command, state);
       for (int j = 0; j < joint_count; ++j) {
-        if (given_[j] == own[j]) continue;
-        given.effort[j] = std::clamp(given_[j] - springs[j], range_.lowest[j], range_.highest[j]);
-        const double share = springs[j] != 0 ? (given_[j] - given.effort[j]) / springs[j] : 1;
-        given.position[j] = state.position[j] + share * (command.position[j] - state.position[j]);
-        given.velocity[j] = state.velocity[j] + share * (command.velocity[j] - state.velocity[j]);
+        if (applied_[j] == own[j]) continue;
+        command.effort[j] += applied_[j] - numbers_of(command, state)[j];
+        limit_total(command, state, j, range_.highest[j]);
       }
-      return given;
+      return command;
     } else {
-      return {given_};
+      return {applied_};
     }
   }
 
   Vector slew_;
   detail::CommandRange<joint_count> range_;
-  Vector given_ = Vector::Zero();    ///< y
+  Vector applied_ = Vector::Zero();  ///< y
   Vector carried_ = Vector::Zero();  ///< c
   bool takes_over_ = false;
 };

@@ -58,6 +58,9 @@ class ControllerSelector : public ControllerTuple<Controllers...> {
   void for_each_part(auto&& function) const {
     this->for_each([&](const auto& controller, std::size_t) { function(controller); });
   }
+  void for_each_part(auto&& function) {
+    this->for_each([&](auto& controller, std::size_t) { function(controller); });
+  }
 
  protected:
   static constexpr std::size_t none = controller_count;
@@ -83,10 +86,10 @@ class ControllerSelector : public ControllerTuple<Controllers...> {
   /// The active controller, or none.
   [[nodiscard]] std::size_t active_index() const noexcept { return active_; }
   /// The controller that shall be active, or none.
-  [[nodiscard]] std::size_t planned() const noexcept { return board_.active_at(0); }
+  [[nodiscard]] std::size_t planned() const noexcept { return board_.active_in(0); }
   /// Whether the next update starts a controller: another one, or the active one again.
   [[nodiscard]] bool switches() const noexcept {
-    return planned() != active_ || (active_ != none && board_.entries[active_].anew);
+    return planned() != active_ || (active_ != none && board_.entries[active_].restart);
   }
   [[nodiscard]] const std::vector<std::size_t>& fallbacks_of(std::size_t index) const noexcept {
     return fallbacks_[index];
@@ -100,7 +103,7 @@ class ControllerSelector : public ControllerTuple<Controllers...> {
     active_ = index;
     for (std::size_t i = 0; i < controller_count; ++i) {
       board_.entries[i].active = i == index;
-      board_.entries[i].anew = false;
+      board_.entries[i].restart = false;
     }
     set_status(index, ControllerStatus::active);
   }

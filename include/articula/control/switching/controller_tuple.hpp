@@ -53,7 +53,7 @@ class ControllerTuple {
   explicit ControllerTuple(Controllers... controllers) : controllers_(std::move(controllers)...) {}
 
   /// Calls function(controller, place) for each of the controllers.
-  void for_each(auto&& function) noexcept { visit(controllers_, function); }
+  void for_each(auto&& function) { visit(controllers_, function); }
   void for_each(auto&& function) const { visit(controllers_, function); }
 
  private:

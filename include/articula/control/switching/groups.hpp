@@ -83,11 +83,11 @@ class Groups : public ControllerTuple<Controllers...> {
     for_each_switch(*this, [&](const auto& own, std::size_t g) noexcept {
       for (const ControllerInfo& info : own.list()) {
         board_.entries[entry].name = info.name;
-        board_.entries[entry++].place = static_cast<int>(g);
+        board_.entries[entry++].group = static_cast<int>(g);
       }
     });
     for (auto& of : board_.entries) {
-      const std::string group(groups[static_cast<std::size_t>(of.place)].name.view());
+      const std::string group(groups[static_cast<std::size_t>(of.group)].name.view());
       of.name = std::string_view(group + "/" + std::string(of.name.view()));
     }
     board_.validate();
@@ -130,7 +130,7 @@ class Groups : public ControllerTuple<Controllers...> {
     for_each_switch(*this, [&](const auto& own, std::size_t) noexcept {
       for (const auto& of : own.board().entries) {
         board_.entries[entry].active = of.active;
-        board_.entries[entry++].anew = of.anew;
+        board_.entries[entry++].restart = of.restart;
       }
     });
     const SwitchOutcome outcome = board_.plan(request);
@@ -138,7 +138,7 @@ class Groups : public ControllerTuple<Controllers...> {
     for_each_switch(*this, [&](auto& own, std::size_t) noexcept {
       for (auto& of : own.board().entries) {
         of.active = board_.entries[entry].active;
-        of.anew = board_.entries[entry++].anew;
+        of.restart = board_.entries[entry++].restart;
       }
     });
     return outcome;
@@ -159,17 +159,20 @@ class Groups : public ControllerTuple<Controllers...> {
 
   /// Calls function(controller, scope) for each of the controllers.
   void for_each_part(auto&& function) const {
-    this->for_each([&](const auto& controller, std::size_t g) {
-      const Group& group = groups_[g];
-      function(controller,
-               PartScope<joint_count>{.joints = group.joints, .divisor = group.divisor});
-    });
+    this->for_each([&](const auto& controller, std::size_t g) { function(controller, scope(g)); });
+  }
+  void for_each_part(auto&& function) {
+    this->for_each([&](auto& controller, std::size_t g) { function(controller, scope(g)); });
   }
 
  private:
   using Vector = JointVector<joint_count>;
   using Reference = JointReference<joint_count>;
   using Group = detail::GroupState<joint_count>;
+
+  [[nodiscard]] PartScope<joint_count> scope(std::size_t g) const noexcept {
+    return {.joints = groups_[g].joints, .divisor = groups_[g].divisor};
+  }
 
   /// @tparam has_reference  whether the reference of all joints is finite
   template <bool has_reference>

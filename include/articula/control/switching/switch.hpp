@@ -90,7 +90,7 @@ class Switch : public ControllerSelector<R, Controllers...> {
     if (this->switches()) {
       this->activate(this->planned());
       inner.cut.setZero();
-      inner.applied = {transfer_.given(),
+      inner.applied = {transfer_.applied(),
                        begun_ ? Held::push : std::min(in.applied.held, Held::unsure)};
       start_one(this->active_index(), inner);
       if (begun_) transfer_.take_over();

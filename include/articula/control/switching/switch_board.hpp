@@ -15,16 +15,16 @@
 namespace articula {
 
 /// Who shall be active of a set of controllers, and what a request makes of that. Controllers for
-/// the same joints have the same place; at most one of a place is active.
+/// the same joints are of the same group; at most one of a group is active.
 /// @tparam Count  number of controllers
 template <std::size_t Count>
 class SwitchBoard {
  public:
   struct Entry {
     Name name{};
-    int place = 0;
-    bool active = false;  ///< shall be, from the next cycle on
-    bool anew = false;    ///< shall begin anew, even if it is active already
+    int group = 0;
+    bool active = false;   ///< shall be, from the next cycle on
+    bool restart = false;  ///< shall start, even if it is active already
   };
 
   std::array<Entry, Count> entries{};
@@ -77,10 +77,10 @@ class SwitchBoard {
     return i;
   }
 
-  /// The index of a place's active controller, or Count. Real-time: yes.
-  [[nodiscard]] std::size_t active_at(int place) const noexcept {
+  /// The index of a group's active controller, or Count. Real-time: yes.
+  [[nodiscard]] std::size_t active_in(int group) const noexcept {
     std::size_t i = 0;
-    while (i < Count && !(entries[i].active && entries[i].place == place)) ++i;
+    while (i < Count && !(entries[i].active && entries[i].group == group)) ++i;
     return i;
   }
 
@@ -116,7 +116,7 @@ class SwitchBoard {
         object(SwitchAnswer::already_active, name);
         continue;
       }
-      const std::size_t other = planned.active_at(entries[i].place);
+      const std::size_t other = planned.active_in(entries[i].group);
       if (other != Count && (!request.replace || starts[other])) {
         object(SwitchAnswer::occupied, name);
         continue;
@@ -125,7 +125,7 @@ class SwitchBoard {
         planned.entries[other].active = false;
         ++outcome.stopped;
       }
-      planned.entries[i].active = planned.entries[i].anew = starts[i] = true;
+      planned.entries[i].active = planned.entries[i].restart = starts[i] = true;
       ++outcome.started;
     }
     const bool refused =

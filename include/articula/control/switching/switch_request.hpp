@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -25,7 +26,10 @@ class ControllerNames {
 
   constexpr ControllerNames() = default;
   /// @throws std::length_error if there are more than `capacity`
-  constexpr ControllerNames(std::initializer_list<Name> names) {
+  constexpr ControllerNames(std::initializer_list<Name> names)
+      : ControllerNames(std::span(names.begin(), names.size())) {}
+  /// @copydoc ControllerNames(std::initializer_list<Name>)
+  constexpr explicit ControllerNames(std::span<const Name> names) {
     if (names.size() > capacity)
       throw std::length_error("a request names at most 16 controllers to start, or stop");
     for (const Name& name : names) names_[size_++] = name;

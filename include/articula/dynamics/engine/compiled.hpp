@@ -4,7 +4,6 @@
 
 #include "articula/dynamics/engine/configuration.hpp"
 #include "articula/dynamics/engine/gravity_efforts.hpp"
-#include "articula/model/dynamic_robot.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/symbolic/assembler.hpp"
 #include "articula/symbolic/run_program.hpp"

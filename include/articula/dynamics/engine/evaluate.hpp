@@ -5,7 +5,6 @@
 #include "articula/core/joint_vector.hpp"
 #include "articula/dynamics/engine/compiled.hpp"
 #include "articula/dynamics/engine/configuration.hpp"
-#include "articula/dynamics/engine/joint_vector_pack.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/symbolic/pack.hpp"
 
@@ -15,7 +14,18 @@
 #include <type_traits>
 #include <utility>
 
-namespace articula::detail {
+namespace articula {
+
+/// Joint vectors of several robots of one kind: JointVectors with a column for each, or a
+/// JointVector over a pack (or over any scalar but double). Together they are computed faster than
+/// one by one: registers of the target processor hold several numbers (-march=native).
+template <class Q, class R>
+concept JointVectorPack = (Q::ColsAtCompileTime >= 2 &&
+                           std::same_as<Q, JointVectors<joint_count<R>, Q::ColsAtCompileTime>>) ||
+                          (!std::same_as<typename Q::Scalar, double> &&
+                           std::same_as<Q, JointVector<joint_count<R>, typename Q::Scalar>>);
+
+namespace detail {
 
 // By folds and not by loops: compilers leave arrays in memory that are filled by loops.
 
@@ -143,4 +153,6 @@ template <class Algorithm, Robot R, JointVectorPack<R> Q, std::same_as<Q>... Inp
   }
 }
 
-}  // namespace articula::detail
+}  // namespace detail
+
+}  // namespace articula

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/dynamics/engine/body_placements.hpp"
-#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/compiled.hpp"
 #include "articula/dynamics/engine/unset_array.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/symbolic/sine_cosine.hpp"

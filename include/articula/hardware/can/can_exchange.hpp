@@ -7,7 +7,6 @@
 #include "articula/hardware/can/can_hardware_options.hpp"
 #include "articula/hardware/can/can_transport.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/hardware/can/object_address.hpp"
-#include "articula/text/hexadecimal.hpp"
+#include "articula/text/characters.hpp"
 
 #include <array>
 #include <cstddef>

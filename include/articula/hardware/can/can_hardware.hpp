@@ -195,7 +195,7 @@ class CanHardware {
     return exchange_.feedback_time;
   }
   [[nodiscard]] const CanStatistics& statistics() const noexcept { return exchange_.statistics; }
-  [[nodiscard]] auto reports() const noexcept { return exchange_.codec.reports(); }
+  [[nodiscard]] decltype(auto) reports() const noexcept { return exchange_.codec.reports(); }
   [[nodiscard]] const Codec& codec() const noexcept { return exchange_.codec; }
   [[nodiscard]] Transport& transport() noexcept { return exchange_.transport; }
   [[nodiscard]] const Transport& transport() const noexcept { return exchange_.transport; }

@@ -2,7 +2,7 @@
 /// @file The address of a value in a drive's object dictionary.
 #pragma once
 
-#include "articula/text/hexadecimal.hpp"
+#include "articula/text/characters.hpp"
 
 #include <cstdint>
 #include <string>

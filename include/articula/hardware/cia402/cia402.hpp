@@ -45,17 +45,6 @@ inline constexpr Mode mode_of =
         ? Mode::cyclic_synchronous_velocity
         : Mode::cyclic_synchronous_torque;
 
-/// The target object of a mode.
-struct Target {
-  canopen::ObjectAddress address{};
-  std::uint8_t size = 0;  ///< [bytes]
-};
-[[nodiscard]] constexpr Target target_of(Mode mode) noexcept {
-  if (mode == Mode::cyclic_synchronous_position) return {target_position, 4};
-  if (mode == Mode::cyclic_synchronous_velocity) return {target_velocity, 4};
-  return {target_torque, 2};
-}
-
 /// States of a drive [CiA 402-2, state machine].
 enum class State : std::uint8_t {
   not_ready_to_switch_on,

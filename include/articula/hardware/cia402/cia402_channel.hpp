@@ -12,7 +12,6 @@
 #include "articula/hardware/cia402/cia402_stop.hpp"
 #include "articula/hardware/cia402/sync_history.hpp"
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 

@@ -17,7 +17,6 @@ namespace articula {
 
 /// The channels and reports of all drives, and the cycles of their bus: enabling, release and stop,
 /// and the accesses to objects that the drives share. All functions are real-time and O(N).
-/// @tparam N  number of joints
 template <int N>
 struct Cia402Channels {
   /// The most accesses to objects in a cycle. A CAN interface queues ten frames by default, and

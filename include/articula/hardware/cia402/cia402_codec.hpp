@@ -14,7 +14,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <limits>
 
 namespace articula {
 
@@ -142,11 +142,7 @@ class Cia402Codec {
     push_heartbeat(batch);
     // The marks come first: the transport awaits the last frame of a cycle's output.
     if (drives_.syncs.is_missing()) drives_.push_marks(batch);
-    for (int j = 0; j < joint_count; ++j) {
-      drives_.channels[j].template push_command<mode>(
-          cia402::enable_operation, values_of(command)[j], drives_.reports[j], batch);
-    }
-    end_output(batch);
+    push_commands(cia402::enable_operation, values_of(command), batch);
   }
 
   /// Switches all drives off: by RPDO, and by access to the objects of each drive that has not yet
@@ -154,13 +150,8 @@ class Cia402Codec {
   void encode_stop(CanBatch& batch) noexcept {
     push_heartbeat(batch);
     drives_.push_stops(batch);
-    for (int j = 0; j < joint_count; ++j) {
-      const bool is_position = mode == cia402::Mode::cyclic_synchronous_position;
-      drives_.channels[j].template push_command<mode>(cia402::disable_voltage,
-                                                      is_position ? drives_.reports[j].position : 0,
-                                                      drives_.reports[j], batch);
-    }
-    end_output(batch);
+    constexpr double nothing = std::numeric_limits<double>::quiet_NaN();  // zero, or the position
+    push_commands(cia402::disable_voltage, JointVector<joint_count>::Constant(nothing), batch);
   }
 
   /// Notes that the bus did not take all frames of the last output, and so not its SYNC.
@@ -191,8 +182,7 @@ class Cia402Codec {
   }
 
   /// The drives' last reports. Real-time: yes.
-  [[nodiscard]] std::span<const DriveReport, static_cast<std::size_t>(joint_count)> reports()
-      const noexcept {
+  [[nodiscard]] const JointArray<DriveReport, joint_count>& reports() const noexcept {
     return drives_.reports;
   }
   /// Whether all drives have reported that they are off. Real-time: yes.
@@ -211,7 +201,15 @@ class Cia402Codec {
     batch.push_back(canopen::encode(canopen::NmtState::operational, host_node_));
   }
 
-  /// Ends the output of a cycle, after the commands.
+  /// Appends the commands of a cycle, and ends its output.
+  void push_commands(std::uint16_t controlword, const JointVector<joint_count>& values,
+                     CanBatch& batch) noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      drives_.channels[j].template push_command<mode>(controlword, values[j], drives_.reports[j],
+                                                      batch);
+    }
+    end_output(batch);
+  }
   void end_output(CanBatch& batch) noexcept {
     if (sends_sync) {
       drives_.begin_cycle(true);

@@ -11,10 +11,11 @@
 
 namespace articula::cia402 {
 
-/// The target object of a mode, for mappings.
+/// The target object of a mode.
 [[nodiscard]] constexpr canopen::MappedObject mapped_target(Mode mode) noexcept {
-  const Target target = target_of(mode);
-  return {target.address, static_cast<std::uint8_t>(8 * target.size)};
+  if (mode == Mode::cyclic_synchronous_position) return {target_position, 32};
+  if (mode == Mode::cyclic_synchronous_velocity) return {target_velocity, 32};
+  return {target_torque, 16};
 }
 inline constexpr canopen::MappedObject mapped_controlword{controlword, 16};
 inline constexpr canopen::MappedObject mapped_statusword{statusword, 16};

@@ -6,6 +6,7 @@
 #include "articula/hardware/canopen/canopen.hpp"
 #include "articula/hardware/cia402/cia402.hpp"
 #include "articula/hardware/cia402/cia402_drive.hpp"
+#include "articula/hardware/cia402/cia402_process_data.hpp"
 
 #include <array>
 #include <cstddef>
@@ -156,11 +157,11 @@ class Cia402Script {
   }
   /// Sets the target at which nothing moves.
   void set_target(cia402::Mode mode, bool optional) noexcept {
-    const cia402::Target target = cia402::target_of(mode);
+    const canopen::MappedObject target = cia402::mapped_target(mode);
     const bool is_position = mode == cia402::Mode::cyclic_synchronous_position;
     if (is_position) add({cia402::position_actual, Action::remember});
-    add({target.address, is_position ? Action::write_remembered : Action::write, 0, target.size,
-         optional});
+    add({target.address, is_position ? Action::write_remembered : Action::write, 0,
+         static_cast<std::uint8_t>(target.bits / 8), optional});
   }
 
   std::array<Cia402Step, capacity> steps_{};

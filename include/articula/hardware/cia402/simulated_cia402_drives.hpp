@@ -12,7 +12,6 @@
 #include "articula/sim/simulator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
@@ -25,12 +24,11 @@ namespace articula {
 ///
 /// In position and velocity mode the drives close their own loop. Its stiffness and damping give the
 /// joint's own inertia a natural frequency of 10 Hz, critically damped.
-/// @tparam R  the robot
 template <Robot R>
 class SimulatedCia402Drives {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
-  using Quirks = std::array<SimulatedCia402Quirks, static_cast<std::size_t>(joint_count)>;
+  using Quirks = JointArray<SimulatedCia402Quirks, joint_count>;
 
   /// @param robot   whose joints these are
   /// @param drives   in the order of the joints
@@ -40,7 +38,7 @@ class SimulatedCia402Drives {
   SimulatedCia402Drives(const R& robot, const Cia402DriveList<joint_count>& drives,
                         const SimulatorOptions<joint_count>& options = {},
                         const Quirks& quirks = {})
-      : drives_{drives}, simulator_(robot, options), effort_limits_(effort_limits(robot)) {
+      : drives_{drives}, simulator_(robot, options) {
     validate(robot, drives);
     for (std::size_t j = 0; j < drives.size(); ++j) {
       nodes_[j] = SimulatedCia402Node(drives[j].node, options.period, quirks[j]);
@@ -50,7 +48,6 @@ class SimulatedCia402Drives {
     const double frequency = 2 * std::numbers::pi * 10;
     stiffness_ = inertia * (frequency * frequency);
     damping_ = inertia * (2 * frequency);
-    friction_ = joint_values(robot, [](const JointProperties& joint) { return joint.damping; });
     show_joints();
   }
   /// For a robot known at compile time.
@@ -102,6 +99,7 @@ class SimulatedCia402Drives {
     const SimulatedCia402Node& node = nodes_[j];
     if (!node.enabled()) return 0;
     const Cia402Drive& drive = drives_[j];
+    const JointProperties& joint = model_of(simulator_.robot()).joints[j];
     const double q = simulator_.true_state().position[j], v = simulator_.true_state().velocity[j];
     double effort = 0;
     switch (node.mode()) {
@@ -110,7 +108,7 @@ class SimulatedCia402Drives {
         break;
       case cia402::Mode::cyclic_synchronous_velocity: {
         const double target = drive.velocity(node.target(cia402::target_velocity));
-        effort = damping_[j] * (target - v) + friction_[j] * target;
+        effort = damping_[j] * (target - v) + joint.damping * target;
         break;
       }
       case cia402::Mode::cyclic_synchronous_position: {
@@ -119,7 +117,7 @@ class SimulatedCia402Drives {
         break;
       }
     }
-    return std::clamp(effort, -effort_limits_[j], effort_limits_[j]);
+    return std::clamp(effort, -joint.limits.effort, joint.limits.effort);
   }
 
   /// Copies the measured figures into the nodes' objects, in their units.
@@ -137,10 +135,8 @@ class SimulatedCia402Drives {
 
   JointArray<Cia402Drive, joint_count> drives_;
   Simulator<R> simulator_;
-  JointVector<joint_count> effort_limits_;
   JointVector<joint_count> stiffness_ = JointVector<joint_count>::Zero();
   JointVector<joint_count> damping_ = JointVector<joint_count>::Zero();
-  JointVector<joint_count> friction_ = JointVector<joint_count>::Zero();
   JointVector<joint_count> effort_ = JointVector<joint_count>::Zero();
   JointArray<SimulatedCia402Node, joint_count> nodes_{};
 };

@@ -8,7 +8,6 @@
 #include "articula/hardware/cia402/simulated_cia402_objects.hpp"
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <utility>
 

@@ -15,7 +15,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace articula {
 
@@ -23,7 +22,6 @@ namespace articula {
 /// that of the motor's encoder; `load_position` has the other one. If they differ by more than the
 /// module's `encoder_tolerance`, the report has `encoder_mismatch`, and set-up fails. Figures are
 /// updated only when both frames of a module for a cycle have arrived, so they belong together.
-/// @tparam R  the robot
 template <Robot R>
 class QuanserCodec {
  public:
@@ -34,7 +32,7 @@ class QuanserCodec {
   /// @param robot    whose joints the modules move
   /// @param modules  in the order of the joints
   /// @throws std::invalid_argument as validate(robot, modules)
-  QuanserCodec(const R& robot, const QuanserModules<joint_count>& modules) : modules_(modules) {
+  QuanserCodec(const R& robot, const QuanserModules<joint_count>& modules) : modules_{modules} {
     validate(robot, modules);
     joint_of_node_.fill(joint_count);
     for (std::size_t j = 0; j < modules.size(); ++j) {
@@ -98,7 +96,7 @@ class QuanserCodec {
     for (int j = 0; j < joint_count; ++j) {
       const double effort = is_finite(command.effort[j]) ? command.effort[j] : 0;
       const auto millis = static_cast<std::int16_t>(nearest_units(effort * 1e3, 32767));
-      batch.push_back(quanser::encode(quanser::Effort{millis, counter}, module_of(j).node));
+      batch.push_back(quanser::encode(quanser::Effort{millis, counter}, modules_[j].node));
     }
     begin_cycle(batch);
   }
@@ -130,8 +128,7 @@ class QuanserCodec {
   }
 
   /// The modules' last reports. Real-time: yes.
-  [[nodiscard]] std::span<const DriveReport, static_cast<std::size_t>(joint_count)> reports()
-      const noexcept {
+  [[nodiscard]] const JointArray<DriveReport, joint_count>& reports() const noexcept {
     return reports_;
   }
   /// Position of the load's encoders, of the same cycle as the report [rad], N x 1.
@@ -155,9 +152,6 @@ class QuanserCodec {
     double motor = 1, load = 1;  ///< counts per radian of the joint [1/rad]
   };
 
-  [[nodiscard]] const QuanserModule& module_of(int joint) const noexcept {
-    return modules_[static_cast<std::size_t>(joint)];
-  }
   void push_control(quanser::Control control, CanBatch& batch) const noexcept {
     for (const QuanserModule& module : modules_) {
       batch.push_back(quanser::encode(control, module.node));
@@ -207,7 +201,7 @@ class QuanserCodec {
   [[gnu::always_inline]] inline void complete(int j) noexcept {
     Sample& sample = samples_[j];
     sample.complete_cycle = sample.position_cycle;
-    const QuanserModule& module = module_of(j);
+    const QuanserModule& module = modules_[j];
     DriveReport& report = reports_[j];
     report.position = sample.position.motor_counts / scales_[j].motor + module.position_at_zero;
     load_position_[j] = sample.position.load_counts / scales_[j].load + module.position_at_zero;
@@ -226,7 +220,7 @@ class QuanserCodec {
     reports_[j].fault = unnamed ? std::uint8_t{quanser::internal} : faults;
   }
 
-  QuanserModules<joint_count> modules_;
+  JointArray<QuanserModule, joint_count> modules_;
   std::array<std::uint8_t, quanser::last_node + 1> joint_of_node_{};  ///< joint_count: unknown node
   JointArray<Scales, joint_count> scales_{};
   JointArray<DriveReport, joint_count> reports_{};

@@ -21,7 +21,6 @@ namespace articula {
 /// An arm's joint modules after docs/quanser_protocol.md, on a simulated arm. Frames go in and out;
 /// there is no bus. Each SYNC of the host simulates one period, and the feedback shows the arm at the
 /// end of that period.
-/// @tparam R  the robot
 template <Robot R>
 class SimulatedQuanserDrives {
  public:

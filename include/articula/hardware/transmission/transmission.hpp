@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/joint_array.hpp"
 #include "articula/core/joint_vector.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/joint.hpp"
@@ -92,17 +93,16 @@ template <Transmission T>
 /// @return              of the actuators, in the order of the transmission
 /// Real-time: yes.
 template <Transmission T>
-[[nodiscard]] std::array<JointLimits, static_cast<std::size_t>(T::size)> actuator_limits(
-    const T& transmission,
-    const std::array<JointLimits, static_cast<std::size_t>(T::size)>& joints) noexcept {
+[[nodiscard]] JointArray<JointLimits, T::size> actuator_limits(
+    const T& transmission, const JointArray<JointLimits, T::size>& joints) noexcept {
   using Vector = JointVector<T::size>;
-  std::array<JointLimits, static_cast<std::size_t>(T::size)> actuators;
+  JointArray<JointLimits, T::size> actuators;
   const Vector origin = transmission.actuator_position(Vector::Zero());
   for (int a = 0; a < T::size; ++a) {
-    JointLimits& actuator = actuators[static_cast<std::size_t>(a)];
+    JointLimits& actuator = actuators[a];
     actuator = {.lower = origin[a], .upper = origin[a], .velocity = 0, .effort = 0};
     for (int j = 0; j < T::size; ++j) {
-      const JointLimits& joint = joints[static_cast<std::size_t>(j)];
+      const JointLimits& joint = joints[j];
       const double rate = transmission.actuator_velocity(Vector::Unit(j))[a];
       const double share = transmission.actuator_effort(Vector::Unit(j))[a];
       if (rate != 0) {  // 0 times infinity is NaN

@@ -3,13 +3,12 @@
 #pragma once
 
 #include "articula/control/laws/valid_gains.hpp"
+#include "articula/core/joint_array.hpp"
 #include "articula/core/name.hpp"
 #include "articula/loop/exchange/latest_value.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
 namespace articula {
 
@@ -22,11 +21,10 @@ namespace articula {
 ///     exchange.apply(loop.controller());   // the control thread, between two cycles
 ///
 /// @tparam G  the gains of one joint: PidGains, ImpedanceGains or your own, with `validate`
-/// @tparam N  number of joints
 template <class G, int N>
 class GainsExchange {
  public:
-  using Gains = std::array<G, static_cast<std::size_t>(N)>;
+  using Gains = typename ValidGains<G, N>::Values;
 
   /// @param robot  whose joints the messages name
   template <Robot R>
@@ -68,7 +66,7 @@ class GainsExchange {
   }
 
  private:
-  std::array<Name, static_cast<std::size_t>(N)> names_{};
+  JointArray<Name, N> names_{};
   LatestValue<ValidGains<G, N>> latest_{};
 };
 

@@ -2,6 +2,8 @@
 /// @file The modes of a supervised loop.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace articula {
@@ -16,17 +18,9 @@ enum class LoopMode : unsigned char {
 
 /// The mode in words. Real-time: yes.
 [[nodiscard]] constexpr std::string_view to_string(LoopMode mode) noexcept {
-  switch (mode) {
-    case LoopMode::inactive:
-      return "inactive";
-    case LoopMode::starting:
-      return "starting";
-    case LoopMode::active:
-      return "active";
-    case LoopMode::fault:
-      return "fault";
-  }
-  return "unknown mode";
+  constexpr std::array<std::string_view, 4> names{"inactive", "starting", "active", "fault"};
+  const auto index = static_cast<std::size_t>(mode);
+  return index < names.size() ? names[index] : "unknown mode";
 }
 
 }  // namespace articula

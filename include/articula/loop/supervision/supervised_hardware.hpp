@@ -85,7 +85,7 @@ class SupervisedHardware {
  private:
   [[nodiscard]] bool beyond_limits(const JointState<joint_count>& state) const noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      const JointLimits& limits = model_of(robot()).joints[static_cast<std::size_t>(j)].limits;
+      const JointLimits& limits = model_of(robot()).joints[j].limits;
       const double q = state.position[j], v = state.velocity[j];
       const double most = limits.velocity * (1 + options_.velocity_margin);
       if (q < limits.lower - options_.position_margin) return true;

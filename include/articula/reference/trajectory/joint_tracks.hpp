@@ -89,7 +89,11 @@ class JointTracks {
   [[nodiscard]] const JointArray<bool, joint_count>& follows() const noexcept { return follows_; }
   /// Whether any joint follows a track. Real-time: yes. O(N).
   [[nodiscard]] bool any() const noexcept {
-    return std::find(follows_.begin(), follows_.end(), true) != follows_.end();
+    return std::ranges::find(follows_, true) != follows_.end();
+  }
+  /// Whether all joints follow a track. Real-time: yes. O(N).
+  [[nodiscard]] bool all() const noexcept {
+    return std::ranges::find(follows_, false) == follows_.end();
   }
   /// The first end of a track that a joint follows [s]; infinity if there is none.
   /// Real-time: yes. O(N).

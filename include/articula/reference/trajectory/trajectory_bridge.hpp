@@ -4,7 +4,6 @@
 
 #include "articula/motion/motion_limits.hpp"
 #include "articula/reference/joint_range.hpp"
-#include "articula/reference/trajectory/segment_peaks.hpp"
 #include "articula/reference/trajectory/trajectory.hpp"
 #include "articula/reference/trajectory/trajectory_outcome.hpp"
 
@@ -17,7 +16,6 @@ namespace articula {
 
 /// The segment from the present reference to a point of a trajectory. It replaces the points before
 /// that one.
-/// @tparam N  number of joints
 template <int N>
 struct TrajectoryBridge {
   TrajectoryPoint<N> from{};                      ///< the present, in the trajectory's time

@@ -6,8 +6,8 @@
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/reference/joint_range.hpp"
-#include "articula/reference/trajectory/segment_peaks.hpp"
 #include "articula/reference/trajectory/trajectory_outcome.hpp"
+#include "articula/reference/trajectory/trajectory_point.hpp"
 
 #include <cmath>
 #include <cstddef>

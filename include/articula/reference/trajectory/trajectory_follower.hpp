@@ -117,6 +117,20 @@ class TrajectoryFollower {
     return start(trajectory, default_tolerances_);
   }
 
+  /// Goes on from the reference of another source: drops what was followed, and begins the fastest
+  /// stop. A trajectory that is started then begins from there, without a jump.
+  /// @param reference  finite
+  /// @param time       of that reference, on the clock of sample() [s]
+  /// Real-time: yes. O(N).
+  void take_over(const Reference& reference, double time) noexcept {
+    outcome_ = TrajectoryOutcome::idle;
+    watched_ = false;
+    waiting_.reset();
+    motion_.take_over(reference);
+    clock_runs_ = true;
+    time_ = time;
+  }
+
   /// Ends the present or waiting trajectory by the fastest stop. Real-time: yes.
   void cancel() noexcept {
     if (outcome_ == TrajectoryOutcome::active) abort(TrajectoryOutcome::canceled);
@@ -186,6 +200,8 @@ class TrajectoryFollower {
   /// The reason for the last refusal by start(), or for the failure of a waiting trajectory to
   /// begin. `to_string(robot, follower.refusal())` formats it. Real-time: yes.
   [[nodiscard]] const TrajectoryRefusal& refusal() const noexcept { return refusal_; }
+  /// Whether the reference moves. Real-time: yes.
+  [[nodiscard]] bool moves() const noexcept { return motion_.moves(); }
   /// The last sample. Real-time: yes.
   [[nodiscard]] const Reference& reference() const noexcept { return motion_.reference(); }
 

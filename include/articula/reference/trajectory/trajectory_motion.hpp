@@ -93,6 +93,12 @@ class TrajectoryMotion {
     if (rest_.moves()) begin_rest(reference_, tracks_.follows());
   }
 
+  /// Goes on from the reference of another source, by the fastest stop. Real-time: yes. O(N).
+  void take_over(const Reference& reference) noexcept {
+    reference_ = reference;
+    stop(StopAndReturn<R>::unknown());
+  }
+
   /// Stops all joints, and then moves them to a position.
   /// @param back  [rad or m], N x 1; see StopAndReturn::begin
   /// Real-time: yes. O(N).
@@ -109,11 +115,13 @@ class TrajectoryMotion {
     for (double end = tracks_.first_end(); end <= speed_.time(); end = tracks_.first_end()) {
       const double speed = speed_.speed();
       const double after = speed > 0 ? std::min(period, (speed_.time() - end) / speed) : 0;
-      end_tracks(end, rest_.advance(period - after));
+      rest_.pass(period - after);
+      end_tracks(end);
       arrival_ = end;
       period = after;
     }
-    reference_ = rest_.advance(period);
+    rest_.pass(period);
+    if (!tracks_.all()) reference_ = rest_.reference();
     if (tracks_.any()) {
       tracks_.sample(speed_.time(), own_);
       own_.position = own_.position.cwiseMax(lowest).cwiseMin(highest);  // rounding
@@ -144,9 +152,9 @@ class TrajectoryMotion {
   }
 
   /// Ends the tracks that end at a time. Their joints begin to stop.
-  void end_tracks(double end, Reference resting) noexcept {
+  void end_tracks(double end) noexcept {
     JointArray<bool, joint_count> ended = tracks_.follows();
-    Reference last;
+    Reference resting = rest_.reference(), last;
     tracks_.end(end, last);
     for (int j = 0; j < joint_count; ++j) ended[j] = ended[j] && !tracks_.follows()[j];
     copy_joints(speed_.apply(last), resting, ended);

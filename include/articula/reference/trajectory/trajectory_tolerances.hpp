@@ -17,7 +17,6 @@ namespace articula {
 /// The largest deviations of N joints, in both directions. 0 is not checked. These are parameters of
 /// ROS's joint trajectory controller: constraints.<joint>.trajectory, constraints.<joint>.goal,
 /// constraints.stopped_velocity_tolerance and constraints.goal_time.
-/// @tparam N  number of joints
 template <int N>
 struct TrajectoryTolerances {
   JointVector<N> path_position = JointVector<N>::Zero();  ///< before the end [rad or m], N x 1

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Limits and initial values in <ros2_control>, which urdfdom does not read.
+/// @file Limits and initial values that urdfdom does not read: of <ros2_control>, URDF 1.2, and the
+/// soft limits of <safety_controller>, which urdfdom refuses without k_velocity.
 #pragma once
 
 #include "articula/model/joint.hpp"
 #include "articula/text/numbers.hpp"
-#include "articula/urdf/xml/notice_list.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>
@@ -29,16 +29,16 @@ struct LimitContradiction {
   std::string reason{};  ///< what is wrong and what to do
 };
 
-/// The contents of <ros2_control> by joint, and the limits in <limit> that urdfdom does not read.
+/// The contents of <ros2_control> by joint, and the limits in <limit> and <safety_controller> that
+/// urdfdom does not read.
 struct UrdfControl {
-  std::map<std::string, JointLimits> limits{};  ///< of the commands
+  std::map<std::string, JointLimits> limits{};  ///< of the commands, and soft limits
   std::multimap<std::string, LimitContradiction> contradictions{};
   std::map<std::string, UrdfInitialValues> initial_values{};
 };
 
 namespace detail {
 
-/// Reads a UrdfControl.
 class ControlReader {
  public:
   ControlReader(const std::string& file, NoticeList& notices) : file_(file), notices_(notices) {}
@@ -55,13 +55,13 @@ class ControlReader {
         read_initial_values(joint, name);
       });
     });
+    for_each_child(robot, "joint", [this](const XmlElement& joint) { read_soft_limits(joint); });
     return std::move(result_);
   }
 
  private:
   static constexpr double infinity = JointLimits::infinity;
 
-  /// The bounds of a command.
   struct Bounds {
     std::optional<double> min{}, max{};
   };
@@ -81,15 +81,13 @@ class ControlReader {
 
   /// Whether an element has <limits enable="false"/>, in any case.
   [[nodiscard]] bool is_disabled(const XmlElement& element, const std::string& where) {
-    const XmlElement* enable = element.FirstChildElement("limits");
-    if (!enable || lower_case(attribute(*enable, "enable")) != "false") return false;
+    if (lower_case(attribute(element.FirstChildElement("limits"), "enable")) != "false")
+      return false;
     notices_.add(where +
-                 "<limits enable=\"false\"/>: min and max are ignored there, and <limit> "
-                 "is used");
+                 "<limits enable=\"false\"/>: min and max are ignored there, and <limit> is used");
     return true;
   }
 
-  /// Reads the limits of a joint's commands.
   void read_limits(const XmlElement& joint, const std::string& name) {
     JointLimits& limits = result_.limits[name];
     if (is_disabled(joint, owner_)) return;
@@ -167,20 +165,60 @@ class ControlReader {
   /// Reads acceleration, deceleration and jerk of <limit>, which URDF 1.2 defines.
   void read_rates(const XmlElement& joint) {
     const XmlElement* limit = joint.FirstChildElement("limit");
-    const std::string name = attribute(joint, "name");
     for (const char* rate : {"acceleration", "deceleration", "jerk"}) {
       const char* text = limit ? limit->Attribute(rate) : nullptr;
       if (!text) continue;
       const auto value = number_of(text);
       if (value && *value > 0) {
-        JointLimits& limits = result_.limits[name];
+        JointLimits& limits = result_.limits[attribute(joint, "name")];
         double& narrowed = rate[0] == 'j' ? limits.jerk : limits.acceleration;
         narrowed = std::min(narrowed, *value);
       } else {
-        notices_.add("joint '" + one_line(name) + "': <limit>: " + rate + " '" + text +
+        notices_.add(owner_text(joint) + "<limit>: " + rate + " '" + text +
                      "' is not a number > 0 and is ignored");
       }
     }
+  }
+
+  /// Reads the soft limits of <safety_controller>; k_position is their rate. Where they cannot be
+  /// used, a notice gives the reason.
+  void read_soft_limits(const XmlElement& joint) {
+    const XmlElement* safety = joint.FirstChildElement("safety_controller");
+    const std::string type = attribute(joint, "type");
+    if (!safety || type == "fixed") return;
+    const auto report = [&](const std::string& text) {
+      notices_.add(owner_text(joint), "<safety_controller>: " + text);
+    };
+    bool are_numbers = true;
+    const auto number = [&](const char* name) -> std::optional<double> {
+      const char* text = safety->Attribute(name);
+      if (!text) return std::nullopt;
+      const auto value = number_of(text);
+      if (!value) report(std::string(name) + " '" + text + "' is not a number and is ignored");
+      are_numbers = are_numbers && value;
+      return value;
+    };
+    const auto lower = number("soft_lower_limit"), upper = number("soft_upper_limit");
+    const auto rate = number("k_position"), damping = number("k_velocity");
+    if (damping && *damping != 0) report("k_velocity is ignored");
+    if (!are_numbers) return;
+    if (!lower && !upper) {
+      if (rate && *rate != 0) report("k_position is ignored without soft limits");
+      return;
+    }
+    const char* fault = type == "continuous"    ? "the joint is continuous"
+                        : !lower || !upper      ? "one of them is missing"
+                        : !(*lower < *upper)    ? "they leave the joint no room to move"
+                        : rate && !(*rate >= 0) ? "k_position is negative"
+                                                : nullptr;
+    if (fault) {
+      return report("soft limits " + (lower ? rounded_text(*lower) : "(none)") + " .. " +
+                    (upper ? rounded_text(*upper) : "(none)") + " are ignored: " + fault);
+    }
+    JointLimits& limits = result_.limits[attribute(joint, "name")];
+    limits.soft_lower = *lower;
+    limits.soft_upper = *upper;
+    if (rate && *rate > 0) limits.soft_rate = *rate;
   }
 
   /// Reads <param name="initial_value"> of the joint's <state_interface>s.

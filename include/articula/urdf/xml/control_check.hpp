@@ -3,8 +3,7 @@
 #pragma once
 
 #include "articula/text/similar_word.hpp"
-#include "articula/urdf/xml/notice_list.hpp"
-#include "articula/urdf/xml/unknown_words.hpp"
+#include "articula/urdf/xml/known_words.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <algorithm>
@@ -38,8 +37,11 @@ class ControlCheck {
     const std::string here = "<ros2_control>" + (name.empty() ? "" : " '" + name + "'") + ": ";
     owner_ = here;
     check_words(component, "");
-    check_attribute(component, "name", {});
-    check_attribute(component, "type", {"system", "actuator", "sensor"});
+    for (const char* word : {"name", "type"}) require(component, word);
+    const std::string type = attribute(component, "type");
+    if (!type.empty() && type != "system" && type != "actuator" && type != "sensor") {
+      add("type '" + one_line(type) + "' is none of system, actuator, sensor");
+    }
     check_truth(component, "is_async");
     for (const char* count : {"rw_rate", "thread_priority"}) check_count(component, count);
     if (const XmlElement* hardware = component.FirstChildElement("hardware")) {
@@ -49,14 +51,13 @@ class ControlCheck {
     }
     for (const std::string kind : {"joint", "sensor", "gpio"}) {
       for_each_child(component, kind.c_str(), [&](const XmlElement& part) {
-        owner_ = (kind == "joint" ? "<ros2_control>: " : here) + kind + " '" +
-                 one_line(attribute(part, "name")) + "': ";
+        owner_ = (kind == "joint" ? "<ros2_control>: " : here) + owner_text(part);
         if (kind == "joint") check_joint(component, part);
         check_part(part);
       });
     }
     for_each_child(component, "transmission", [&](const XmlElement& transmission) {
-      owner_ = "transmission '" + one_line(attribute(transmission, "name")) + "': ";
+      owner_ = owner_text(transmission);
       check_transmission(component, transmission);
     });
   }
@@ -65,7 +66,7 @@ class ControlCheck {
   void check_part(const XmlElement& part) {
     const std::string kind = part.Value();
     check_words(part, "");
-    check_attribute(part, "name", {});
+    require(part, "name");
     check_params(part, "<" + kind + ">");
     check_enable(part, "");
     for (const std::string interface : {"command_interface", "state_interface"}) {
@@ -149,7 +150,7 @@ class ControlCheck {
       add(takes_commands ? "it is fixed, so its commands move nothing" : "it is fixed");
     }
     const XmlElement* mimics = mechanics.FirstChildElement("mimic");
-    const std::string mimicked = mimics ? attribute(*mimics, "joint") : "";
+    const std::string mimicked = attribute(mimics, "joint");
     if (mimicked_there.value_or(mimicked) != mimicked) {
       notices_.add(owner_ + "mimic '" + (mimic == "false" ? mimic : *mimicked_there) +
                    "' is ignored: only <mimic> in the joint itself is read");
@@ -162,7 +163,7 @@ class ControlCheck {
   }
 
   void check_transmission(const XmlElement& component, const XmlElement& transmission) {
-    check_attribute(transmission, "name", {});
+    require(transmission, "name");
     check_plugin(transmission, "it");
     for (const std::string kind : {"joint", "actuator"}) {
       for_each_child(transmission, kind.c_str(), [&](const XmlElement& end) {
@@ -206,15 +207,8 @@ class ControlCheck {
     });
   }
 
-  /// @param choice  the texts that the attribute may have; any but an empty one if there is none
-  void check_attribute(const XmlElement& element, const std::string& name,
-                       const std::vector<std::string_view>& choice) {
-    const std::string text = attribute(element, name.c_str());
-    if (text.empty()) return add("it has no " + name);
-    if (choice.empty() || std::ranges::find(choice, text) != choice.end()) return;
-    std::string list;
-    for (const std::string_view each : choice) list.append(list.empty() ? "" : ", ").append(each);
-    add(name + " '" + one_line(text) + "' is none of " + list);
+  void require(const XmlElement& element, const char* name) {
+    if (attribute(element, name).empty()) add(std::string("it has no ") + name);
   }
 
   void check_truth(const XmlElement& element, const char* name, const std::string& where = "") {

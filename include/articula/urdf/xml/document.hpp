@@ -4,18 +4,16 @@
 
 #include "articula/urdf/xml/control.hpp"
 #include "articula/urdf/xml/control_check.hpp"
-#include "articula/urdf/xml/duplicate_elements.hpp"
-#include "articula/urdf/xml/messages.hpp"
-#include "articula/urdf/xml/number_check.hpp"
-#include "articula/urdf/xml/safety.hpp"
+#include "articula/urdf/xml/known_words.hpp"
+#include "articula/urdf/xml/mechanics_check.hpp"
 #include "articula/urdf/xml/source.hpp"
 #include "articula/urdf/xml/transmission.hpp"
-#include "articula/urdf/xml/tree_check.hpp"
-#include "articula/urdf/xml/unknown_words.hpp"
 
+#include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +29,6 @@ struct UrdfDocument {
       joint_orientations{};  ///< roll, pitch, yaw [rad] by joint; urdfdom keeps quaternions only
   std::map<std::string, Vector3<double>> inertia_orientations{};  ///< the same by link
   UrdfControl control{};
-  std::map<std::string, JointLimits> soft_limits{};  ///< of <safety_controller>, by joint
   std::vector<UrdfTransmission> transmissions{};
   std::vector<std::string> unknown_words{};  ///< notices about words in links and joints
   std::vector<std::string> notices{};        ///< all other notices about the file
@@ -58,6 +55,48 @@ inline void blank_white_space(std::string& text) {
   rpy.init(origin->Attribute("rpy"));
   return {rpy.x, rpy.y, rpy.z};
 }
+
+/// While it lives, errors that urdfdom logs (through console_bridge, whose receiver is global) come
+/// here. One at a time: another thread's waits.
+class MessageCatcher {
+ public:
+  MessageCatcher()
+      : lock_(receiver().mutex),
+        previous_(console_bridge::getOutputHandler()),
+        level_(console_bridge::getLogLevel()) {
+    receiver().errors.clear();
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_ERROR);
+    console_bridge::useOutputHandler(&receiver());
+  }
+  ~MessageCatcher() {
+    console_bridge::useOutputHandler(previous_);
+    console_bridge::setLogLevel(level_);
+  }
+  MessageCatcher(const MessageCatcher&) = delete;
+  MessageCatcher& operator=(const MessageCatcher&) = delete;
+
+  /// The errors so far, separated by semicolons.
+  [[nodiscard]] const std::string& errors() const noexcept { return receiver().errors; }
+
+ private:
+  struct Receiver final : console_bridge::OutputHandler {
+    void log(const std::string& text, console_bridge::LogLevel, const char*, int) override {
+      if (!errors.empty()) errors += "; ";
+      for (char c : text) errors += c == '\n' ? ' ' : c;
+    }
+    std::string errors{};
+    std::mutex mutex{};
+  };
+  /// Lives to the end of the program, as console_bridge remembers the previous receiver.
+  [[nodiscard]] static Receiver& receiver() {
+    static Receiver& receiver = *new Receiver;
+    return receiver;
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  console_bridge::OutputHandler* previous_;
+  console_bridge::LogLevel level_;
+};
 
 /// Parses the mechanics of a robot by urdfdom.
 [[nodiscard]] inline urdf::ModelInterfaceSharedPtr parse_mechanics(const std::string& file,
@@ -98,14 +137,12 @@ inline void blank_white_space(std::string& text) {
   detail::ControlCheck(notices).check(robot);
   result.control = detail::ControlReader(file, notices).read(robot);
   result.transmissions = detail::read_transmissions(file, robot, notices);
-  result.soft_limits = detail::read_soft_limits(robot, notices);
   result.unknown_words = unknown_words.lines();
   result.notices = notices.lines();
 
   detail::keep_mechanics(file, robot);
   detail::for_each_part(robot, [&](const detail::XmlElement& part, const std::string& owner) {
-    detail::refuse_placeholders(file, owner, part);
-    detail::check_numbers(file, owner, part);
+    detail::check_attributes(file, owner, part);
   });
   // TinyXML may read odd characters differently from how it writes them. So the checks of the tree,
   // urdfdom and the reader of angles all parse what TinyXML writes.

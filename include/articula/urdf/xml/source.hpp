@@ -4,6 +4,7 @@
 
 #include "articula/text/text_source.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -20,13 +21,10 @@ class UrdfSource : public detail::TextSource {
 
   UrdfSource(const std::filesystem::path& file)  // NOLINT: a path is a source
       : TextSource(file.string()) {}
-  UrdfSource(std::string_view file_or_xml)  // NOLINT: a string is a source
-      : TextSource(std::string(is_xml(file_or_xml) ? "URDF" : file_or_xml),
+  template <std::convertible_to<std::string_view> Text>
+  UrdfSource(const Text& file_or_xml)  // NOLINT: a string is a source
+      : TextSource(std::string(is_xml(file_or_xml) ? "URDF" : std::string_view(file_or_xml)),
                    is_xml(file_or_xml) ? std::optional<std::string>(file_or_xml) : std::nullopt) {}
-  UrdfSource(const std::string& file_or_xml)  // NOLINT: likewise
-      : UrdfSource(std::string_view(file_or_xml)) {}
-  UrdfSource(const char* file_or_xml)  // NOLINT: likewise
-      : UrdfSource(std::string_view(file_or_xml)) {}
 
   /// The XML.
   /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL character

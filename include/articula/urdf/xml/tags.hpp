@@ -83,7 +83,6 @@ class TagChecker {
     if (at_ == start) fail(fault);
     return view().substr(start, at_ - start);
   }
-  /// Skips a text in quotes.
   void skip_literal(const char* fault) {
     const std::string_view quote = view().substr(at_, 1);
     if (quote != "\"" && quote != "'") fail(fault);

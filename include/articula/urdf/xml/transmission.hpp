@@ -2,7 +2,6 @@
 /// @file The <transmission>s of a URDF, which urdfdom does not read.
 #pragma once
 
-#include "articula/urdf/xml/notice_list.hpp"
 #include "articula/urdf/xml/xml.hpp"
 
 #include <optional>

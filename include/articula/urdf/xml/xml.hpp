@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Access to the XML of a URDF by the library that urdfdom uses: TinyXML, or TinyXML-2 from
-/// urdfdom 4 on.
+/// @file Access to the XML of a URDF by the library that urdfdom uses, TinyXML or from urdfdom 4 on
+/// TinyXML-2, and notices about its elements.
 #pragma once
 
 #include "articula/text/file_error.hpp"
 #include "articula/text/numbers.hpp"
-#include "articula/text/placeholder.hpp"
 #include "articula/urdf/xml/tags.hpp"
 
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <initializer_list>
+#include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace articula::detail {
 
@@ -57,10 +59,13 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
   }
 }
 
-/// An attribute's text; empty if there is none.
-[[nodiscard]] inline std::string attribute(const XmlElement& element, const char* name) {
-  const char* text = element.Attribute(name);
+/// An attribute's text; empty if there is none, or no element (nullptr).
+[[nodiscard]] inline std::string attribute(const XmlElement* element, const char* name) {
+  const char* text = element ? element->Attribute(name) : nullptr;
   return text ? text : "";
+}
+[[nodiscard]] inline std::string attribute(const XmlElement& element, const char* name) {
+  return attribute(&element, name);
 }
 
 [[nodiscard]] inline std::string lower_case(std::string text) {
@@ -74,14 +79,16 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
   return text;
 }
 
-/// Calls `use` with each link, then with each joint of a robot, and with the beginning of messages
-/// about it, such as "joint 'elbow': ".
+/// The beginning of messages about an element with a name, such as "joint 'elbow': ".
+[[nodiscard]] inline std::string owner_text(const XmlElement& element) {
+  return std::string(element.Value()) + " '" + one_line(attribute(element, "name")) + "': ";
+}
+
+/// Calls `use` with each link, then with each joint of a robot, and with its owner_text.
 template <class Use>
 void for_each_part(const XmlElement& robot, Use use) {
   for (const char* kind : {"link", "joint"}) {
-    for_each_child(robot, kind, [&](const XmlElement& part) {
-      use(part, std::string(kind) + " '" + one_line(attribute(part, "name")) + "': ");
-    });
+    for_each_child(robot, kind, [&](const XmlElement& part) { use(part, owner_text(part)); });
   }
 }
 
@@ -120,25 +127,6 @@ inline void refuse_xacro(const std::string& file, const XmlElement& element) {
   for_each_child(element, nullptr, [&](const XmlElement& child) { refuse_xacro(file, child); });
 }
 
-/// @throws FileError if an attribute holds a placeholder of xacro or of a template tool
-/// @param owner  the link or joint, for the message
-inline void refuse_placeholders(const std::string& file, const std::string& owner,
-                                const XmlElement& element) {
-  for (auto each = element.FirstAttribute(); each; each = each->Next()) {
-    const std::string text = each->Value();
-    const std::string_view placeholder = bracketed_placeholder_in(text);
-    if (placeholder.empty()) continue;
-    throw FileError(file, owner + "'" + text + "'" +
-                              (placeholder.starts_with('$')
-                                   ? xacro_advice
-                                   : " is an unexpanded placeholder: run the template tool and "
-                                     "load the result"));
-  }
-  for_each_child(element, nullptr,
-                 [&](const XmlElement& child) { refuse_placeholders(file, owner, child); });
-}
-
-/// Removes all child elements but those named.
 inline void keep_only(XmlElement& parent, std::initializer_list<std::string_view> names) {
   for (XmlElement* child = parent.FirstChildElement(); child;) {
     XmlElement* next = child->NextSiblingElement();
@@ -147,7 +135,6 @@ inline void keep_only(XmlElement& parent, std::initializer_list<std::string_view
   }
 }
 
-/// Removes the masses of a robot.
 inline void remove_inertials(XmlElement& robot) {
   for (XmlElement* link = robot.FirstChildElement("link"); link;
        link = link->NextSiblingElement("link")) {
@@ -174,5 +161,46 @@ inline void keep_mechanics(const std::string& file, XmlElement& robot) {
     }
   }
 }
+
+/// Collects notices. The same text about several elements becomes one line, with the first element
+/// and the number of the others.
+class NoticeList {
+ public:
+  /// @param owner  the element, such as "link 'arm': "
+  /// @param text   the notice about it
+  void add(const std::string& owner, const std::string& text) {
+    const auto [at, is_new] = index_.try_emplace(text, notices_.size());
+    if (is_new) return notices_.push_back({.first = owner, .last = owner, .text = text});
+    Notice& known = notices_[at->second];
+    if (known.last == owner) return;  // one element may repeat the text
+    known.last = owner;
+    ++known.others;
+  }
+
+  /// Adds a line of its own.
+  void add(const std::string& line) { notices_.push_back({.first = "", .last = "", .text = line}); }
+
+  [[nodiscard]] std::vector<std::string> lines() const {
+    std::vector<std::string> lines;
+    for (const Notice& notice : notices_) {
+      lines.push_back(notice.first + notice.text);
+      if (notice.others == 0) continue;
+      lines.back() += (notice.text.ends_with('?') ? " Also in " : "; also in ") +
+                      std::to_string(notice.others) + " other" + (notice.others == 1 ? "" : "s");
+    }
+    return lines;
+  }
+
+ private:
+  struct Notice {
+    std::string first{};  ///< the first element that has it
+    std::string last{};   ///< the last element that has it
+    std::string text{};
+    std::size_t others = 0;  ///< number of elements besides the first
+  };
+
+  std::vector<Notice> notices_{};
+  std::map<std::string, std::size_t> index_{};  ///< of the notices, by text
+};
 
 }  // namespace articula::detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The period of a loop.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
+
+#include <optional>
+
+namespace articula::detail {
+
+/// The time between two updates of a loop [s]: the hardware's own, else the one that is asked for,
+/// else 1 ms.
+/// @throws std::invalid_argument if it is not a positive number, or not that which the hardware
+///         dictates
+template <class HardwareType>
+[[nodiscard]] double loop_period(const HardwareType& hardware, std::optional<double> asked) {
+  double period = asked.value_or(1e-3);
+  if constexpr (requires { hardware.period(); }) period = hardware.period();
+  if (!is_finite(period) || period <= 0) {
+    refuse({"loop: period ", period, " s is not a positive number"});
+  }
+  if (asked && *asked != period) {
+    refuse({"loop: period ", *asked, " s, but the hardware has ", period, " s"});
+  }
+  return period;
+}
+
+}  // namespace articula::detail
