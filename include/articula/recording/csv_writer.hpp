@@ -13,6 +13,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -48,7 +49,6 @@ class CsvWriter {
     add_header();
     write_row();
   }
-  /// For a robot known at compile time.
   explicit CsvWriter(const std::filesystem::path& path, const RecordContents& contents = {})
     requires DescribedRobot<R>
       : CsvWriter(R(), path, contents) {}
@@ -71,6 +71,13 @@ class CsvWriter {
     const CycleTiming& timing = record.timing;
     for (const auto duration : {timing.latency, timing.period, timing.update}) {
       add(std::chrono::duration<double>(duration).count());
+    }
+    const CycleInput& input = record.input;
+    for (const Status status : {input.read, input.write, input.change}) add(to_string(status));
+    for (const std::uint64_t number :
+         {static_cast<std::uint64_t>(input.request), std::uint64_t{input.posted},
+          std::uint64_t{input.overruns}, input.missed}) {
+      add(std::to_string(number));
     }
     add_extras(record.state);
     write_row();
@@ -113,13 +120,13 @@ class CsvWriter {
         add_column(name, static_cast<std::size_t>(part.quantity));
       }
     }
-    row_ += ",latency [s],period [s],update [s]";
-    for (const MimicJoint& joint : extras_.mimic_joints()) {
+    row_ += ",latency [s],period [s],update [s],read,write,change,request,posted,overruns,missed";
+    for (const MimicJoint& joint : extras_.mimic_joints) {
       const std::string_view length = joint.slides ? "m" : "rad";
       add(detail::message_of({joint.name, " position [", length, "]"}));
       add(detail::message_of({joint.name, " velocity [", length, "/s]"}));
     }
-    for (const RecordedLink& link : extras_.links()) {
+    for (const RecordedLink& link : extras_.links) {
       for (const char* column : {" x [m]", " y [m]", " z [m]", " qx", " qy", " qz", " qw"}) {
         add(link.name + column);
       }
@@ -127,15 +134,15 @@ class CsvWriter {
   }
 
   void add_extras(const JointState<joint_count>& state) {
-    if (!extras_.mimic_joints().empty()) {
+    if (!extras_.mimic_joints.empty()) {
       const auto q = moving_joint_positions(robot_, state.position);
       const auto v = moving_joint_velocities(robot_, state.velocity);
-      for (const MimicJoint& joint : extras_.mimic_joints()) {
+      for (const MimicJoint& joint : extras_.mimic_joints) {
         add(q[joint.index]);
         add(v[joint.index]);
       }
     }
-    for (const RecordedLink& link : extras_.links()) {
+    for (const RecordedLink& link : extras_.links) {
       const Eigen::Isometry3d pose = forward_kinematics(robot_, state.position, link.index);
       const Eigen::Quaterniond rotation(pose.linear());
       for (const double value : pose.translation()) add(value);

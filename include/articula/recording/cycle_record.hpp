@@ -5,15 +5,16 @@
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/core/status.hpp"
+#include "articula/loop/cycle_input.hpp"
 #include "articula/loop/run_report.hpp"
 
 #include <cstdint>
-#include <type_traits>
 
 namespace articula {
 
 /// The state, reference, command, status and timing of one cycle, for Recorder, RecordStream and
-/// their sinks. A plain value of about 50 doubles for six joints.
+/// their sinks, and what else its command depends on (see Replay). A plain value of about 50 doubles
+/// for six joints.
 /// @tparam N            number of joints
 /// @tparam CommandType  of the loop
 template <int N, class CommandType>
@@ -25,9 +26,10 @@ struct CycleRecord {
   double time = 0;             ///< of the loop [s]
   Status status = Status::ok;  ///< how the cycle ended
   JointState<N> state{};
-  JointReference<N> reference{};
+  JointReference<N> reference{};  ///< from which the command was made
   Command command{};
   CycleTiming timing{};
+  CycleInput input{};
 };
 
 /// The record type of a loop.
@@ -36,18 +38,30 @@ using CycleRecordOf = CycleRecord<LoopType::joint_count, typename LoopType::Comm
 
 /// The record of the last cycle of a loop.
 /// @param loop    a Loop or a SupervisedLoop
-/// @param report  of its run
+/// @param cycle   its number
+/// @param status  how it ended
+/// @param timing  of this cycle
+/// Real-time: yes. O(N).
+template <class LoopType>
+[[nodiscard]] CycleRecordOf<LoopType> record_of(const LoopType& loop, std::uint64_t cycle,
+                                                Status status, const CycleTiming& timing) noexcept {
+  return {.cycle = cycle,
+          .time = loop.time(),
+          .status = status,
+          .state = loop.state(),
+          .reference = loop.followed(),
+          .command = loop.command(),
+          .timing = timing,
+          .input = loop.input()};
+}
+/// The same of a run. Before a run it is the record of cycle 0: where the joints were when the loop
+/// was made.
+/// @param report  of the loop's run
 /// Real-time: yes. O(N).
 template <class LoopType>
 [[nodiscard]] CycleRecordOf<LoopType> record_of(const LoopType& loop,
                                                 const RunReport& report) noexcept {
-  return {.cycle = report.cycles,
-          .time = loop.time(),
-          .status = report.status,
-          .state = loop.state(),
-          .reference = loop.reference(),
-          .command = loop.command(),
-          .timing = report.timing};
+  return record_of(loop, report.cycles, report.status, report.timing);
 }
 
 }  // namespace articula

@@ -2,12 +2,15 @@
 /// @file Writes recorded cycles to an MCAP file. Needs nlohmann-json (target articula::recording).
 #pragma once
 
+#include "articula/recording/change_json.hpp"
+#include "articula/recording/loop_change.hpp"
 #include "articula/recording/mcap_writer.hpp"
 #include "articula/recording/record_json.hpp"
 
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <span>
 
 namespace articula {
 
@@ -33,16 +36,17 @@ class McapRecordWriter {
         extras_(robot, contents),
         writer_(path, "cycle", "articula.Cycle",
                 schema_of(record_json(robot, Record(), extras_)).dump()) {}
-  /// For a robot known at compile time.
   explicit McapRecordWriter(const std::filesystem::path& path, const RecordContents& contents = {})
     requires DescribedRobot<R>
       : McapRecordWriter(R(), path, contents) {}
 
-  /// Writes one record.
+  /// Writes one record, with the changes of the loop that were made before this cycle, if any, as its
+  /// member "changes".
   /// @throws std::runtime_error if it cannot be written
-  void write(const Record& record) {
-    writer_.write(std::chrono::nanoseconds(std::llround(record.time * 1e9)),
-                  record_json(robot_, record, extras_).dump());
+  void write(const Record& record, std::span<const LoopChange> changes = {}) {
+    Json json = record_json(robot_, record, extras_);
+    for (const LoopChange& change : changes) json["changes"].push_back(change_json(change));
+    writer_.write(std::chrono::nanoseconds(std::llround(record.time * 1e9)), json.dump());
   }
 
   /// Completes the file. Does nothing if it is closed already.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cerrno>
-#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -25,7 +24,6 @@ class OutputFile {
     keep_error(file_ != nullptr);
   }
 
-  /// Appends bytes.
   void write(std::string_view bytes) {
     errno = EBADF;  // of a closed file
     keep_error(file_ && std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size());

@@ -36,34 +36,25 @@ struct RecordedLink {
 /// The mimic joints of a robot and the recorded links, found by name once.
 /// @tparam R  the robot
 template <Robot R>
-class RecordExtras {
- public:
+struct RecordExtras {
+  std::vector<MimicJoint> mimic_joints{};  ///< in the order of moving_joint_names()
+  std::vector<RecordedLink> links{};       ///< in the order of RecordContents
+
   /// @throws std::invalid_argument if the robot has no link of a name; the message lists its links
   /// Real-time: no (allocates, throws).
   RecordExtras(const R& robot, const RecordContents& contents) {
     for (const std::string& link : contents.links) {
-      links_.push_back({link, link_index(robot, link)});
+      links.push_back({link, link_index(robot, link)});
     }
     if (!contents.mimic_joints || moving_joint_count<R> == joint_count<R>) return;
     const auto& model = model_of(robot);
     for (std::size_t i = 0; i < model.moving_joints.size(); ++i) {
-      const auto followed = static_cast<std::size_t>(model.mechanism.couplings[i].joint);
+      const int followed = model.mechanism.couplings[i].joint;
       if (model.moving_joints[i] == model.joints[followed].name) continue;
-      mimic_joints_.push_back({std::string(model.moving_joints[i].view()),
-                               model.mechanism.bodies[i].prismatic, static_cast<int>(i)});
+      mimic_joints.push_back({std::string(model.moving_joints[i].view()),
+                              model.mechanism.bodies[i].prismatic, static_cast<int>(i)});
     }
   }
-
-  /// The mimic joints in the order of moving_joint_names().
-  [[nodiscard]] const std::vector<MimicJoint>& mimic_joints() const noexcept {
-    return mimic_joints_;
-  }
-  /// The links in the order of RecordContents.
-  [[nodiscard]] const std::vector<RecordedLink>& links() const noexcept { return links_; }
-
- private:
-  std::vector<MimicJoint> mimic_joints_{};
-  std::vector<RecordedLink> links_{};
 };
 
 }  // namespace articula

@@ -25,7 +25,7 @@ namespace detail {
 template <Robot R>
 [[nodiscard]] Json& member_of(Json& json, const R& robot, int joint) {
   const auto& model = model_of(robot);
-  const std::string_view name = model.joints[static_cast<std::size_t>(joint)].name.view();
+  const std::string_view name = model.joints[joint].name.view();
   return json[std::string(model.name.view())][std::string(name)];
 }
 
@@ -78,10 +78,10 @@ void add_extras(const R& robot, Json& json, const RecordExtras<R>& extras,
   Json& joints = json[std::string(model_of(robot).name.view())];
   const auto q = moving_joint_positions(robot, state.position);
   const auto v = moving_joint_velocities(robot, state.velocity);
-  for (const MimicJoint& joint : extras.mimic_joints()) {
+  for (const MimicJoint& joint : extras.mimic_joints) {
     joints[joint.name] = {{"position", q[joint.index]}, {"velocity", v[joint.index]}};
   }
-  for (const RecordedLink& link : extras.links()) {
+  for (const RecordedLink& link : extras.links) {
     const Eigen::Isometry3d pose = forward_kinematics(robot, state.position, link.index);
     const Eigen::Vector3d p = pose.translation();
     const Eigen::Quaterniond rotation(pose.linear());
@@ -92,7 +92,8 @@ void add_extras(const R& robot, Json& json, const RecordExtras<R>& extras,
   }
 }
 
-/// A whole record: states, references, commands, mimic joints and link poses; status and timing [s].
+/// A whole record: states, references, commands, mimic joints and link poses; status, timing [s] and
+/// input, with the numbers of CycleInput.
 /// @param robot   whose joints these are
 /// @param record  of one cycle
 /// @param extras  mimic joints and links to add
@@ -119,13 +120,16 @@ template <Robot R, class Command>
   json["timing"] = {{"latency", seconds(record.timing.latency)},
                     {"period", seconds(record.timing.period)},
                     {"update", seconds(record.timing.update)}};
+  const CycleInput& input = record.input;
+  json["input"] = {{"read", static_cast<int>(input.read)},
+                   {"write", static_cast<int>(input.write)},
+                   {"request", static_cast<int>(input.request)},
+                   {"change", static_cast<int>(input.change)},
+                   {"posted", input.posted ? 1 : 0},
+                   {"overruns", input.overruns},
+                   {"missed", input.missed}};
   add_extras(robot, json, extras, record.state);
   return json;
-}
-/// The same with all mimic joints and without links.
-template <Robot R, class Command>
-[[nodiscard]] Json record_json(const R& robot, const CycleRecord<joint_count<R>, Command>& record) {
-  return record_json(robot, record, RecordExtras<R>(robot, {}));
 }
 
 /// The JSON Schema of objects with the same members and types as an example.

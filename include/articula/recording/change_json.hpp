@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Changes of a loop as JSON. Needs nlohmann-json (target articula::recording).
+#pragma once
+
+#include "articula/recording/loop_change.hpp"
+#include "articula/recording/record_json.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace articula {
+
+/// A change of a loop, without the number of its cycle:
+///
+///     {"gains": {"pid.elbow.p": 5}}    {"start": ["pid"], "stop": ["bypass"], "replace": true}
+///
+/// A gain that is infinite is the text "inf" or "-inf".
+/// Real-time: no (allocates).
+[[nodiscard]] inline Json change_json(const LoopChange& change) {
+  Json json = Json::object();
+  for (const GainSetting& gain : change.gains) {
+    Json& value = json["gains"][gain.parameter];
+    if (std::isinf(gain.value)) {
+      value = gain.value > 0 ? "inf" : "-inf";
+    } else {
+      value = gain.value;
+    }
+  }
+  if (!is_empty(change.request)) {
+    json["start"] = json["stop"] = Json::array();
+    for (const Name& name : change.request.start) json["start"].push_back(std::string(name.view()));
+    for (const Name& name : change.request.stop) json["stop"].push_back(std::string(name.view()));
+    json["best_effort"] = change.request.strictness == Strictness::best_effort;
+    json["replace"] = change.request.replace;
+  }
+  return json;
+}
+
+/// The change of such JSON.
+/// @param cycle  in which it has effect first
+/// @throws nlohmann::json::exception if a member is missing or of another type
+/// @throws std::length_error if a name or a list is too long
+/// Real-time: no (allocates, throws).
+[[nodiscard]] inline LoopChange change_of_json(std::uint64_t cycle, const Json& json) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  LoopChange change{.cycle = cycle};
+  if (json.contains("gains")) {
+    for (const auto& [name, value] : json.at("gains").items()) {
+      const double number = !value.is_string() ? value.get<double>()
+                            : value == "-inf"  ? -infinity
+                                               : infinity;
+      change.gains.push_back({name, number});
+    }
+  }
+  if (json.contains("start")) {
+    const auto names = [&](const char* list) {
+      std::vector<Name> all;
+      for (const Json& name : json.at(list)) all.emplace_back(name.get<std::string>());
+      return ControllerNames(all);
+    };
+    change.request = {.stop = names("stop"),
+                      .start = names("start"),
+                      .strictness = json.at("best_effort").get<bool>() ? Strictness::best_effort
+                                                                       : Strictness::strict,
+                      .replace = json.at("replace").get<bool>()};
+  }
+  return change;
+}
+
+}  // namespace articula
