@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The motion from any reference to rest at given positions.
+#pragma once
+
+#include "articula/reference/jerk_limited_profile.hpp"
+#include "articula/reference/state_to_state_profile.hpp"
+#include "articula/reference/stop_and_return.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace articula::remote {
+
+/// The motion of a reference to rest at given positions, within limits, from rest or in mid-motion:
+///
+/// - From rest it is a JerkLimitedProfile.
+/// - In mid-motion it is a StateToStateProfile, so that a slider that is dragged makes one motion.
+/// - Where there is none within the limits, or the robot has more than `most_blended` joints, for
+///   which the search takes long, it is a stop and then a JerkLimitedProfile.
+template <Robot R>
+class GoMotion {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  static constexpr int most_blended = 10;  ///< joints; the search takes some 10 us for each
+  using Vector = JointVector<joint_count>;
+  using Reference = JointReference<joint_count>;
+  using Limits = MotionLimits<joint_count>;
+
+  /// @param limits  that validate() accepts
+  GoMotion(const R& robot, const Limits& limits) noexcept
+      : limits_(limits),
+        range_(joint_range(robot)),
+        stop_(robot, Vector::Zero(), limits),
+        profile_(JerkLimitedProfile<R>::move(Vector::Zero(), Vector::Zero(), limits)) {}
+
+  /// Begins a motion.
+  /// @param from    the present reference, finite
+  /// @param target  within the joints' limits [rad or m], N x 1; a joint whose number is not finite
+  ///                rests as soon as it can
+  /// @param speed   share of the velocity limits, 0 < speed <= 1
+  /// Real-time: yes. O(N), O(N^2) in mid-motion.
+  void begin(const Reference& from, const Vector& target, double speed) noexcept {
+    const Limits limits{speed * limits_.velocity, limits_.acceleration, limits_.jerk};
+    lowest_ = range_.lower.cwiseMin(from.position);
+    highest_ = range_.upper.cwiseMax(from.position);
+    const auto stopping = JerkLimitedProfile<R>::stop(from, limits_, range_.lower, range_.upper);
+    target_ = stopping.sample(stopping.duration()).position;
+    for (int j = 0; j < joint_count; ++j) {
+      if (is_finite(target[j])) target_[j] = target[j];
+    }
+    time_ = 0;
+    blend_.reset();
+    pending_.reset();
+    if (from.velocity.isZero(0) && from.acceleration.isZero(0)) {
+      profile_ = JerkLimitedProfile<R>::move(from.position, target_, limits, from.effort);
+      return;
+    }
+    if constexpr (joint_count <= most_blended) {
+      blend_ = StateToStateProfile<R>::plan(from, {.position = target_, .effort = from.effort},
+                                            both_ways(limits));
+      if (blend_ && keeps_range(from)) return;
+      blend_.reset();
+    }
+    stop_.begin(from);
+    pending_ = limits;
+  }
+
+  /// Moves on by a period [s], > 0. Real-time: yes. O(N).
+  /// @return the reference at its end
+  [[nodiscard]] Reference advance(double period) noexcept {
+    time_ += period;
+    if (pending_) {
+      const Reference stopping = stop_.advance(period);
+      if (stop_.moves()) return stopping;
+      profile_ =
+          JerkLimitedProfile<R>::move(stopping.position, target_, *pending_, stopping.effort);
+      pending_.reset();
+      time_ = 0;
+      return stopping;
+    }
+    if (!blend_ || time_ >= blend_->duration()) {
+      if (blend_) {
+        const JointVector<joint_count> effort = blend_->sample(time_).effort;
+        return {.position = target_, .effort = effort};
+      }
+      return profile_.sample(time_);
+    }
+    Reference reference = blend_->sample(time_);
+    reference.position = reference.position.cwiseMax(lowest_).cwiseMin(highest_);  // rounding
+    return reference;
+  }
+
+  /// Whether the target is not reached yet. Real-time: yes.
+  [[nodiscard]] bool moves() const noexcept {
+    if (pending_) return true;
+    return time_ < (blend_ ? blend_->duration() : profile_.duration());
+  }
+  /// Where it leads [rad or m], N x 1. Real-time: yes.
+  [[nodiscard]] const Vector& target() const noexcept { return target_; }
+
+ private:
+  /// Whether the motion in between stays within the joints' limits.
+  [[nodiscard]] bool keeps_range(const Reference& from) const noexcept {
+    constexpr double rounding = 1e-9;  // [rad or m]
+    for (int j = 0; j < joint_count; ++j) {
+      const ValueRange allowed =
+          ValueRange{range_.lower[j], range_.upper[j]}.extended_to(from.position[j]);
+      const ValueRange positions = blend_->positions(j);
+      if (positions.lowest < allowed.lowest - rounding) return false;
+      if (positions.highest > allowed.highest + rounding) return false;
+    }
+    return true;
+  }
+
+  Limits limits_;
+  JointRange<joint_count> range_;
+  StopAndReturn<R> stop_;
+  JerkLimitedProfile<R> profile_;
+  std::optional<StateToStateProfile<R>> blend_{};
+  std::optional<Limits> pending_{};  ///< of the profile after the stop
+  Vector target_ = Vector::Zero();
+  Vector lowest_ = Vector::Zero(), highest_ = Vector::Zero();
+  double time_ = 0;
+};
+
+}  // namespace articula::remote

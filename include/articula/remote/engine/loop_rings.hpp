@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What passes between a loop's thread and the threads outside.
+#pragma once
+
+#include "articula/loop/exchange/event_ring.hpp"
+#include "articula/remote/engine/operator_watch.hpp"
+#include "articula/remote/engine/remote_record.hpp"
+#include "articula/remote/engine/task.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+namespace articula::remote {
+
+/// The rings between a loop and the outside, each with one writing and one reading side. Neither
+/// side waits for the other.
+/// @tparam R        the robot
+/// @tparam Command  of the loop
+template <Robot R, class Command>
+struct LoopRings {
+  using Record = RemoteRecord<joint_count<R>, Command>;
+  static constexpr std::size_t most_tasks = 64;      ///< that have not been given back
+  static constexpr std::size_t reserved_tasks = 8;   ///< of them, only for Stop and Deactivate
+  static constexpr std::size_t most_records = 1024;  ///< that were not taken yet
+
+  explicit LoopRings(double operator_lifetime_in_periods) : watch(operator_lifetime_in_periods) {}
+
+  // Written by the outside:
+  EventRing<Task<R>*, most_tasks> tasks{};
+  std::atomic<std::uint64_t> stop = 0;  ///< number of the last Stop, which overtakes motions
+  OperatorWatch watch;
+
+  // Written by the loop:
+  EventRing<Record, most_records> records{};
+  EventRing<ConditionChange, 64> changes{};
+  EventRing<Task<R>*, most_tasks> ended{};
+  std::atomic<std::uint64_t> updates = 0;  ///< calls of update(), a sign that the loop runs
+};
+
+}  // namespace articula::remote

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What kind of loop a Remote has, from its type.
+#pragma once
+
+#include "articula/core/joint_vector.hpp"
+
+#include <type_traits>
+#include <utility>
+
+namespace articula::remote {
+
+/// Whether a loop has modes, as a SupervisedControlLoop.
+template <class LoopType>
+inline constexpr bool is_supervised = requires(LoopType& loop) { loop.request_activation(); };
+
+/// The hardware of a loop.
+template <class LoopType>
+using HardwareOf = std::remove_cvref_t<decltype(std::declval<LoopType&>().hardware())>;
+
+/// Whether the hardware of a loop is simulated: joints can be put into another state and pulled.
+template <class LoopType>
+inline constexpr bool is_simulated =
+    requires(HardwareOf<LoopType>& hardware, const JointVector<LoopType::joint_count>& numbers) {
+      hardware.place(numbers, numbers);
+      hardware.set_external_effort(numbers);
+      hardware.true_state();
+    };
+
+}  // namespace articula::remote

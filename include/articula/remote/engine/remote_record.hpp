@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a remote loop publishes of itself.
+#pragma once
+
+#include "articula/loop/supervision/loop_mode.hpp"
+#include "articula/recording/cycle_record.hpp"
+#include "articula/remote/engine/motion_kind.hpp"
+
+#include <cstdint>
+
+namespace articula::remote {
+
+/// A cycle as it is handed to the outside.
+/// @tparam N  number of joints
+template <int N, class Command>
+struct RemoteRecord {
+  CycleRecord<N, Command> cycle{};
+  LoopMode mode = LoopMode::active;
+  std::uint64_t overruns = 0;  ///< of the run until this cycle
+};
+
+/// The state of a loop that changes seldom.
+struct LoopCondition {
+  LoopMode mode = LoopMode::active;
+  Status fault = Status::ok;  ///< the last one
+  MotionKind motion = MotionKind::rest;
+  bool paused = false;
+  double speed = 1;
+
+  friend bool operator==(const LoopCondition&, const LoopCondition&) = default;
+};
+
+/// A new state, and its time.
+struct ConditionChange {
+  double time = 0;  ///< of the loop [s]
+  LoopCondition condition{};
+};
+
+}  // namespace articula::remote

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a Remote does in all threads but its loop's.
+#pragma once
+
+#include "articula/loop/status_advice.hpp"
+#include "articula/remote/clients.hpp"
+#include "articula/remote/engine/loop_side.hpp"
+#include "articula/remote/engine/mutex.hpp"
+#include "articula/remote/gain_parameters.hpp"
+#include "articula/remote/in_flight.hpp"
+#include "articula/remote/published.hpp"
+#include "articula/remote/remote_options.hpp"
+#include "articula/remote/robot_sheet_of.hpp"
+#include "articula/remote/task_maker.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace articula::remote {
+
+/// The part of a Remote that the threads outside the loop share, under a mutex. Whoever asks empties
+/// the rings of the loop and distributes what is in them.
+/// @tparam LoopType  a ControlLoop or SupervisedControlLoop
+template <class LoopType>
+class Outside {
+ public:
+  using R = typename LoopType::RobotType;
+  static constexpr int joint_count = LoopType::joint_count;
+  using ControllerType = typename LoopType::ControllerType;
+  using Rings = LoopRings<R, typename LoopType::Command>;
+
+  /// @throws std::invalid_argument as Remote
+  Outside(LoopType& loop, const RemoteOptions<joint_count>& options)
+      : rings_(options.operator_lifetime / loop.period()),
+        side_(loop, rings_, limits_of(loop, options), options.tolerances,
+              options.when_operator_is_lost),
+        robot_(loop.hardware().robot()),
+        sheet_(robot_sheet_of(loop, options.urdf)),
+        parameters_(robot_, loop.controller()),
+        maker_(robot_, limits_of(loop, options), options.largest_force),
+        published_(rings_, side_, initial_position(robot_, SimulatorOptions<joint_count>{})),
+        clients_(options.operator_lifetime),
+        in_flight_(robot_, rings_, options.answer_time) {
+    if (!is_supervised<LoopType> && options.when_operator_is_lost == OperatorLoss::deactivate) {
+      articula::detail::refuse(
+          {"remote: when_operator_is_lost is deactivate, but the loop has no supervision: "
+           "use SupervisedLoop"});
+    }
+  }
+
+  /// The loop's part.
+  [[nodiscard]] LoopSide<LoopType>& side() noexcept { return side_; }
+
+  [[nodiscard]] const RobotSheet& sheet() const { return sheet_; }
+
+  [[nodiscard]] Situation situation() {
+    const std::lock_guard lock(mutex_);
+    pump();
+    const LoopCondition& now = published_.condition();
+    return {.mode = now.mode,
+            .fault = published_.fault(),
+            .advice = std::string(advice_on(published_.fault())),
+            .motion = std::string(to_string(now.motion)),
+            .operator_name = clients_.operator_name(),
+            .controllers = published_.controllers(),
+            .paused = now.paused,
+            .speed = now.speed};
+  }
+
+  [[nodiscard]] std::vector<Parameter> parameters() {
+    const std::lock_guard lock(mutex_);
+    pump();
+    return parameters_.list();
+  }
+
+  [[nodiscard]] Statistics statistics() {
+    const std::lock_guard lock(mutex_);
+    pump();
+    return published_.statistics();
+  }
+
+  // Sessions, by their numbers:
+
+  [[nodiscard]] std::uint64_t connect(std::string name, bool operates) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    return clients_.add(std::move(name), operates, published_.end());
+  }
+  void disconnect(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    if (clients_.has_controls(client)) lose_operator("has left");
+    clients_.remove(client);
+  }
+
+  std::string take_controls(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    return take(client);
+  }
+  void release_controls(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    if (!clients_.has_controls(client)) return;
+    rings_.watch.report_release();
+    tell(Event::Level::info, clients_.operator_name() + " has released the controls");
+    clients_.release_controls();
+  }
+  [[nodiscard]] bool has_controls(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    return clients_.has_controls(client);
+  }
+  void keep_alive(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    if (clients_.has_controls(client)) note_sign();
+  }
+
+  std::uint64_t ask(std::uint64_t client, const Request& request) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    const std::uint64_t number = ++clients_.of(client).last_request;
+    const auto refuse = [&](std::string text) {
+      clients_.of(client).answers.push_back({number, Verdict::refused, std::move(text)});
+      return number;
+    };
+    // Whoever may operate may stop, also without the controls.
+    const bool stops = std::holds_alternative<Stop>(request);
+    if (!stops || !clients_.of(client).operates) {
+      if (std::string reason = take(client); !reason.empty()) return refuse(std::move(reason));
+    } else if (clients_.has_controls(client)) {
+      note_sign();
+    }
+    if (in_flight_.full(stops || std::holds_alternative<Deactivate>(request)))
+      return refuse("too many requests are waiting for the loop");
+    try {
+      hand_over(client, number, request);
+    } catch (const std::exception& error) {
+      return refuse(error.what());
+    }
+    if (!is_frequent(request)) {
+      tell(Event::Level::info, clients_.of(client).name + ": " + std::string(name_of(request)));
+    }
+    return number;
+  }
+  [[nodiscard]] std::optional<Answer> answer(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    std::deque<Answer>& answers = clients_.of(client).answers;
+    if (answers.empty()) return std::nullopt;
+    Answer next = std::move(answers.front());
+    answers.pop_front();
+    return next;
+  }
+  [[nodiscard]] bool next(std::uint64_t client, Cycle& cycle) {
+    const std::lock_guard lock(mutex_);
+    std::uint64_t& number = clients_.of(client).next_cycle;
+    if (number >= published_.end()) pump();
+    return published_.next(number, cycle);
+  }
+  [[nodiscard]] std::optional<Event> event(std::uint64_t client) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    return clients_.next_event(client);
+  }
+
+ private:
+  using Changes = typename GainParameters<R>::Changes;
+
+  /// The checked limits of profiles.
+  [[nodiscard]] static MotionLimits<joint_count> limits_of(
+      LoopType& loop, const RemoteOptions<joint_count>& options) {
+    validate(options);
+    const R& robot = loop.hardware().robot();
+    const auto limits = options.limits.value_or(default_motion_limits(robot));
+    validate(robot, limits);
+    return limits;
+  }
+
+  // Operator:
+
+  std::string take(std::uint64_t client) {
+    const bool had = clients_.has_controls(client);
+    std::string reason = clients_.take_controls(client);
+    if (reason.empty()) {
+      note_sign();
+      if (!had) tell(Event::Level::info, clients_.operator_name() + " has taken the controls");
+    }
+    return reason;
+  }
+  void note_sign() {
+    clients_.note_sign(Clients::Clock::now());
+    rings_.watch.report_alive();
+  }
+  void lose_operator(const std::string& how) {
+    tell(Event::Level::warning, "the operator " + clients_.operator_name() + " " + how);
+    rings_.watch.report_loss();
+    clients_.release_controls();
+  }
+
+  void hand_over(std::uint64_t client, std::uint64_t number, const Request& request) {
+    Changes changes;
+    typename Task<R>::Wish wish = maker_.make(request, published_.reference());
+    if (const auto* set = std::get_if<SetParameters>(&request)) {
+      wish = task::SetGains{parameters_.change(set->values, changes)};
+    }
+    in_flight_.hand_over(client, number, std::move(wish), std::move(changes));
+  }
+
+  void pump() {
+    published_.collect(clients_);
+    in_flight_.collect([this](std::uint64_t client, Answer answer) {
+      if (auto* const found = clients_.find(client)) found->answers.push_back(std::move(answer));
+    });
+    if (clients_.operator_is_silent(Clients::Clock::now())) lose_operator("is silent");
+  }
+  void tell(Event::Level level, std::string text) {
+    clients_.tell({published_.time(), level, std::move(text)});
+  }
+
+  Rings rings_;
+  LoopSide<LoopType> side_;
+  R robot_;
+  RobotSheet sheet_;
+  Mutex mutex_{};
+  GainParameters<R> parameters_;
+  TaskMaker<LoopType> maker_;
+  Published<LoopType> published_;
+  Clients clients_;
+  InFlight<R, typename LoopType::Command> in_flight_;
+};
+
+}  // namespace articula::remote

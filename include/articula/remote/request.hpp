@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What programs outside the loop can ask of it.
+#pragma once
+
+#include "articula/reference/joint_signals.hpp"
+#include "articula/reference/trajectory/named_trajectory.hpp"
+#include "articula/remote/parameter.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace articula::remote {
+
+/// A number for a joint.
+struct JointValue {
+  std::string joint{};
+  double value = 0;
+};
+
+/// A signal on a joint.
+struct NamedSignal {
+  std::string joint{};
+  Signal signal{};
+  SignalTarget target = SignalTarget::position;
+};
+
+/// Activates a supervised loop.
+struct Activate {};
+/// Deactivates a supervised loop.
+struct Deactivate {};
+/// Acknowledges the fault of a supervised loop, which then is inactive.
+struct AcknowledgeFault {};
+
+/// Moves the reference of some joints along a jerk-limited profile. The others rest, or go on to
+/// where an earlier request of this kind sends them. Its answer comes when the motion has begun.
+struct Go {
+  std::vector<JointValue> positions{};  ///< [rad or m]
+  double speed = 1;                     ///< share of the velocity limits, 0.01 .. 1
+};
+
+/// Sets the reference of some joints at once, for references that another program computes. The
+/// others stay as they are, or stop if they move. Velocities and efforts that are not given are 0.
+struct SetReference {
+  std::vector<JointValue> positions{};   ///< [rad or m]
+  std::vector<JointValue> velocities{};  ///< [rad/s or m/s]
+  std::vector<JointValue> efforts{};     ///< [N m or N]
+};
+
+/// Follows a trajectory from the present reference. Its answer comes when the trajectory has ended.
+struct PlayTrajectory {
+  NamedTrajectory trajectory{};
+};
+
+/// Adds signals to the present reference for a time. Then the reference moves back to where it was.
+/// The answer comes when the signals have ended.
+struct PlaySignals {
+  std::vector<NamedSignal> signals{};
+  double duration = 0;  ///< [s]
+};
+
+/// Ends the present motion of the reference by the fastest stop within the limits.
+struct Stop {};
+
+/// Starts and stops controllers.
+struct SwitchControllers {
+  std::vector<std::string> start{};
+  std::vector<std::string> stop{};
+  bool best_effort = false;  ///< do what can be done, instead of all or nothing
+  bool replace = false;      ///< stop what is active on the same joints
+};
+
+/// Sets gains, all or none of them.
+struct SetParameters {
+  std::vector<ParameterValue> values{};
+};
+
+/// Simulations: stops or continues the simulated time.
+struct Pause {
+  bool paused = true;
+};
+/// Simulations: makes some cycles while the time is stopped.
+struct Step {
+  int cycles = 1;
+};
+/// Simulations: the simulated time that passes in a second.
+struct SetSpeed {
+  double factor = 1;  ///< 0.01 .. 100
+};
+/// Simulations: puts the robot at rest into a position. Joints that are not given are at 0, or at
+/// the limit next to it.
+struct Reset {
+  std::vector<JointValue> positions{};  ///< [rad or m]
+};
+/// Simulations: a force on a point that is fixed to a link, until the next one. 0 ends it, and so
+/// does the end of the session that asked for it.
+struct Pull {
+  std::string link{};
+  std::array<double, 3> point{};  ///< in the link's frame [m]
+  std::array<double, 3> force{};  ///< in the root link's frame [N]
+};
+
+/// Any of them.
+using Request = std::variant<Activate, Deactivate, AcknowledgeFault, Go, SetReference,
+                             PlayTrajectory, PlaySignals, Stop, SwitchControllers, SetParameters,
+                             Pause, Step, SetSpeed, Reset, Pull>;
+
+/// The name of a request, as in the log.
+[[nodiscard]] inline std::string_view name_of(const Request& request) {
+  constexpr std::array<std::string_view, std::variant_size_v<Request>> names{"activate",
+                                                                             "deactivate",
+                                                                             "acknowledge_fault",
+                                                                             "go",
+                                                                             "set_reference",
+                                                                             "play_trajectory",
+                                                                             "play_signals",
+                                                                             "stop",
+                                                                             "switch_controllers",
+                                                                             "set_parameters",
+                                                                             "pause",
+                                                                             "step",
+                                                                             "set_speed",
+                                                                             "reset",
+                                                                             "pull"};
+  return names[request.index()];
+}
+
+/// Whether a request comes so often that the log does not list it.
+[[nodiscard]] inline bool is_frequent(const Request& request) {
+  return std::holds_alternative<SetReference>(request) || std::holds_alternative<Pull>(request) ||
+         std::holds_alternative<Go>(request);
+}
+
+/// What has become of a request.
+enum class Verdict : unsigned char {
+  done,       ///< It is done.
+  refused,    ///< It changed nothing; the text says why.
+  failed,     ///< It was begun and did not come to its end; the text says why.
+  timed_out,  ///< The loop did not take it in time, and will not do it any more.
+};
+
+/// The answer to the request of a number.
+struct Answer {
+  unsigned long long request = 0;
+  Verdict verdict = Verdict::done;
+  std::string text{};  ///< the reason of a refusal, or the outcome, as "goal reached"
+};
+
+}  // namespace articula::remote

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The answer to a request, from what its loop has made of it.
+#pragma once
+
+#include "articula/remote/engine/task.hpp"
+#include "articula/remote/request.hpp"
+
+#include <string>
+#include <variant>
+
+namespace articula::remote {
+
+/// Verdict and text on a task that the loop has given back. Real-time: no (allocates).
+/// @param robot  whose joints the text names
+template <Robot R>
+[[nodiscard]] Answer answer_to(const R& robot, const Task<R>& task) {
+  const std::string fault(to_string(task.status));
+  const auto trajectory = [&] {
+    std::string text(to_string(task.outcome));
+    const std::string reason = to_string(robot, task.refusal);
+    return reason.empty() ? text : text + ": " + reason;
+  };
+  using enum TaskEnd;
+  switch (task.end) {
+    case done:
+      if (const auto* own = std::get_if<task::Switch>(&task.wish)) {
+        const SwitchOutcome& outcome = own->outcome;
+        if (outcome.answer == SwitchAnswer::done) return {.verdict = Verdict::done};
+        const std::string text = "controller '" + std::string(outcome.controller.view()) +
+                                 "': " + std::string(to_string(outcome.answer));
+        const bool strict = own->request.strictness == Strictness::strict;
+        return {.verdict = strict ? Verdict::refused : Verdict::done, .text = text};
+      }
+      if (std::holds_alternative<task::Follow<R>>(task.wish)) {
+        return {.verdict = Verdict::done, .text = "goal reached"};
+      }
+      return {.verdict = Verdict::done};
+    case not_active:
+      return {.verdict = Verdict::refused, .text = "the loop is not active: activate it first"};
+    case in_fault:
+      return {.verdict = Verdict::refused,
+              .text = "the loop is in fault (" + fault + "): acknowledge it first"};
+    case no_fault:
+      return {.verdict = Verdict::refused, .text = "there is no fault to acknowledge"};
+    case bad_reference:
+      return {.verdict = Verdict::refused,
+              .text = "the present reference has a number that is not finite: reset it first"};
+    case refused:
+      return {.verdict = Verdict::refused, .text = "trajectory: " + trajectory()};
+    case not_paused:
+      return {.verdict = Verdict::refused,
+              .text = "single steps need a paused simulation: pause it first"};
+    case outdated:
+      return {.verdict = Verdict::refused,
+              .text = "an earlier change of the same gains was not done: ask again"};
+    case operator_lost:
+      return {.verdict = Verdict::refused,
+              .text = "its operator was lost before the loop began the request"};
+    case replaced:
+      return {.verdict = Verdict::failed,
+              .text = "another request, a stop, a reset or a lost operator has ended it"};
+    case failed:
+      return {.verdict = Verdict::failed, .text = "trajectory: " + trajectory()};
+    case loop_left_active:
+      return {.verdict = Verdict::failed,
+              .text = "the loop is not active any more" +
+                      (task.status == Status::ok ? std::string() : " (" + fault + ")")};
+    case expired:
+    case open:
+      break;
+  }
+  return {.verdict = Verdict::timed_out,
+          .text = "the loop did not take the request in time: does it run?"};
+}
+
+}  // namespace articula::remote
