@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+import 'uplot/dist/uPlot.min.css';
+import './page.css';
+import {element} from './dom';
+import {addNotices} from './panels/notices';
+import {ControllersPanel} from './panels/controllers_panel';
+import {addDivider} from './panels/divider';
+import {ExperimentsPanel} from './panels/experiments_panel';
+import {GainsPanel} from './panels/gains_panel';
+import {JointsPanel} from './panels/joints_panel';
+import {LogPanel} from './panels/log_panel';
+import {PosesPanel} from './panels/poses_panel';
+import {addSimulationBar} from './panels/simulation_bar';
+import {addTabs} from './panels/tabs';
+import {addTopBar} from './panels/top_bar';
+import {PlotPanel} from './plots/plot_panel';
+import {RobotView} from './robot/robot_view';
+import {Session} from './session';
+import type {Socket} from './socket';
+import {startTheme} from './theme';
+
+const at = (id: string) => document.getElementById(id) as HTMLElement;
+
+/**
+ * Builds the page.
+ * @param open makes a connection to the loop
+ * @param before called before each picture, with its time
+ */
+export function startPage(open: () => Socket, before: (now: number) => void = () => {}): void {
+  startTheme();
+  const session = new Session(open);
+  addDivider(at('divider'), document.querySelector('main') as HTMLElement);
+  addNotices(at('notices'), session);
+  addTopBar(at('top'), at('fault'), session);
+  const view = new RobotView(at('view'), session);
+  const simulation = addSimulationBar(at('view'), session);
+  const plots = new PlotPanel(at('plots'), session);
+  const joints = new JointsPanel(session);
+  const poses = new PosesPanel(session, joints);
+  const move = element('div', {}, joints.box, poses.box);
+  addTabs(at('side'), [
+    ['Move', move],
+    ['Controllers', new ControllersPanel(session).box],
+    ['Gains', new GainsPanel(session).box],
+    ['Experiments', new ExperimentsPanel(session).box],
+    ['Log', new LogPanel(session).box],
+  ]);
+
+  function frame(now: number): void {
+    before(now);
+    view.draw(now);
+    simulation.draw();
+    joints.draw(now);
+    plots.draw(now);
+    requestAnimationFrame(frame);
+  }
+  requestAnimationFrame(frame);
+
+  // For the browser's console and for tests.
+  Object.assign(window, {articula: {session, view, plots}});
+}

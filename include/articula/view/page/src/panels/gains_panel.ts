@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+import {button, element} from '../dom';
+import type {Session} from '../session';
+import type {Parameter} from '../wire';
+import {GainField} from './gain_field';
+
+/** Gains by controller and joint. All changed ones are applied together, or none of them. */
+export class GainsPanel {
+  readonly box = element('form', {
+    class: 'panel',
+    submit: (event: Event) => {
+      event.preventDefault();
+      void this.apply();
+    },
+  });
+  private fields: GainField[] = [];
+  private readonly list = element('div', {});
+  private readonly applyButton = element(
+    'button',
+    {type: 'submit', class: 'primary', title: 'Set the changed gains (Enter)'},
+    'Apply',
+  );
+  private readonly revert = button('Revert', () => {
+    for (const field of this.fields) field.reset();
+    this.enable();
+  });
+  private readonly outcome = element('p', {class: 'hint', role: 'status'});
+
+  constructor(private readonly session: Session) {
+    this.box.append(
+      this.list,
+      element('div', {class: 'row'}, this.applyButton, this.revert),
+      this.outcome,
+    );
+    this.box.noValidate = true; // the loop decides what is valid
+    session.on('parameters', (parameters) => this.load(parameters));
+    session.on('values', (values) => this.update(values));
+    session.on('situation', () => this.enable());
+    session.on('connection', () => this.enable());
+  }
+
+  private load(parameters: Parameter[]): void {
+    const groups = new Map<string, Map<string, GainField[]>>(); // controller, joint
+    this.fields = parameters.map((parameter) => {
+      const parts = parameter.name.split('.');
+      const gain = parts.pop() ?? '';
+      const joint = parts.pop() ?? '';
+      const controller = parts.join('.');
+      const field = new GainField(parameter, gain, () => this.enable());
+      const joints = groups.get(controller) ?? new Map<string, GainField[]>();
+      joints.set(joint, [...(joints.get(joint) ?? []), field]);
+      groups.set(controller, joints);
+      return field;
+    });
+    this.list.replaceChildren(
+      ...[...groups].map(([controller, joints]) =>
+        element(
+          'details',
+          {open: true},
+          element('summary', {}, controller),
+          ...[...joints].map(([joint, fields]) => this.group(joint, fields)),
+        ),
+      ),
+    );
+    if (parameters.length === 0)
+      this.list.append(element('p', {class: 'hint'}, 'The controllers have no gains to set.'));
+    this.enable();
+  }
+
+  // The gains that everybody tunes are seen at once, the many others on demand.
+  private group(joint: string, fields: GainField[]): HTMLElement {
+    const long = fields.filter(({isShort}) => !isShort);
+    const rest = element(
+      'details',
+      {class: 'more'},
+      element('summary', {}, `${long.length} more`),
+      ...long.map(({box}) => box),
+    );
+    return element(
+      'fieldset',
+      {},
+      element('legend', {}, joint),
+      ...fields.filter(({isShort}) => isShort).map(({box}) => box),
+      long.length > 0 ? rest : null,
+    );
+  }
+
+  private update(values: Map<string, number>): void {
+    for (const field of this.fields) {
+      const value = values.get(field.parameter.name);
+      if (value !== undefined) field.holds(value);
+    }
+    this.enable();
+  }
+
+  private async apply(): Promise<void> {
+    const changed = this.fields.filter((field) => field.isChanged);
+    for (const field of this.fields) field.refuse('');
+    this.outcome.textContent = '';
+    const empty = changed.filter((field) => Number.isNaN(field.value));
+    for (const field of empty) field.refuse('A number is missing.');
+    if (changed.length === 0 || empty.length > 0) return;
+    const values = Object.fromEntries(changed.map((field) => [field.parameter.name, field.value]));
+    const answer = await this.session.askQuietly('/set_parameters', {values});
+    if (answer.success) {
+      for (const field of changed) field.holds(values[field.parameter.name]);
+      this.outcome.textContent =
+        changed.length === 1 ? 'One gain is set.' : `${changed.length} gains are set.`;
+    } else {
+      const named = changed.filter(({parameter}) => answer.message.includes(parameter.name));
+      for (const field of named.length > 0 ? named : changed) field.refuse(answer.message);
+    }
+    this.enable();
+  }
+
+  private enable(): void {
+    const may = this.session.mayOperate;
+    const changed = this.fields.some((field) => field.isChanged);
+    for (const field of this.fields) field.enable(may);
+    this.applyButton.disabled = !may || !changed;
+    this.revert.disabled = !changed;
+  }
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+import type {Cycles, RobotSheet} from './wire';
+
+const longest = 60; // s of history
+const largest = 128e6; // bytes of all columns: a robot with many joints gets a shorter history
+
+const jointQuantities = [
+  'position',
+  'velocity',
+  'effort',
+  'reference_position',
+  'reference_velocity',
+  'reference_effort',
+] as const;
+
+/** The name of a column: "position/0", "command.effort/1", "latency". */
+export function columnName(quantity: string, joint?: number): string {
+  return joint === undefined ? quantity : `${quantity}/${joint}`;
+}
+
+/** The last cycles in columns, each a ring. A row is named by its index since the start. */
+export class Samples {
+  readonly capacity: number;
+  private readonly times: Float64Array;
+  private readonly columns = new Map<string, Float32Array>();
+  first = 0; // the oldest row that is still there
+  end = 0; // one after the newest
+
+  constructor(private readonly sheet: RobotSheet) {
+    const quantities = [...jointQuantities, ...sheet.commands.map((name) => `command.${name}`)];
+    const names = quantities.flatMap((name) =>
+      sheet.joints.map((_, joint) => columnName(name, joint)),
+    );
+    names.push('latency', 'update', 'status');
+    this.capacity = Math.ceil(Math.min(longest / sheet.period, largest / (4 * names.length)));
+    this.times = new Float64Array(this.capacity);
+    for (const name of names) this.columns.set(name, new Float32Array(this.capacity));
+  }
+
+  append(cycles: Cycles): void {
+    const count = cycles.time.length;
+    if (count === 0) return;
+    // The time of a simulation starts anew when it is reset. A plot over time needs it to grow.
+    if (this.end > this.first && cycles.time[0] <= this.lastTime) this.first = this.end;
+    for (let row = 0; row < count; ++row) {
+      this.times[(this.end + row) % this.capacity] = cycles.time[row];
+    }
+    for (const quantity of jointQuantities) {
+      cycles[quantity].forEach((values, joint) => this.put(columnName(quantity, joint), values));
+    }
+    for (const [name, joints] of Object.entries(cycles.command)) {
+      joints.forEach((values, joint) => this.put(columnName(`command.${name}`, joint), values));
+    }
+    this.put('latency', cycles.latency);
+    this.put('update', cycles.update);
+    this.put('status', cycles.status);
+    this.end += count;
+    this.first = Math.max(this.first, this.end - this.capacity);
+  }
+
+  get lastTime(): number {
+    return this.end > this.first ? this.time(this.end - 1) : 0;
+  }
+
+  time(row: number): number {
+    return this.times[row % this.capacity];
+  }
+
+  /** A value; NaN where the column does not exist. */
+  value(column: string, row: number): number {
+    return this.columns.get(column)?.[row % this.capacity] ?? NaN;
+  }
+
+  /** A function that gives the values of a column, for those who read many of them. */
+  reader(column: string): (row: number) => number {
+    const values = this.columns.get(column);
+    const {capacity} = this;
+    return values ? (row) => values[row % capacity] : () => NaN;
+  }
+
+  /** The newest value of each joint. */
+  latest(quantity: string): number[] {
+    return this.sheet.joints.map((_, joint) =>
+      this.value(columnName(quantity, joint), this.end - 1),
+    );
+  }
+
+  /** The first row at or after a time. */
+  rowAt(time: number): number {
+    let low = this.first;
+    let high = this.end;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (this.time(middle) < time) low = middle + 1;
+      else high = middle;
+    }
+    return low;
+  }
+
+  private put(name: string, values: number[]): void {
+    const column = this.columns.get(name);
+    if (!column) return;
+    for (let row = 0; row < values.length; ++row) {
+      column[(this.end + row) % this.capacity] = values[row] ?? NaN; // JSON has no NaN but null
+    }
+  }
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+import {Emitter} from './emitter';
+import {FoxgloveClient} from './foxglove_client';
+import {Samples} from './samples';
+import type {Socket} from './socket';
+import type {
+  Cycles,
+  LogEntry,
+  Parameter,
+  RobotSheet,
+  ServiceAnswer,
+  Situation,
+  Statistics,
+} from './wire';
+
+interface Events {
+  opened: null; // a new connection, of which nothing has arrived yet
+  connection: boolean;
+  robot: RobotSheet; // another robot, or the same one of a server that was started again
+  situation: Situation;
+  cycles: Cycles;
+  statistics: Statistics;
+  log: LogEntry;
+  parameters: Parameter[];
+  values: Map<string, number>; // parameters that have changed
+  notice: {text: string; isError: boolean};
+}
+
+/** What the page knows about the loop, and how it asks for something. */
+export class Session extends Emitter<Events> {
+  sheet: RobotSheet | null = null;
+  samples: Samples | null = null;
+  situation: Situation | null = null;
+  statistics: Statistics | null = null;
+  connected = false;
+  private readonly client: FoxgloveClient;
+
+  constructor(open: () => Socket) {
+    super();
+    this.client = new FoxgloveClient(open);
+    this.client.on('open', () => this.emit('opened', null));
+    this.client.on('close', (reason) => {
+      if (this.connected) this.notify(reason, true);
+      this.setConnected(false);
+    });
+    this.client.on('status', ({level, message}) =>
+      this.emit('notice', {text: message, isError: level > 0}),
+    );
+    this.client.on('parameters', (list) => {
+      const values = list.filter(({value}) => typeof value === 'number');
+      this.emit('values', new Map(values.map(({name, value}) => [name, value as number])));
+    });
+    this.client.subscribe('/situation', (message) => {
+      this.situation = message as Situation;
+      this.emit('situation', this.situation);
+      if (!this.connected) void this.begin();
+    });
+    this.client.subscribe('/cycles', (message) => {
+      if (!this.samples) return;
+      this.samples.append(message as Cycles);
+      this.emit('cycles', message as Cycles);
+    });
+    this.client.subscribe('/statistics', (message) => {
+      this.statistics = message as Statistics;
+      this.emit('statistics', this.statistics);
+    });
+    this.client.subscribe('/log', (message) => this.emit('log', message as LogEntry));
+    this.client.connect();
+  }
+
+  /** True if a request of this page can succeed: nobody else has the controls. */
+  get mayOperate(): boolean {
+    const s = this.situation;
+    return this.connected && s !== null && s.operates && (s.you_operate || s.operator === '');
+  }
+
+  /** Asks for something. A refusal is shown to the user and returned. */
+  async ask(service: string, request: object = {}): Promise<ServiceAnswer> {
+    const answer = await this.askQuietly(service, request);
+    if (!answer.success) this.notify(answer.message || `${service} was refused`, true);
+    return answer;
+  }
+
+  /** Asks for something whose refusal the caller shows. */
+  async askQuietly(service: string, request: object = {}): Promise<ServiceAnswer> {
+    try {
+      return (await this.client.call(service, request)) as ServiceAnswer;
+    } catch (error) {
+      return {success: false, message: (error as Error).message};
+    }
+  }
+
+  publish(topic: string, message: object): void {
+    this.client.publish(topic, message);
+  }
+
+  notify(text: string, isError = false): void {
+    this.emit('notice', {text, isError});
+  }
+
+  private setConnected(connected: boolean): void {
+    if (connected === this.connected) return;
+    this.connected = connected;
+    this.emit('connection', connected);
+  }
+
+  // After a new connection everything may be different: the program behind the port can be another.
+  private async begin(): Promise<void> {
+    this.setConnected(true);
+    try {
+      const sheet = (await this.client.call('/robot', {})) as RobotSheet;
+      this.sheet = sheet;
+      this.samples = new Samples(sheet);
+      this.emit('robot', sheet);
+      const {parameters} = (await this.client.call('/describe_parameters', {})) as {
+        parameters: Parameter[];
+      };
+      this.emit('parameters', parameters);
+      this.client.watchParameters(parameters.map(({name}) => name));
+    } catch (error) {
+      this.notify((error as Error).message, true);
+    }
+    if (this.situation) this.emit('situation', this.situation);
+  }
+}

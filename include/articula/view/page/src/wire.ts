@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// The messages that the server of the view sends, as its documentation has them.
+
+/** Limits of a joint; null means that there is none. Units: rad or m, and per s. */
+export interface JointLimits {
+  lower: number | null;
+  upper: number | null;
+  velocity: number | null;
+  effort: number | null;
+}
+
+export interface SheetJoint {
+  name: string;
+  type: string; // "revolute", "continuous", "prismatic"
+  limits: JointLimits;
+}
+
+/** What does not change while a loop runs. */
+export interface RobotSheet {
+  name: string;
+  joints: SheetJoint[];
+  links: string[]; // the root first
+  commands: string[]; // the quantities of the loop's command, as "effort"
+  urdf: string;
+  period: number; // of the loop [s]
+  is_simulated: boolean;
+}
+
+export interface ControllerInfo {
+  name: string;
+  status: 'inactive' | 'active' | 'failed';
+}
+
+/** What changes seldom. */
+export interface Situation {
+  mode: string; // "inactive", "starting", "active", "fault"
+  fault: string;
+  advice: string;
+  motion: string; // the source of the reference: "rest", "go", "trajectory", "signals", "stop"
+  operator: string; // empty: nobody
+  you_operate: boolean;
+  operates: boolean; // the server lets clients operate
+  controllers: ControllerInfo[];
+  paused: boolean;
+  speed: number;
+}
+
+/** Cycles in columns: `position[joint][sample]`. */
+export interface Cycles {
+  number: number[];
+  time: number[];
+  status: number[];
+  latency: number[];
+  update: number[];
+  position: number[][];
+  velocity: number[][];
+  effort: number[][];
+  reference_position: number[][];
+  reference_velocity: number[][];
+  reference_effort: number[][];
+  command: Record<string, number[][]>;
+  dropped: number;
+}
+
+export interface Parameter {
+  name: string; // <controller>.<joint>.<gain>
+  value: number | null; // null: infinite, as a clamp that does not act
+  unit: string;
+  lowest: number | null;
+  highest: number | null;
+  description: string;
+}
+
+export interface Statistics {
+  cycles: number;
+  overruns: number;
+  dropped: number;
+  latency_median: number;
+  latency_99: number;
+  latency_max: number;
+  execution_median: number;
+  execution_99: number;
+  execution_max: number;
+}
+
+export interface LogEntry {
+  timestamp: {sec: number; nsec: number};
+  level: number; // 2 information, 3 warning, 4 error
+  message: string;
+}
+
+/** Every service answers so; `success: false` is a refusal, and the message is its reason. */
+export interface ServiceAnswer {
+  success: boolean;
+  message: string;
+}
+
+export function isPrismatic(joint: SheetJoint): boolean {
+  return joint.type === 'prismatic';
+}
+
+export function positionUnit(joint: SheetJoint): string {
+  return isPrismatic(joint) ? 'm' : 'rad';
+}
+
+export function effortUnit(joint: SheetJoint): string {
+  return isPrismatic(joint) ? 'N' : 'N m';
+}
+
+/** The range of a joint's slider. A joint without limits turns at most once in either direction. */
+export function positionRange(joint: SheetJoint): [number, number] {
+  const reach = isPrismatic(joint) ? 1 : Math.PI;
+  return [joint.limits.lower ?? -reach, joint.limits.upper ?? reach];
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/view/protocol/channels.hpp"
+
+namespace articula::view {
+
+namespace {
+
+// Foxglove and PlotJuggler offer for plots what a schema names.
+constexpr std::string_view joint_state_schema = R"({"type":"object","properties":{
+"header":{"type":"object","properties":{"stamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},"frame_id":{"type":"string"}}},
+"name":{"type":"array","items":{"type":"string"}},"position":{"type":"array","items":{"type":"number"}},
+"velocity":{"type":"array","items":{"type":"number"}},"effort":{"type":"array","items":{"type":"number"}}}})";
+
+constexpr std::string_view transforms_schema = R"({"type":"object","properties":{
+"transforms":{"type":"array","items":{"type":"object","properties":{
+"timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},
+"parent_frame_id":{"type":"string"},"child_frame_id":{"type":"string"},
+"translation":{"type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},
+"rotation":{"type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"},"w":{"type":"number"}}}}}}}})";
+
+constexpr std::string_view text_schema =
+    R"({"type":"object","properties":{"data":{"type":"string"}}})";
+
+constexpr std::string_view cycles_schema = R"({"type":"object","properties":{
+"number":{"type":"array","items":{"type":"integer"}},"time":{"type":"array","items":{"type":"number"}},
+"status":{"type":"array","items":{"type":"integer"}},"latency":{"type":"array","items":{"type":"number"}},
+"update":{"type":"array","items":{"type":"number"}},
+"position":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"velocity":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"effort":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"reference_position":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"reference_velocity":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"reference_acceleration":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"reference_effort":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"command":{"type":"object"},"dropped":{"type":"integer"}}})";
+
+constexpr std::string_view situation_schema = R"({"type":"object","properties":{
+"mode":{"type":"string"},"fault":{"type":"string"},"advice":{"type":"string"},"motion":{"type":"string"},
+"operator":{"type":"string"},"you_operate":{"type":"boolean"},
+"controllers":{"type":"array","items":{"type":"object","properties":{"name":{"type":"string"},"status":{"type":"string"}}}},
+"paused":{"type":"boolean"},"speed":{"type":"number"},"operates":{"type":"boolean"}}})";
+
+constexpr std::string_view statistics_schema = R"({"type":"object","properties":{
+"cycles":{"type":"integer"},"overruns":{"type":"integer"},"dropped":{"type":"integer"},
+"latency_median":{"type":"number"},"latency_99":{"type":"number"},"latency_max":{"type":"number"},
+"execution_median":{"type":"number"},"execution_99":{"type":"number"},"execution_max":{"type":"number"}}})";
+
+constexpr std::string_view log_schema = R"({"type":"object","properties":{
+"timestamp":{"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},
+"level":{"type":"integer"},"message":{"type":"string"},"name":{"type":"string"},
+"file":{"type":"string"},"line":{"type":"integer"}}})";
+
+constexpr std::array<Channel, topic_count> channels{{
+    {"/joint_states", "sensor_msgs/JointState", joint_state_schema},
+    {"/tf", "foxglove.FrameTransforms", transforms_schema},
+    {"/robot_description", "std_msgs/String", text_schema},
+    {"/cycles", "articula.Cycles", cycles_schema},
+    {"/situation", "articula.Situation", situation_schema},
+    {"/statistics", "articula.Statistics", statistics_schema},
+    {"/log", "foxglove.Log", log_schema},
+}};
+
+}  // namespace
+
+const Channel& channel_of(Topic topic) { return channels[static_cast<std::size_t>(topic)]; }
+
+Json advertisement_of(Topic topic) {
+  const Channel& channel = channel_of(topic);
+  return {{"id", static_cast<int>(topic) + 1},
+          {"topic", channel.topic},
+          {"encoding", "json"},
+          {"schemaName", channel.schema_name},
+          {"schemaEncoding", "jsonschema"},
+          {"schema", channel.schema}};
+}
+
+}  // namespace articula::view

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A loop in a browser, in one line. POSIX; target articula::view.
+#pragma once
+
+#include "articula/loop/realtime/monotonic_clock.hpp"
+#include "articula/loop/realtime/stop_on_signal.hpp"
+#include "articula/remote/remote.hpp"
+#include "articula/view/open_in_browser.hpp"
+#include "articula/view/view.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+namespace articula {
+
+/// Options of `show`: a view that lets clients operate, and a run until Ctrl-C.
+struct ShowOptions {
+  ViewOptions view{.operates = true};
+  RunOptions run{};            ///< `stop` is set by `show`
+  bool opens_browser = false;  ///< opens the address on this machine, if it has a screen
+};
+
+/// Runs a loop at its own rate until Ctrl-C, and shows it in a browser:
+///
+///     int main() {
+///       articula::SupervisedLoop<articula::Q2dSim, articula::PidPlusGravity> arm;
+///       return articula::show(arm);  // http://127.0.0.1:8765/
+///     }
+///
+/// Prints the address and the loop's notices on standard output. For real-time priority, a recorder
+/// or an own thread, use Remote, View and `run` as this function does.
+/// @return the exit status of a program: 0, or 1 with a line on standard error if the view cannot
+///         start
+template <class LoopType>
+int show(LoopType& loop, const ShowOptions& options = {}) {
+  try {
+    Remote remote(loop);
+    const View view(remote, options.view);
+    for (const std::string& notice : loop.notices()) std::printf("notice: %s\n", notice.c_str());
+    std::printf("%s shows the robot. Ctrl-C ends the program.\n", view.url().c_str());
+    std::fflush(stdout);
+    if (options.opens_browser) open_in_browser(view.url());
+    StopFlag stop;
+    const StopOnSignal on_signal(stop);
+    RunOptions run = options.run;
+    run.stop = &stop;
+    MonotonicClock clock;
+    remote.run(clock, run);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace articula
