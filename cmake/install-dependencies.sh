@@ -3,6 +3,7 @@
 # Installs the packages for building and testing articula, on Debian 12 or newer and derivatives.
 #
 #   cmake/install-dependencies.sh          for the demo, the tests and articula's own benchmarks
+#   cmake/install-dependencies.sh --view   also for the page of the view in a browser
 #   cmake/install-dependencies.sh --all    also for .ci/run, the benchmarks beside other libraries
 #                                          and the developers' tools
 set -euo pipefail
@@ -21,18 +22,33 @@ packages=(
   libcli11-dev       # command line of the examples
   gnuplot-nox        # plots of the examples
 )
+# The server of the view needs a Boost of 1.81 or later; Debian 12's default is older.
+if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then
+  packages+=(libboost1.81-dev)
+else
+  packages+=(libboost-dev)
+fi
+
+# npm builds the page of the view. Node.js from elsewhere brings it, and Debian's npm would replace
+# that.
+view_packages() { command -v npm >/dev/null || packages+=(nodejs npm); }
+
 case ${1:-} in
   '') ;;
+  --view) view_packages ;;
   --all)
+    view_packages
+    packages+=(chromium) # tests/view/page
     packages+=(clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19 valgrind)
     packages+=(liborocos-kdl-dev libmujoco-dev) # peers, in tests and benchmarks
     # tests/webassembly
     packages+=(lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32)
-    packages+=(wasi-libc nodejs)
+    packages+=(wasi-libc)
+    command -v node >/dev/null || packages+=(nodejs)
     # tests/vcan: a virtual machine with CAN in its kernel, if this kernel has none
     packages+=(qemu-system-x86 busybox-static dash cpio xz-utils iproute2 can-utils)
     ;;
-  *) echo "usage: $0 [--all]" >&2; exit 2 ;;
+  *) echo "usage: $0 [--view | --all]" >&2; exit 2 ;;
 esac
 
 if ! { command -v dpkg-query && command -v apt-get; } >/dev/null; then

@@ -35,6 +35,14 @@ install(FILES cmake/articula-socketcan.cmake DESTINATION ${articula_package_dir}
 # The component recording.
 install(FILES cmake/articula-recording.cmake DESTINATION ${articula_package_dir})
 
+# The component view, with the source of its server.
+install(FILES cmake/articula-view.cmake DESTINATION ${articula_package_dir})
+install(
+  DIRECTORY include/articula/view/protocol include/articula/view/server
+  DESTINATION ${articula_package_dir}/view
+  FILES_MATCHING
+  PATTERN "*.cpp")
+
 # The component config.
 install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_package_dir})
 

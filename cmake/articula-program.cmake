@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+# The program articula: running loops from a terminal, and robots from files; see docs/terminal.md.
+# It is built if all that it needs is found.
+
+find_package(CLI11 QUIET)
+set(articula_program_lacks "")
+foreach(
+  need IN
+  ITEMS "articula::view|Boost 1.81 (Debian 12: libboost1.81-dev, later: libboost-dev)"
+        "CLI11::CLI11|CLI11 (Debian: libcli11-dev)"
+        "articula::recording|nlohmann-json (Debian: nlohmann-json3-dev)"
+        "articula::config|yaml-cpp (Debian: libyaml-cpp-dev)"
+        "articula::urdf|urdfdom (Debian: liburdfdom-dev)")
+  string(REPLACE "|" ";" need "${need}")
+  list(GET need 0 target)
+  if(NOT TARGET ${target})
+    list(GET need 1 package)
+    list(APPEND articula_program_lacks ${package})
+  endif()
+endforeach()
+if(articula_program_lacks)
+  list(JOIN articula_program_lacks ", " articula_program_lacks)
+  message(STATUS "The program articula is not built; it needs: ${articula_program_lacks}")
+  return()
+endif()
+
+file(GLOB articula_program_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/articula/*.cpp)
+# Loops for each number of joints, each in a file of its own: they are slow to compile. With -O1 they
+# take less time, and a cycle is still far shorter than a millisecond.
+foreach(joints RANGE 1 8)
+  set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/run_loop_${joints}.cpp)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/articula/loops/run_loop.cpp.in ${articula_loop_file} @ONLY)
+  set_source_files_properties(${articula_loop_file} PROPERTIES COMPILE_OPTIONS -O1)
+  list(APPEND articula_program_files ${articula_loop_file})
+endforeach()
+add_executable(articula_program ${articula_program_files})
+target_include_directories(articula_program PRIVATE ${CMAKE_CURRENT_LIST_DIR}/articula)
+set_target_properties(articula_program PROPERTIES OUTPUT_NAME articula)
+target_link_libraries(articula_program PRIVATE articula::recording articula::config articula::urdf
+                                               articula::view CLI11::CLI11)
+if(TARGET articula_warnings)
+  target_link_libraries(articula_program PRIVATE articula_warnings articula_sanitizers)
+endif()
+if(ARTICULA_INSTALL)
+  install(TARGETS articula_program OPTIONAL) # who installs the headers alone need not build it
+endif()

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file record: all cycles of a running loop to an MCAP file.
+#include "connection.hpp"
+#include "program.hpp"
+#include "within.hpp"
+
+#include <articula/core/status.hpp>
+#include <articula/recording/mcap_writer.hpp>
+#include <articula/recording/record_json.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace terminal {
+
+namespace {
+
+/// Makes messages as McapRecordWriter writes them of the columns that the server sends.
+class CycleRows {
+ public:
+  explicit CycleRows(const Json& robot) : robot_(robot.value("name", "robot")) {
+    for (const Json& joint : robot.value("joints", Json::array())) {
+      joints_.push_back(joint.value("name", ""));
+    }
+    for (const Json& quantity : robot.value("commands", Json::array())) {
+      commands_.push_back(quantity.get<std::string>());
+    }
+  }
+
+  /// The JSON of one cycle.
+  [[nodiscard]] Json row(const Json& columns, std::size_t k) const {
+    const Json time = columns.at("time").at(k);
+    Json row{{"timestamp", time}};
+    Json& joints = row[robot_];
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const auto of = [&](const char* name) { return columns.at(name).at(j).at(k); };
+      Json& joint = joints[joints_[j]];
+      joint = {
+          {"position", of("position")}, {"velocity", of("velocity")}, {"effort", of("effort")}};
+      joint["reference"] = {{"position", of("reference_position")},
+                            {"velocity", of("reference_velocity")},
+                            {"acceleration", of("reference_acceleration")},
+                            {"effort", of("reference_effort")}};
+      for (const std::string& quantity : commands_) {
+        const Json& value = columns.at("command").at(quantity).at(j).at(k);
+        (commands_.size() == 1 ? joint["command"] : joint["command"][quantity]) = value;
+      }
+    }
+    row["cycle"] = columns.at("number").at(k);
+    const int status = columns.at("status").at(k).get<int>();
+    row["status"] = std::string(to_string(static_cast<articula::Status>(status)));
+    row["status_number"] = status;
+    row["timing"] = {{"latency", columns.at("latency").at(k)},
+                     {"update", columns.at("update").at(k)}};
+    return row;
+  }
+
+  /// A row to make the schema of.
+  [[nodiscard]] Json example() const {
+    const auto per_joint = [this] {
+      Json columns = Json::array();
+      for (std::size_t j = 0; j < joints_.size(); ++j) columns.push_back({0.0});
+      return columns;
+    };
+    Json columns{
+        {"time", {0.0}}, {"number", {0}}, {"status", {0}}, {"latency", {0.0}}, {"update", {0.0}}};
+    for (const char* name : {"position", "velocity", "effort", "reference_position",
+                             "reference_velocity", "reference_acceleration", "reference_effort"}) {
+      columns[name] = per_joint();
+    }
+    for (const std::string& quantity : commands_) columns["command"][quantity] = per_joint();
+    return row(columns, 0);
+  }
+
+ private:
+  std::string robot_;
+  std::vector<std::string> joints_, commands_;
+};
+
+void record(const Program& program, const std::string& file, double seconds) {
+  Connection connection(program);
+  const CycleRows rows(connection.call("/robot"));
+  articula::McapWriter writer(file, "cycle", "articula.Cycle",
+                              articula::schema_of(rows.example()).dump());
+  connection.subscribe("/cycles");
+  end_on_signal();
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  std::uint64_t cycles = 0, lost = 0, last = 0;
+  for (;;) {
+    const double left = seconds - std::chrono::duration<double>(Clock::now() - begin).count();
+    if (is_ended() || left <= 0) break;
+    const auto message = connection.next(std::min(left, 1.0));
+    if (!message) continue;  // the simulated time may be stopped
+    const Json& columns = message->content;
+    for (std::size_t k = 0; k < columns.at("time").size(); ++k) {
+      const auto number = columns.at("number").at(k).get<std::uint64_t>();
+      const auto time = columns.at("time").at(k);
+      if (cycles > 0 && number > last + 1) lost += number - last - 1;
+      last = number;
+      ++cycles;
+      const double now = time.is_number() ? std::max(time.get<double>(), 0.0) : 0.0;
+      writer.write(std::chrono::nanoseconds(std::llround(now * 1e9)), rows.row(columns, k).dump());
+    }
+  }
+  writer.close();
+  program.print({{"file", file}, {"cycles", cycles}, {"lost", lost}},
+                file + ": " + std::to_string(cycles) + " cycles" +
+                    (lost == 0 ? "" : ", " + std::to_string(lost) + " lost on the way"));
+}
+
+}  // namespace
+
+void add_record_command(CLI::App& app, Program& program) {
+  struct Record {
+    std::string file;
+    double seconds = 1e6;
+  };
+  const auto options = std::make_shared<Record>();
+  CLI::App* command =
+      add_command(app, program, "record", "Records all cycles to an MCAP file until Ctrl-C.",
+                  [&program, options] { record(program, options->file, options->seconds); });
+  command->add_option("file", options->file, "for PlotJuggler and Foxglove, as out.mcap")
+      ->required();
+  command->add_option("--seconds", options->seconds, "how long [s]")
+      ->check(within(0.0, 1e6))
+      ->default_str("until Ctrl-C");
+}
+
+}  // namespace terminal
