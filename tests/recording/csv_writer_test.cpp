@@ -72,7 +72,7 @@ TEST_CASE("a CSV file has a header with units and a line per record, exact to th
   std::string line;
   REQUIRE(std::getline(stream, line));
   const auto header = cells(line);
-  REQUIRE(header.size() == 3 + 2 * 8 + 3);
+  REQUIRE(header.size() == 3 + 2 * 8 + 3 + 7);
   CHECK(header[1] == "time [s]");
   CHECK(header[3] == "shoulder_active_joint position [rad]");
   CHECK(header[10] == "shoulder_active_joint command [N m]");
@@ -128,7 +128,7 @@ TEST_CASE("a program whose locale has decimal commas writes the same file") {
     writer.close();
   }
   const auto [header, values] = first_row(file.path());
-  CHECK(header.size() == 3 + 2 * 8 + 3);
+  CHECK(header.size() == 3 + 2 * 8 + 3 + 7);
   CHECK(values[0] == "1234567");
   CHECK(std::stod(values[1]) == record.time);
 }
@@ -145,7 +145,7 @@ TEST_CASE("mimic joints and named links have columns at the end") {
   const auto rates = moving_joint_velocities(GripperArm(), record.state.velocity);
   const auto names = moving_joint_names(GripperArm());
   const std::string link(model_of(GripperArm()).links.back().name.view());
-  constexpr std::size_t mimics = moving_joint_count<GripperArm> - n, columns = 3 + n * 8 + 3;
+  constexpr std::size_t mimics = moving_joint_count<GripperArm> - n, columns = 3 + n * 8 + 3 + 7;
   REQUIRE(mimics == 5);
   {
     CsvWriter<GripperArm, PositionCommand<n>> writer(file.path(), {.links = {link}});

@@ -326,7 +326,7 @@ TEST_CASE("a file that was never closed has all messages, wherever it ends") {
 TEST_CASE("a command of several numbers is an object of its members") {
   CycleRecord<2, MultiModeCommand<2>> record;
   record.command = {{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}};
-  const Json json = record_json(Q2d(), record);
+  const Json json = record_json(Q2d(), record, RecordExtras<Q2d>(Q2d(), {}));
   const Json& command = json["q2d"]["elbow_active_joint"]["command"];
   CHECK(command["position"] == 2);
   CHECK(command["velocity"] == 4);

@@ -63,7 +63,7 @@ constexpr double least_ratio = 15;
 }  // namespace
 
 TEST_CASE("a parabola is integrated exactly") {
-  const Motion<1> start{JointVector<1>(1.0), JointVector<1>(2.0)};
+  const JointState<1> start{JointVector<1>(1.0), JointVector<1>(2.0)};
   const auto end =
       runge_kutta_step<1>(start, 0.5, [](const auto&, const auto&) { return JointVector<1>(4.0); });
   CHECK(end.position[0] == 1 + 2 * 0.5 + 4 * 0.25 / 2);
@@ -71,7 +71,7 @@ TEST_CASE("a parabola is integrated exactly") {
 }
 
 TEST_CASE("one step of an oscillation is its Taylor polynomial of fourth order") {
-  const Motion<1> start{JointVector<1>(1.0), JointVector<1>(0.0)};
+  const JointState<1> start{JointVector<1>(1.0), JointVector<1>(0.0)};
   const double h = 0.25;
   const auto end =
       runge_kutta_step<1>(start, h, [](const auto& q, const auto&) { return JointVector<1>(-q); });

@@ -10,7 +10,7 @@ set(allowed
     # libm: sinl, sin, sinf and so on
     "(sin|cos|sincos|tan|asin|acos|atan|atan2|sinh|cosh|tanh)[fl]?"
     "(exp|exp2|expm1|log|log2|log10|log1p)[fl]?"
-    "(sqrt|cbrt|pow|hypot|fma|fmod|remainder|fmin|fmax|fabs|copysign)[fl]?"
+    "(sqrt|cbrt|frexp|ldexp|pow|hypot|fma|fmod|remainder|fmin|fmax|fabs|copysign)[fl]?"
     "(floor|ceil|trunc|round|lround|llround|rint|lrint|llrint|nearbyint|nextafter)[fl]?"
     # g++ notes in the tables of a noexcept function that nothing leaves it. To throw takes
     # __cxa_throw, to catch __cxa_begin_catch, to give up std::terminate; none of these is allowed.

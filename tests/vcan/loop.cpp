@@ -19,6 +19,8 @@
 #include "allocation_guard.hpp"
 #endif
 
+#include <linux/can/error.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The SocketCAN transport on a kernel's vcan0, with echo; `ip` and `tc` make the trouble.
+#include <linux/can/error.h>
+
 #include <articula/hardware/can/socketcan.hpp>
 
 #include "catch.hpp"

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-# Runs COMPILER on SOURCES with INCLUDES. If there is NATIVE, RUN must print what NATIVE prints.
+# Runs COMPILER on SOURCES with INCLUDES and options for EXCEPTIONS. If there is NATIVE, RUN must print what NATIVE prints.
 list(TRANSFORM INCLUDES PREPEND -I)
+if(NOT EXCEPTIONS)
+  set(EXCEPTIONS -Xclang -fignore-exceptions)
+endif()
 execute_process(
   COMMAND ${COMPILER} --target=wasm32-wasi -std=c++20 -O2 -msimd128 -fconstexpr-steps=1000000000
-          -Xclang -fignore-exceptions ${INCLUDES} ${SOURCES}
+          ${EXCEPTIONS} ${INCLUDES} ${SOURCES}
   COMMAND_ERROR_IS_FATAL ANY)
 if(NATIVE)
   execute_process(COMMAND ${NATIVE} OUTPUT_VARIABLE expected COMMAND_ERROR_IS_FATAL ANY)

@@ -244,7 +244,7 @@ TEST_CASE("the limit of effort holds for the total, also where braking would tak
     CHECK(std::abs(effort[0]) <= 5);
     CHECK(std::abs(effort[1]) <= 3);
     for (std::size_t j = 0; j < 2; ++j) {
-      CHECK(controller.report()[j].given == effort[static_cast<int>(j)]);
+      CHECK(controller.report()[j].limited == effort[static_cast<int>(j)]);
     }
   }
 }
@@ -443,7 +443,7 @@ TEST_CASE("multi-mode: the drives' springs keep the limit of the total") {
       const double total = c.stiffness[j] * (c.position[j] - state.position[j]) +
                            c.damping[j] * (c.velocity[j] - state.velocity[j]) + c.effort[j];
       CHECK(std::abs(total) <= limits.effort[j] * (1 + 1e-9));
-      CHECK(total == Approx(controller.report()[static_cast<std::size_t>(j)].given).margin(1e-9));
+      CHECK(total == Approx(controller.report()[static_cast<std::size_t>(j)].limited).margin(1e-9));
       CHECK(std::abs(c.effort[j]) <= limits.effort[j] * (1 + 1e-9));
       CHECK(c.stiffness[j] == g.stiffness);
       CHECK(c.damping[j] == g.damping);

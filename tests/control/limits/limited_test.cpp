@@ -229,7 +229,7 @@ TEST_CASE("what is within the limits passes to the last bit, and is not reported
     REQUIRE_FALSE(positions.report()[0].any());
     REQUIRE_FALSE(velocities.report()[0].any());
     CHECK(positions.report()[0].asked == q);
-    CHECK(positions.report()[0].given == q);
+    CHECK(positions.report()[0].limited == q);
   }
 }
 
@@ -359,7 +359,7 @@ TEST_CASE("the report says which limit it was") {
   CHECK_FALSE(report_of(1).any());
   limits.velocity[0] = 1;
   CHECK(report_of(1).velocity);
-  CHECK(report_of(1).given == Approx(1e-3));
+  CHECK(report_of(1).limited == Approx(1e-3));
   CHECK(report_of(1).asked == 1);
   limits = {};
   limits.acceleration[0] = 1;

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The commands of articula, against a loop that runs.
+#include "catch.hpp"
+#include "running_arm.hpp"
+#include "scratch_file.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
+
+using support::Result;
+using support::RunningArm;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr const char* shoulder = "shoulder_active_joint";
+constexpr const char* elbow = "elbow_active_joint";
+
+/// What is done in the end, however busy the machine is.
+template <class Condition>
+bool eventually(Condition condition) {
+  for (int k = 0; k < 600; ++k) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+Json done(const Result& result) {
+  INFO(result.output + result.errors);
+  REQUIRE(result.exit_code == 0);
+  return result.json();
+}
+
+/// Refused, with a message that has these words in it.
+void check_refused(const Result& result, const std::vector<std::string>& words) {
+  INFO(result.output + result.errors);
+  CHECK(result.exit_code == 1);
+  const Json json = result.json();
+  CHECK(json.at("success") == false);
+  CHECK(json.at("exit_code") == 1);
+  for (const std::string& word : words) {
+    CAPTURE(word);
+    CHECK(json.at("message").get<std::string>().find(word) != std::string::npos);
+  }
+}
+
+double position(const RunningArm& arm, const std::string& joint) {
+  const Json status = done(arm.ask({"status"}));
+  for (const Json& each : status.at("joints")) {
+    if (each.at("name") == joint) return each.at("position").get<double>();
+  }
+  FAIL("no joint " + joint);
+  return 0;
+}
+
+std::string mode(const RunningArm& arm) {
+  return done(arm.ask({"status"})).at("situation").at("mode").get<std::string>();
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+}  // namespace
+
+TEST_CASE("status shows robot, situation, statistics and joints") {
+  const RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  const Json status = done(arm.ask({"status"}));
+  CHECK(status.at("robot").at("name") == "q2d");
+  CHECK(status.at("robot").at("is_simulated") == true);
+  CHECK(status.at("robot").at("joints").size() == 2);
+  CHECK(status.at("situation").at("fault") == "ok");
+  CHECK(status.at("situation").at("operates") == true);
+  CHECK(status.at("statistics").at("cycles").get<int>() > 0);
+  CHECK(status.at("joints").at(0).at("name") == shoulder);
+  CHECK(status.at("joints").at(0).at("effort").is_number());
+
+  const Result text = support::run_articula({"status", "--port", arm.port()});
+  CHECK(text.exit_code == 0);
+  for (const char* word :
+       {"q2d, simulated, 1000 Hz", "active", "pid_plus_gravity", "nobody", elbow}) {
+    CAPTURE(word);
+    CHECK(text.output.find(word) != std::string::npos);
+  }
+}
+
+TEST_CASE("watch prints a document for each state") {
+  const RunningArm arm;
+  const Result result = arm.ask({"watch", "--seconds", "2", "--rate", "20"});
+  CHECK(result.exit_code == 0);
+  std::vector<double> times;
+  for (std::size_t at = 0; at < result.output.size();) {
+    const std::size_t end = result.output.find('\n', at);
+    const Json line = Json::parse(result.output.substr(at, end - at));
+    times.push_back(line.at("time").get<double>());
+    CHECK(line.at("joints").size() == 2);
+    at = end + 1;
+  }
+  REQUIRE(times.size() >= 2);
+  CHECK(std::ranges::is_sorted(times));
+}
+
+TEST_CASE("controllers are listed and switched") {
+  const RunningArm arm;
+  const auto status_of = [&](const std::string& name) {
+    const Json answer = done(arm.ask({"controllers"}));
+    for (const Json& each : answer.at("controllers")) {
+      if (each.at("name") == name) return each.at("status").get<std::string>();
+    }
+    return std::string("none");
+  };
+  CHECK(eventually([&] { return status_of("pid_plus_gravity") == "active"; }));
+  CHECK(status_of("bypass") == "inactive");
+  done(arm.ask({"switch", "--start", "bypass", "--stop", "pid_plus_gravity"}));
+  CHECK(eventually([&] { return status_of("bypass") == "active"; }));
+  CHECK(status_of("pid_plus_gravity") == "inactive");
+  done(arm.ask({"switch", "--start", "pid_plus_gravity", "--replace"}));
+  CHECK(eventually([&] { return status_of("pid_plus_gravity") == "active"; }));
+  check_refused(arm.ask({"switch", "--start", "nonsense"}), {"nonsense"});
+  check_refused(arm.ask({"switch", "--start", "bypass"}), {"bypass"});  // the other one is active
+  CHECK(status_of("pid_plus_gravity") == "active");
+}
+
+TEST_CASE("gains are read and set, all or none") {
+  const RunningArm arm;
+  const std::string p = std::string("pid_plus_gravity.") + elbow + ".p",
+                    d = std::string("pid_plus_gravity.") + elbow + ".d";
+  const auto value = [&](const std::string& name) {
+    const Json parameters = done(arm.ask({"gains", "get", name})).at("parameters");
+    REQUIRE(parameters.size() == 1);
+    return parameters.at(0).at("value").get<double>();
+  };
+  CHECK(value(p) == 339);
+  CHECK(done(arm.ask({"gains", "get", p})).at("parameters").at(0).at("unit") == "N m/rad");
+  CHECK(done(arm.ask({"gains", "get"})).at("parameters").size() >
+        done(arm.ask({"gains", "get", std::string("pid_plus_gravity.") + elbow}))
+            .at("parameters")
+            .size());
+  done(arm.ask({"gains", "set", p + "=300", d + "=0.5"}));
+  CHECK(eventually([&] { return value(p) == 300; }));
+  CHECK(value(d) == 0.5);
+  check_refused(arm.ask({"gains", "set", d + "=1", p + "=-1"}), {elbow});
+  CHECK(value(d) == 0.5);
+  check_refused(arm.ask({"gains", "set", "nonsense.p=1"}), {"nonsense"});
+  check_refused(arm.ask({"gains", "get", "pid_plus_gravity.elbow_active_joint.pp"}),
+                {"did you mean"});
+}
+
+TEST_CASE("go moves a joint and waits for it") {
+  const RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  done(arm.ask({"go", std::string(shoulder) + "=0.2", "--wait"}));
+  CHECK(eventually([&] { return std::abs(position(arm, shoulder) - 0.2) < 1e-3; }));
+  // Without --wait the motion goes on after the program's end.
+  done(arm.ask(
+      {"go", std::string(shoulder) + "=-0.1", std::string(elbow) + "=0.1", "--speed", "0.5"}));
+  CHECK(eventually([&] { return std::abs(position(arm, shoulder) + 0.1) < 1e-3; }));
+  CHECK(std::abs(position(arm, elbow) - 0.1) < 1e-2);
+  check_refused(arm.ask({"go", "nonsense=1"}), {"nonsense"});
+  check_refused(arm.ask({"go", std::string(shoulder) + "=100"}), {shoulder, "100"});
+}
+
+TEST_CASE("publish sets the reference once or again and again") {
+  const RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  done(arm.ask({"publish", std::string(elbow) + "=0.05"}));
+  CHECK(eventually([&] { return std::abs(position(arm, elbow) - 0.05) < 1e-3; }));
+  const Json often = done(arm.ask({"publish", std::string(elbow) + "=0", "--velocity",
+                                   std::string(elbow) + "=0", "--rate", "50", "--seconds", "0.2"}));
+  CHECK(often.at("published").get<int>() > 1);
+  CHECK(eventually([&] { return std::abs(position(arm, elbow)) < 1e-3; }));
+  check_refused(arm.ask({"publish", "nonsense=1"}), {"nonsense"});
+}
+
+TEST_CASE("play follows trajectories as ROS writes them") {
+  const RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  const support::ScratchFile yaml("trajectory.yaml"), json("trajectory.json");
+  write(yaml.path(),
+        "header: {frame_id: base}\n"
+        "joint_names: [elbow_active_joint, shoulder_active_joint]\n"
+        "points:\n"
+        "  - positions: [0.1, -0.1]\n"
+        "    time_from_start: {sec: 0, nanosec: 400000000}\n"
+        "  - positions: [0.2, -0.2]\n"
+        "    time_from_start: 0.8\n");
+  done(arm.ask({"play", yaml.path().string()}));
+  CHECK(eventually([&] { return std::abs(position(arm, elbow) - 0.2) < 1e-3; }));
+  CHECK(std::abs(position(arm, shoulder) + 0.2) < 1e-2);
+  write(json.path(),
+        R"({"trajectory": {"joint_names": ["shoulder_active_joint", "elbow_active_joint"],
+            "points": [{"positions": [0, 0], "velocities": [0, 0],
+                        "time_from_start": {"secs": 1, "nsecs": 0}}]}})");
+  done(arm.ask({"play", json.path().string()}));
+  CHECK(eventually([&] { return std::abs(position(arm, elbow)) < 1e-3; }));
+
+  for (const auto& [text, word] : std::vector<std::pair<std::string, std::string>>{
+           {"", "no map"},
+           {"[", "no YAML"},
+           {"points: []", "joint_names"},
+           {"joint_names: [a]\npoints: []", "no points"},
+           {"joint_names: [a]\npoints: [{positions: [1, 2], time_from_start: 1}]", "2 numbers"},
+           {"joint_names: [a]\npoints: [{positions: [x], time_from_start: 1}]", "'x' is no number"},
+           {"joint_names: [a]\npoints: [{positions: [1]}]", "time_from_start"},
+           {"joint_names: [a]\npoints: [{position: [1], time_from_start: 1}]", "'position'"},
+           {"joint_names: [a]\npoints: [{positions: [1], time_from_start: 1}]", "a"}}) {
+    CAPTURE(text);
+    write(yaml.path(), text);
+    check_refused(arm.ask({"play", yaml.path().string()}), {word});
+  }
+  check_refused(arm.ask({"play", "/no/such/file"}), {"/no/such/file", "cannot be read"});
+}
+
+TEST_CASE("a program that is ended while it plays stops the motion") {
+  RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  const support::ScratchFile yaml("long.yaml");
+  write(yaml.path(),
+        "joint_names: [shoulder_active_joint, elbow_active_joint]\n"
+        "points:\n"
+        "  - {positions: [1, 1], time_from_start: 1000}\n");
+  {
+    support::Process play({ARTICULA_PROGRAM, "--port", arm.port(), "play", yaml.path().string()});
+    CHECK(eventually([&] { return arm.remote().situation().motion == "trajectory"; }));
+  }
+  CHECK(eventually([&] { return arm.remote().situation().motion == "rest"; }));
+  CHECK(arm.remote().situation().operator_name.empty());
+}
+
+TEST_CASE("the loop is deactivated, activated and stopped") {
+  const RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  done(arm.ask({"stop"}));
+  done(arm.ask({"deactivate"}));
+  CHECK(eventually([&] { return mode(arm) == "inactive"; }));
+  check_refused(arm.ask({"go", std::string(elbow) + "=0.1"}), {"active"});
+  check_refused(arm.ask({"fault", "ack"}), {"fault"});  // there is none
+  done(arm.ask({"activate"}));
+  CHECK(eventually([&] { return mode(arm) == "active"; }));
+}
+
+TEST_CASE("a simulation is paused, stepped, slowed, reset and pulled at") {
+  RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  done(arm.ask({"pause"}));
+  CHECK(eventually([&] { return arm.remote().situation().paused; }));
+  done(arm.ask({"step", "10"}));
+  done(arm.ask({"resume"}));
+  CHECK(eventually([&] { return !arm.remote().situation().paused; }));
+  done(arm.ask({"speed", "0.5"}));
+  CHECK(eventually([&] { return arm.remote().situation().speed == 0.5; }));
+  done(arm.ask({"speed", "1"}));
+  done(arm.ask({"reset", std::string(shoulder) + "=0.3"}));
+  CHECK(eventually([&] { return std::abs(position(arm, shoulder) - 0.3) < 0.05; }));
+  done(arm.ask({"pull", "tool_link", "--force", "0", "-5", "0", "--seconds", "0.05"}));
+  check_refused(arm.ask({"pull", "nonsense", "--force", "0", "0", "1", "--seconds", "0"}),
+                {"nonsense"});
+  check_refused(arm.ask({"reset", "nonsense=1"}), {"nonsense"});
+}
+
+TEST_CASE("record writes all cycles to an MCAP file") {
+  const RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  const support::ScratchFile file("record.mcap");
+  const Json result = done(arm.ask({"record", file.path().string(), "--seconds", "2"}));
+  CHECK(result.at("cycles").get<int>() > 0);
+  std::ifstream stream(file.path(), std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  const std::string magic("\x89MCAP0\r\n", 8);
+  CHECK(bytes.starts_with(magic));
+  CHECK(bytes.ends_with(magic));  // it was closed
+  int messages = 0;
+  for (std::size_t at = 0; (at = bytes.find("\"timing\":{\"latency\":", at)) != std::string::npos;
+       ++at) {
+    ++messages;
+  }
+  CHECK(messages == result.at("cycles").get<int>());
+  CHECK(bytes.find("\"shoulder_active_joint\":{\"position\":") != std::string::npos);
+  check_refused(arm.ask({"record", "/no/such/folder/x.mcap", "--seconds", "0"}),
+                {"/no/such/folder"});
+}
+
+TEST_CASE("somebody else's controls are respected") {
+  RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  const auto other = arm.remote().connect("Ada", true);
+  REQUIRE(other->take_controls().empty());
+  auto result =
+      std::async(std::launch::async, [&] { return arm.ask({"go", std::string(elbow) + "=0.1"}); });
+  while (result.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) {
+    other->keep_alive();
+  }
+  check_refused(result.get(), {"Ada"});
+  CHECK(arm.ask({"status"}).exit_code == 0);  // who watches needs no controls
+}
+
+TEST_CASE("a read-only view refuses what operates, and shows the rest") {
+  const RunningArm arm(articula::ViewOptions{});
+  CHECK(done(arm.ask({"status"})).at("situation").at("operates") == false);
+  CHECK(done(arm.ask({"gains", "get"})).at("parameters").size() > 0);
+  check_refused(arm.ask({"go", std::string(elbow) + "=0.1"}), {"only shows"});
+  check_refused(arm.ask({"activate"}), {"only shows"});
+}
+
+TEST_CASE("a token is needed where the view has one") {
+  const RunningArm arm({.operates = true, .token = "0123456789abcdef"});
+  CHECK(arm.ask({"status"}).exit_code == 3);
+  CHECK(arm.ask({"status", "--token", "wrong &?# token"}).exit_code == 3);
+  CHECK(arm.ask({"--token", "0123456789abcdef", "status"}).exit_code == 0);
+}

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file articula run and articula new: robots and controllers from files.
+#include "catch.hpp"
+#include "scratch_file.hpp"
+#include "terminal.hpp"
+
+#include <articula/remote/urdf_text.hpp>
+#include <articula/robots/gripper_arm.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+using support::Result;
+using support::run_articula;
+using support::ScratchFile;
+using Json = nlohmann::json;
+
+namespace {
+
+const std::string files = TERMINAL_FILES;
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
+
+/// The Q2D as a file, whose gravity is the controllers' one.
+struct Q2dFile {
+  ScratchFile file{"q2d.urdf"};
+  Q2dFile() { write(file.path(), articula::remote::urdf_text(articula::Q2d())); }
+  [[nodiscard]] std::string name() const { return file.path().string(); }
+};
+
+/// A program that runs a loop from files at a free port.
+class Running {
+ public:
+  explicit Running(std::vector<std::string> words) : process_(command(std::move(words))) {
+    begin_ = Json::parse(process_.line());
+    const std::string url = begin_.at("url");
+    port_ = url.substr(url.rfind(':') + 1, url.find('/', 8) - url.rfind(':') - 1);
+  }
+  [[nodiscard]] const Json& begin() const { return begin_; }
+  Json ask(std::vector<std::string> words) const {
+    words.insert(words.begin(), {"--json", "--port", port_});
+    const Result result = run_articula(std::move(words));
+    INFO(result.output + result.errors);
+    REQUIRE(result.exit_code == 0);
+    return result.json();
+  }
+  [[nodiscard]] Result end() {
+    process_.interrupt();
+    return process_.end();
+  }
+
+ private:
+  static std::vector<std::string> command(std::vector<std::string> words) {
+    words.insert(words.begin(), {ARTICULA_PROGRAM, "--json", "--port", "0", "run"});
+    return words;
+  }
+  support::Process process_;
+  Json begin_;
+  std::string port_;
+};
+
+template <class Condition>
+bool eventually(Condition condition) {
+  for (int k = 0; k < 600; ++k) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  return false;
+}
+
+/// A short run with some of the file's controllers.
+Result articula_chosen(const std::string& robot, const std::string& controllers,
+                       const std::vector<std::string>& names) {
+  std::vector<std::string> words{"--port", "0", "run", robot, controllers, "--seconds", "0.01"};
+  for (const std::string& name : names) {
+    words.emplace_back("--controller");
+    words.push_back(name);
+  }
+  return run_articula(words);
+}
+
+void check_refused(const Result& result, const std::string& words) {
+  INFO(result.output + result.errors);
+  CAPTURE(words);
+  CHECK(result.exit_code == 1);
+  CHECK(result.errors.find(words) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("run serves the meshes of packages, and no other folder that a URDF names") {
+  const auto workspace = std::filesystem::temp_directory_path() / "articula_package_test";
+  const auto package = workspace / "my_arm";
+  std::filesystem::create_directories(package / "urdf");
+  std::filesystem::create_directories(workspace / "no_package");
+  write(package / "package.xml", "<package/>");
+  std::string urdf = articula::remote::urdf_text(articula::Q2d());
+  const std::size_t end = urdf.rfind("</robot>");
+  urdf.insert(end,
+              "<!-- package://etc/a package://../a package://no_package/a package://my_arm/a -->");
+  const auto file = package / "urdf" / "q2d.urdf";
+  write(file, urdf);
+  Running arm({file.string(), files + "/q2d.yaml"});
+  const Json folders = arm.begin().at("mesh_folders");
+  CHECK(folders == Json{{"my_arm", std::filesystem::canonical(package).string()}});
+  CHECK(arm.end().exit_code == 0);
+  std::filesystem::remove_all(workspace);
+}
+
+TEST_CASE("the course's files run, with their controllers, and are operated from the terminal") {
+  const Q2dFile robot;
+  Running running({robot.name(), files + "/q2d.yaml"});
+  CHECK(running.begin().at("robot") == "q2d");
+  CHECK(running.begin().at("rate") == 1000);
+  const auto mode = [&] { return running.ask({"status"}).at("situation").at("mode"); };
+  REQUIRE(eventually([&] { return mode() == "active"; }));
+
+  const Json controllers = running.ask({"controllers"}).at("controllers");
+  REQUIRE(controllers.size() == 3);
+  CHECK(controllers.at(0).at("name") == "group_bypass");
+  CHECK(controllers.at(0).at("status") == "active");
+  CHECK(controllers.at(2).at("name") == "computed_torque_controller");
+
+  running.ask({"switch", "--start", "pid_plus_gravity_controller", "--replace"});
+  const Json gains =
+      running.ask({"gains", "get", "pid_plus_gravity_controller.shoulder_active_joint.p"});
+  CHECK(gains.at("parameters").at(0).at("value") == 2310);
+  const Json torque = running.ask({"gains", "get", "computed_torque_controller"});
+  CHECK(torque.at("parameters").at(0).at("unit") == "1/s^2");
+  running.ask({"go", "elbow_active_joint=0.2", "--wait"});
+  CHECK(eventually([&] {
+    const Json joints = running.ask({"status"}).at("joints");
+    return std::abs(joints.at(1).at("position").get<double>() - 0.2) < 1e-3;
+  }));
+  const Result end = running.end();
+  CHECK(end.exit_code == 0);
+  CHECK(end.json().at("cycles").get<int>() > 0);
+}
+
+TEST_CASE("positions go to simulated drives, and to a mock") {
+  const Q2dFile robot;
+  const ScratchFile controllers("position.yaml");
+  write(controllers.path(),
+        "controller_manager:\n  ros__parameters:\n    update_rate: 100\n"
+        "    arm_controller: {type: joint_trajectory_controller/JointTrajectoryController}\n"
+        "arm_controller:\n  ros__parameters:\n"
+        "    joints: [shoulder_active_joint, elbow_active_joint]\n"
+        "    command_interfaces: [position]\n    state_interfaces: [position, velocity]\n");
+  for (const bool mocks : {false, true}) {
+    std::vector<std::string> words{robot.name(), controllers.path().string()};
+    if (mocks) words.emplace_back("--mock");
+    Running running(words);
+    CHECK(running.begin().at("hardware") == (mocks ? "mock" : "simulated"));
+    CHECK(running.begin().at("rate") == 100);
+    REQUIRE(
+        eventually([&] { return running.ask({"status"}).at("situation").at("mode") == "active"; }));
+    running.ask({"go", "shoulder_active_joint=0.3", "--wait"});
+    CHECK(eventually([&] {
+      const Json joints = running.ask({"status"}).at("joints");
+      return std::abs(joints.at(0).at("position").get<double>() - 0.3) < 1e-3;
+    }));
+    CHECK(running.end().exit_code == 0);
+  }
+}
+
+TEST_CASE("a run ends after its time, and read-only means it") {
+  const Q2dFile robot;
+  const Result result = run_articula({"--json", "--port", "0", "run", robot.name(),
+                                      files + "/q2d.yaml", "--seconds", "0.05", "--read-only"});
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.find("\"cycles\":50") != std::string::npos);
+}
+
+TEST_CASE("what cannot run is refused with its reason and the cure") {
+  const Q2dFile robot;
+  const ScratchFile file("controllers.yaml"), urdf("robot.urdf");
+  const std::string yaml = file.path().string();
+  const auto run = [&](const std::string& robot_file) {
+    return run_articula({"--port", "0", "run", robot_file, yaml, "--seconds", "0.01"});
+  };
+  check_refused(run_articula({"run", "/no/such.urdf", files + "/q2d.yaml"}), "/no/such.urdf");
+  check_refused(run_articula({"run", robot.name(), "/no/such.yaml"}), "/no/such.yaml");
+  check_refused(run_articula({"run", robot.name(), files + "/q2d.yaml", "--mock"}), "--mock");
+
+  write(file.path(), "controller_manager:\n  ros__parameters:\n    update_rate: 100\n");
+  check_refused(run(robot.name()), "names no controller");
+  write(file.path(),
+        "controller_manager:\n  ros__parameters:\n"
+        "    odd: {type: odd_controllers/OddThing}\nodd:\n  ros__parameters:\n"
+        "    joints: [shoulder_active_joint, elbow_active_joint]\n");
+  check_refused(run(robot.name()), "OddThing");
+  write(file.path(),
+        "pid_controller:\n  ros__parameters:\n    joints: [elbow_active_joint]\n"
+        "    gains: {elbow_active_joint: {p: 1}}\n");
+  check_refused(run(robot.name()), "shoulder_active_joint");
+  write(file.path(),
+        "controller_manager:\n  ros__parameters:\n"
+        "    torque: {type: effort_controllers/JointGroupEffortController}\n"
+        "    place: {type: position_controllers/JointGroupPositionController}\n"
+        "torque:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+        "place:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n");
+  const Result both = run(robot.name());  // with the first kind, and a note on the other
+  CHECK(both.exit_code == 0);
+  CHECK(both.errors.find("'place'") != std::string::npos);
+  check_refused(articula_chosen(robot.name(), yaml, {"torque", "place"}), "same quantity");
+  check_refused(articula_chosen(robot.name(), yaml, {"nonsense"}), "nonsense");
+  CHECK(articula_chosen(robot.name(), yaml, {"place"}).exit_code == 0);
+
+  write(file.path(),
+        "torque:\n  ros__parameters:\n    type: effort_controllers/JointGroupEffortController\n"
+        "    joints: [shoulder_active_joint, wrist]\n");
+  check_refused(run(robot.name()), "'wrist'");
+
+  write(file.path(),
+        "torque:\n  ros__parameters:\n    type: effort_controllers/JointGroupEffortController\n"
+        "    joints: [joint_1]\n");
+  write(urdf.path(), articula::remote::urdf_text(articula::GripperArm()));
+  check_refused(run(urdf.path().string()), "mimic joints");
+}
+
+TEST_CASE("a port that is in use is named") {
+  using boost::asio::ip::tcp;
+  boost::asio::io_context context;
+  const tcp::acceptor acceptor(context, {boost::asio::ip::address_v4::loopback(), 0});
+  const std::string port = std::to_string(acceptor.local_endpoint().port());
+  const Q2dFile robot;
+  check_refused(run_articula({"--port", port, "run", robot.name(), files + "/q2d.yaml"}), port);
+}
+
+TEST_CASE("a new project has the robot, the controllers and a short program") {
+  const Q2dFile robot;
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("articula-new-" + std::to_string(getpid()));
+  const Result result = run_articula(
+      {"--json", "new", robot.name(), files + "/q2d.yaml", "--output", folder.string()});
+  INFO(result.output + result.errors);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.json().at("commands").size() == 3);
+  const auto text = [&](const char* name) {
+    std::ifstream stream(folder / name);
+    return std::string((std::istreambuf_iterator<char>(stream)), {});
+  };
+  CHECK(text("CMakeLists.txt").find("GRAVITY 0 0 -9.8") != std::string::npos);
+  CHECK(text("CMakeLists.txt").find("TIP \"tool_link\"") != std::string::npos);
+  CHECK(text("main.cpp").find("articula::ComputedTorque<") != std::string::npos);
+  CHECK(text("robot.urdf") == articula::remote::urdf_text(articula::Q2d()));
+  // What is there is never overwritten.
+  check_refused(
+      run_articula({"new", robot.name(), files + "/q2d.yaml", "--output", folder.string()}),
+      "not empty");
+  std::filesystem::remove_all(folder);
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/view/protocol/messages.hpp"
+
+#include "articula/view/protocol/channels.hpp"
+#include "articula/view/protocol/requests.hpp"
+#include "catch.hpp"
+#include "fake_port.hpp"
+
+#include <limits>
+#include <set>
+#include <string>
+#include <vector>
+
+using namespace articula::view;
+namespace remote = articula::remote;
+
+namespace {
+
+remote::Cycle cycle(std::uint64_t number) {
+  const double k = static_cast<double>(number);
+  return {.number = number,
+          .time = 1e-3 * k,
+          .status = articula::Status::stale_state,
+          .position = {0.1 * k, 1 / 3.0},
+          .velocity = {k, -k},
+          .effort = {5, 6},
+          .reference_position = {7, 8},
+          .reference_velocity = {9, 10},
+          .reference_acceleration = {11, 12},
+          .reference_effort = {13, 14},
+          .command = {{15, 16}},
+          .latency = 1e-6,
+          .update = 2e-6};
+}
+
+/// The members of a message are those of its topic's schema.
+void check_members(Topic topic, const Json& message) {
+  std::set<std::string> members, described;
+  for (const auto& item : message.items()) members.insert(item.key());
+  const Json schema = Json::parse(channel_of(topic).schema);
+  for (const auto& item : schema["properties"].items()) described.insert(item.key());
+  CHECK(members == described);
+}
+
+}  // namespace
+
+TEST_CASE("cycles are columns, and every number comes back with all its bits") {
+  support::FakePort port;
+  const std::vector<remote::Cycle> cycles{cycle(3), cycle(4), cycle(5)};
+  const Json json = Json::parse(cycles_message(port.robot(), cycles, 17));
+  check_members(Topic::cycles, json);
+  CHECK(json["dropped"] == 17);
+  CHECK(json["number"] == Json{3, 4, 5});
+  CHECK(json["status"] == Json{5, 5, 5});
+  for (std::size_t k = 0; k < cycles.size(); ++k) {
+    CHECK(json["time"][k].get<double>() == cycles[k].time);
+    for (std::size_t j = 0; j < 2; ++j) {
+      CHECK(json["position"][j][k].get<double>() == cycles[k].position[j]);
+      CHECK(json["velocity"][j][k].get<double>() == cycles[k].velocity[j]);
+      CHECK(json["reference_effort"][j][k].get<double>() == cycles[k].reference_effort[j]);
+      CHECK(json["command"]["effort"][j][k].get<double>() == cycles[k].command[0][j]);
+    }
+  }
+}
+
+TEST_CASE("a number that is not finite, or missing, is null") {
+  support::FakePort port;
+  remote::Cycle bad = cycle(1);
+  bad.position[0] = std::numeric_limits<double>::quiet_NaN();
+  bad.velocity[1] = std::numeric_limits<double>::infinity();
+  bad.effort.clear();
+  bad.command.clear();
+  const Json json = Json::parse(cycles_message(port.robot(), std::vector{bad}, 0));
+  CHECK(json["position"][0][0].is_null());
+  CHECK(json["velocity"][1][0].is_null());
+  CHECK(json["effort"][1][0].is_null());
+  CHECK(json["command"]["effort"][0][0].is_null());
+  CHECK_NOTHROW(Json::parse(joint_states_message(port.robot(), bad, 0)));
+}
+
+TEST_CASE("joint states have the mimic joints, too") {
+  support::FakePort port;
+  const Json json = Json::parse(joint_states_message(port.robot(), cycle(2), 1'500'000'000));
+  check_members(Topic::joint_states, json);
+  CHECK(json["header"]["stamp"] == Json{{"sec", 1}, {"nsec", 500'000'000}});
+  CHECK(json["name"] == Json{"shoulder", "elbow", "finger"});
+  CHECK(json["position"][2].get<double>() == Approx(-2 / 3.0 + 0.5));
+  CHECK(json["velocity"][2].get<double>() == 4);
+  CHECK(json["effort"] == Json{5.0, 6.0, 0.0});
+}
+
+TEST_CASE("transforms place every link but the root in the root") {
+  support::FakePort port;
+  const Json json =
+      Json::parse(transforms_message(port.link_poses({0.5, 0}), port.robot().links.front(), 0));
+  check_members(Topic::transforms, json);
+  REQUIRE(json["transforms"].size() == 2);
+  const Json& arm = json["transforms"][0];
+  CHECK(arm["parent_frame_id"] == "base");
+  CHECK(arm["child_frame_id"] == "upper_arm");
+  CHECK(arm["translation"] == Json{{"x", 0.0}, {"y", 0.0}, {"z", 1.0}});
+  CHECK(arm["rotation"]["z"].get<double>() == std::sin(0.25));
+}
+
+TEST_CASE("what changes seldom has the members of its schema") {
+  support::FakePort port;
+  check_members(Topic::situation, situation_json(port.situation(), true, false));
+  check_members(Topic::statistics, statistics_json(port.statistics()));
+  const Json entry = log_json({1.5, remote::Event::Level::warning, "text"}, 0);
+  check_members(Topic::log, entry);
+  CHECK(entry["level"] == 3);
+  const Json situation = situation_json(port.situation(), true, false);
+  CHECK(situation["mode"] == "active");
+  CHECK(situation["fault"] == "ok");
+  CHECK(situation["controllers"][1] == Json{{"name", "bypass"}, {"status", "inactive"}});
+}
+
+TEST_CASE("a robot has its limits, null where there are none") {
+  support::FakePort port;
+  const Json json = robot_json(port.robot());
+  CHECK(json["joints"][0]["limits"]["lower"] == -1.5);
+  CHECK(json["joints"][0]["limits"]["effort"].is_null());
+  CHECK(json["joints"][0]["position_unit"] == "rad");
+  CHECK(json["mimics"][0] ==
+        Json{{"name", "finger"}, {"joint", 1}, {"multiplier", -2.0}, {"offset", 0.5}});
+  const Json parameters = parameters_json(port.parameters());
+  CHECK(parameters["parameters"][0]["highest"] == 100.0);
+}
+
+TEST_CASE("the schemas of topics and services are JSON schemas") {
+  for (std::size_t i = 0; i < topic_count; ++i) {
+    const Json entry = advertisement_of(static_cast<Topic>(i));
+    CHECK(entry["encoding"] == "json");
+    CHECK(Json::parse(entry["schema"].get<std::string>())["type"] == "object");
+  }
+  for (const Service& service : services()) {
+    INFO(service.name);
+    const Json schema = schema_of(service.members);
+    CHECK(schema["type"] == "object");
+    CHECK((service.members.empty() || schema["properties"].size() == service.members.size()));
+  }
+}

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenarios about modes, controllers, gains, operators and connections.
+import {check, openPage, pause, startServer} from './browser.mjs';
+
+const statusOf = (name, status) =>
+  articula.session.situation.controllers.some(
+    (each) => each.name === name && each.status === status,
+  );
+
+// Named so for run.mjs, since `switch` is a word of the language.
+async function switchControllers(browser, url) {
+  const robot = await openPage(browser, url);
+  await robot.tab('controllers');
+  await robot.click('button[aria-label="Start computed_torque"]');
+  await robot.until('the refusal is shown', () =>
+    /another controller/.test(document.querySelector('.controllers + .refusal').textContent),
+  );
+  await robot.picture('switch_refused');
+  await robot.click('button[aria-label="Switch computed_torque"]');
+  await robot.until('computed_torque is active', statusOf, 'computed_torque', 'active');
+  await robot.until('the other one is not', statusOf, 'pid_plus_gravity', 'inactive');
+  await robot.until(
+    'the page shows it',
+    () =>
+      document.querySelector('.controllers [data-status=active] .name').textContent ===
+      'computed_torque',
+  );
+  await robot.picture('switch');
+  await robot.click('button[aria-label="Stop computed_torque"]');
+  await robot.until('none is active', statusOf, 'computed_torque', 'inactive');
+}
+export {switchControllers as switch};
+
+export async function gains(browser, url) {
+  const robot = await openPage(browser, url);
+  const watcher = await openPage(browser, url);
+  await robot.tab('gains');
+  await watcher.tab('gains');
+  const field = 'input[aria-label^="pid_plus_gravity.shoulder_active_joint.p "]';
+  const valueOf = (selector, value) => Number(document.querySelector(selector).value) === value;
+  await robot.type(field, -5);
+  await robot.click('.primary::-p-text(Apply)');
+  await robot.until(
+    'the refusal is shown at the field',
+    (selector) => {
+      const gain = document.querySelector(selector);
+      return (
+        gain.getAttribute('aria-invalid') === 'true' &&
+        gain.closest('.gain').querySelector('.refusal').textContent.length > 10
+      );
+    },
+    field,
+  );
+  await robot.picture('gains_refused');
+  await robot.type(field, 2000);
+  await robot.page.keyboard.press('Enter');
+  await robot.until('the gain is set', () =>
+    /One gain is set/.test(document.querySelector('form [role=status]').textContent),
+  );
+  await watcher.until('the other page shows it', valueOf, field, 2000);
+  await robot.picture('gains');
+}
+
+export async function fault(browser, url, server) {
+  const robot = await openPage(browser, url);
+  server.current.signal('SIGUSR1');
+  await robot.until(
+    'the fault is shown',
+    () => articula.session.situation.mode === 'fault' && !document.querySelector('#fault').hidden,
+  );
+  const text = await robot.page.$eval('#fault', ({textContent}) => textContent);
+  check(/hardware fault/.test(text) && text.length > 40, `cause and cure in '${text}'`);
+  await robot.picture('fault');
+  server.current.signal('SIGUSR2');
+  await robot.click('#fault button');
+  await robot.until('the loop is inactive', () => articula.session.situation.mode === 'inactive');
+  check(await robot.page.$eval('#fault', ({hidden}) => hidden), 'the fault is no longer shown');
+  await robot.click('#top button::-p-text(Activate)');
+  await robot.until('the loop is active again', () => articula.session.situation.mode === 'active');
+  await robot.tab('log');
+  await robot.until('the log tells of it', () =>
+    /hardware fault/.test(document.querySelector('.log').textContent),
+  );
+  await robot.picture('fault_log');
+}
+
+export async function two_operators(browser, url) {
+  const first = await openPage(browser, url);
+  const second = await openPage(browser, url, {theme: 'light'});
+  await first.click('button::-p-text(Take controls)');
+  await first.until('the first has the controls', () => articula.session.situation.you_operate);
+  await second.until(
+    'the second sees who has them',
+    () =>
+      / has the controls/.test(document.querySelector('.operator').textContent) &&
+      articula.session.situation.operator !== '',
+  );
+  check(
+    await second.page.$eval('input[aria-label^="shoulder_active_joint"]', ({disabled}) => disabled),
+    'its sliders are disabled',
+  );
+  await second.picture('two_operators');
+  const answer = await second.page.evaluate(() => articula.session.askQuietly('/stop'));
+  check(
+    !answer.success && /controls/.test(answer.message),
+    `a refusal with its reason, not ${JSON.stringify(answer)}`,
+  );
+  await first.click('button::-p-text(Release controls)');
+  await second.until('the second may operate', () => articula.session.mayOperate);
+  await second.click('button::-p-text(Take controls)');
+  await second.until('the second has the controls', () => articula.session.situation.you_operate);
+  await second.page.close();
+  await first.until(
+    'a closed page loses the controls',
+    () => articula.session.situation.operator === '',
+  );
+}
+
+export async function reload(browser, url) {
+  const robot = await openPage(browser, url);
+  await robot.page.evaluate(
+    () => void articula.session.ask('/go', {positions: {shoulder_active_joint: 1}, speed: 0.2}),
+  );
+  await robot.until('the arm moves', () => articula.session.samples.latest('velocity')[0] > 0.05);
+  await robot.page.reload();
+  await robot.until(
+    'the page is back',
+    () => window.articula?.view.model && articula.session.samples?.end > 10,
+  );
+  // Nobody operates now: the motion ends by a stop before the goal.
+  await robot.until(
+    'the arm rests',
+    () =>
+      Math.abs(articula.session.samples.latest('velocity')[0]) < 1e-3 &&
+      articula.session.situation.motion === 'rest',
+  );
+  const [q] = await robot.position();
+  check(q > 0 && q < 0.99, `the arm has stopped on its way, but is at ${q} rad`);
+  await robot.picture('reload');
+}
+
+export async function restart(browser, url, server) {
+  const robot = await openPage(browser, url);
+  await server.current.stop('SIGKILL');
+  await robot.until(
+    'the page shows that the connection is lost',
+    () => document.querySelector('.mode').textContent === 'no connection',
+  );
+  check(await robot.page.$eval('.primary', ({disabled}) => disabled), 'Go is disabled');
+  await robot.picture('restart_lost');
+  await pause(500);
+  server.current = await startServer(Number(new URL(url).port));
+  await robot.until(
+    'the page has connected again',
+    () => articula.session.connected && articula.session.situation.mode === 'active',
+  );
+  await robot.until(
+    'new cycles arrive',
+    () => articula.session.samples.end > 10 && articula.session.samples.lastTime < 30,
+  );
+  await robot.page.evaluate(
+    () => void articula.session.ask('/go', {positions: {elbow_active_joint: 0.5}}),
+  );
+  await robot.until(
+    'the arm moves',
+    () => Math.abs(articula.session.samples.latest('position')[1] - 0.5) < 2e-3,
+  );
+  await robot.picture('restart');
+}
+
+export async function simulation(browser, url) {
+  const robot = await openPage(browser, url);
+  const bar = '[aria-label=Simulation]';
+  await robot.click(`${bar} button::-p-text(Pause)`);
+  await robot.until('the simulation is paused', () => articula.session.situation.paused);
+  await pause(300);
+  const number = () => robot.page.evaluate(() => articula.session.samples.lastTime);
+  const before = await number();
+  await robot.click(`${bar} button::-p-text(Step)`);
+  await robot.until(
+    'one more cycle has arrived',
+    (time) => Math.abs(articula.session.samples.lastTime - time - 1e-3) < 1e-6,
+    before,
+  );
+  await pause(300);
+  check(Math.abs((await number()) - before - 1e-3) < 1e-6, 'one cycle and no more');
+  await robot.picture('simulation');
+  await robot.click(`${bar} button::-p-text(Pause)`);
+  await robot.until(
+    'the simulation goes on',
+    (time) => articula.session.samples.lastTime > time + 0.1,
+    before,
+  );
+  await robot.page.select(`${bar} select`, '0.1');
+  await robot.until('it goes on slowly', () => articula.session.situation.speed === 0.1);
+  await robot.page.select(`${bar} select`, '1');
+  await robot.page.evaluate(() =>
+    articula.session.ask('/go', {positions: {elbow_active_joint: 0.5}}),
+  );
+  await robot.until(
+    'the elbow has moved',
+    () => articula.session.samples.latest('position')[1] > 0.2,
+  );
+  await robot.click(`${bar} button::-p-text(Reset)`);
+  await robot.until(
+    'the elbow is at 0',
+    () => Math.abs(articula.session.samples.latest('position')[1]) < 1e-3,
+  );
+}
