@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Q2D in real time: 1 kHz under SCHED_FIFO, supervised and recorded. The run ends at the target
-// or by Ctrl-C.
+// The Q2D in real time: 1 kHz under SCHED_FIFO, supervised, operated and recorded. The run ends after
+// two seconds or by Ctrl-C.
 #include <articula/articula.hpp>
 #include <articula/loop/realtime/run_realtime.hpp>
 #include <articula/loop/realtime/stop_on_signal.hpp>
 #include <articula/recording/csv_writer.hpp>
 #include <articula/recording/record_stream.hpp>
+#include <articula/remote/remote.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <cstdio>
@@ -18,22 +19,25 @@ int main() {
   // `overruns` tolerates the overruns of a desktop machine; omit it for an arm.
   SupervisedLoop<Q2dSim, PidPlusGravity> arm(
       SupervisionOptions{.behaviour = SafeBehaviour::hold, .overruns = 1000});
-  using Record = CycleRecordOf<decltype(arm)>;
+  Remote remote(arm);  // View shows it in a browser
+  const auto session = remote.connect("example", true);
+  session->ask(remote::Activate{});
+  session->ask(remote::Go{{{"shoulder_active_joint", -0.5}, {"elbow_active_joint", 0.5}}});
+  session->release_controls();
 
   // Another thread writes the records, so that the loop never waits for the disk.
   CsvWriter<Q2d, EffortCommand<2>> csv("realtime_loop.csv");
-  RecordStream<Record> stream({[&](const Record& record) { csv.write(record); }});
+  RecordStream<CycleRecordOf<decltype(remote)>> stream(
+      {[&](const auto& record) { csv.write(record); }});
 
   StopFlag stop;
   const StopOnSignal ctrl_c(stop);
   RealtimeOptions options{.thread = {.priority = 99}, .run = {.cycles = 2000, .stop = &stop}};
   options.thread.warn = [](const std::string& refusal) { std::puts(refusal.c_str()); };
-
-  arm.request_activation();
-  const RunReport report = run(arm, options, [&](auto& loop, const RunReport& now) {
-    if (now.cycles == 10) loop.post({.position = {-0.5, 0.5}});
+  const RunReport report = run(remote, options, [&](auto& loop, const RunReport& now) {
+    loop.report(now);
     stream.push(record_of(loop, now));
-    return loop.mode() != LoopMode::fault;
+    return true;
   });
   stream.close();
   csv.close();

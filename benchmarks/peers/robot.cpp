@@ -97,7 +97,7 @@ template <Operation operation, class R>
   }
 }
 
-Numbers numbers_of(const Motion<n>& motion) {
+Numbers numbers_of(const JointState<n>& motion) {
   Numbers numbers = numbers_of(motion.position);
   for (const double x : motion.velocity) numbers.push_back(x);
   return numbers;

@@ -7,6 +7,8 @@
 #include "fault_script.hpp"
 #include "protocols.hpp"
 
+#include <linux/can/error.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>

@@ -60,6 +60,8 @@ void run_all(const Options& options) {
   }
   std::cout << "\nRecordings (CSV)" << (options.plots ? ", plots (SVG)" : "")
             << " and plot scripts (gnuplot) are in " << options.output.string() << '\n'
+            << "The arm in a browser: cmake/install-dependencies.sh --view && "
+               "cmake --workflow --preset view\n"
             << std::flush;
   if (!std::cout) throw std::runtime_error("cannot write to standard output");
 }
