@@ -23,7 +23,7 @@ namespace articula::detail {
   std::vector<ConfiguredJoint> joints;
   if (value.list().size() > most) value.refuse("at most 1000 names");
   for (const ConfigNode& item : value.list()) {
-    const std::string name = item.name();
+    const std::string& name = item.name();
     for (const ConfiguredJoint& joint : joints) {
       if (joint.name != name) continue;
       item.refuse("'" + shown(name) + "' a second time", "every joint once");
@@ -38,7 +38,7 @@ namespace articula::detail {
 [[nodiscard]] inline Vector3<double> read_vector(const ConfigNode& value,
                                                  std::vector<std::string>& notes) {
   if (value.is_list()) {
-    const auto items = value.list();
+    const auto& items = value.list();
     if (items.size() != 3)
       value.refuse("three numbers with decimal points, or a map of x, y and z");
     return {items[0].number(), items[1].number(), items[2].number()};
@@ -73,7 +73,7 @@ inline void read_mechanics(ConfigMap& map, ControllerConfig& config) {
 
 /// A gain of each joint: n numbers >= 0, or a diagonal n x n matrix by rows.
 [[nodiscard]] inline std::vector<double> read_diagonal(const ConfigNode& value, std::size_t n) {
-  const auto items = value.list();
+  const auto& items = value.list();
   const std::size_t size = items.size();
   bool has_pairs = size == 4 && n == 2;  // as in [1,0, 0,5], which may have two decimal commas
   for (std::size_t k = 0; k < size; ++k) {

@@ -41,7 +41,7 @@ struct UnitPowers {
   };
   const auto [above, count_above] = product(1);
   const auto [below, count_below] = product(-1);
-  const std::string numerator = count_above == 0 ? "1" : above;
+  std::string numerator = count_above == 0 ? "1" : above;
   if (count_below == 0) return numerator;
   return numerator + "/" + (count_below == 1 ? below : "(" + below + ")");
 }
