@@ -164,6 +164,23 @@ class Connection::Client {
     return flag;
   }
 
+  /// Runs an operation to its end. Without an end in time it closes the connection and fails.
+  /// @param begin        starts the operation, called with the handler for its end
+  /// @param when_silent  why the connection fails without an end
+  error_code complete(auto begin, const std::string& when_silent) {
+    error_code error;
+    bool is_over = false;
+    begin([&error, &is_over](error_code result, auto&&...) {
+      error = result;
+      is_over = true;
+    });
+    if (run_until(is_over, Connection::default_patience)) return error;
+    error_code ignored;
+    stream_.next_layer().close(ignored);
+    run_until(is_over, 1);
+    fail(when_silent);
+  }
+
   void connect(const Program& program) {
     const std::string advice =
         "; start the program with the loop, or name it by --address and --port";
@@ -171,17 +188,9 @@ class Connection::Client {
     asio::ip::tcp::resolver resolver(context_);
     const auto found = resolver.resolve(program.address, std::to_string(program.port), error);
     if (error) fail("there is no address " + program.address + ": " + error.message());
-    bool is_over = false;
-    asio::async_connect(stream_.next_layer(), found, [&](error_code result, const auto&) {
-      error = result;
-      is_over = true;
-    });
-    if (!run_until(is_over, Connection::default_patience)) {
-      error_code ignored;
-      stream_.next_layer().close(ignored);
-      run_until(is_over, 1);
-      fail("nothing answers at " + place_ + advice);
-    }
+    error =
+        complete([&](auto handler) { asio::async_connect(stream_.next_layer(), found, handler); },
+                 "nothing answers at " + place_ + advice);
     if (error) fail("no connection to " + place_ + ": " + error.message() + advice);
     stream_.next_layer().set_option(asio::ip::tcp::no_delay(true), error);
   }
@@ -194,21 +203,12 @@ class Connection::Client {
     }));
     const std::string target = program.token.empty() ? "/" : "/?token=" + in_url(program.token);
     websocket::response_type response;
-    error_code error;
-    bool is_over = false;
     const bool is_ipv6 = program.address.find(':') != std::string::npos;
     const std::string host = (is_ipv6 ? "[" + program.address + "]" : program.address) + ":" +
                              std::to_string(program.port);
-    stream_.async_handshake(response, host, target, [&](error_code result) {
-      error = result;
-      is_over = true;
-    });
-    if (!run_until(is_over, Connection::default_patience)) {
-      error_code ignored;
-      stream_.next_layer().close(ignored);
-      run_until(is_over, 1);
-      fail("the program at " + place_ + " does not answer as a view of articula does");
-    }
+    const error_code error =
+        complete([&](auto handler) { stream_.async_handshake(response, host, target, handler); },
+                 "the program at " + place_ + " does not answer as a view of articula does");
     if (error) {
       const unsigned status = response.result_int();
       if (status == 401 || status == 403) {
@@ -264,18 +264,9 @@ class Connection::Client {
   void send(const std::string& bytes, bool is_binary) {
     if (is_broken_) fail("the connection to " + place_ + " has ended: " + break_);
     stream_.binary(is_binary);
-    error_code error;
-    bool is_over = false;
-    stream_.async_write(asio::buffer(bytes), [&](error_code result, std::size_t) {
-      error = result;
-      is_over = true;
-    });
-    if (!run_until(is_over, Connection::default_patience)) {
-      error_code ignored;
-      stream_.next_layer().close(ignored);
-      run_until(is_over, 1);
-      fail("the server at " + place_ + " takes nothing");
-    }
+    const error_code error =
+        complete([&](auto handler) { stream_.async_write(asio::buffer(bytes), handler); },
+                 "the server at " + place_ + " takes nothing");
     if (error) fail("the connection to " + place_ + " has ended: " + error.message());
   }
 

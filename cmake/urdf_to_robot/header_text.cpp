@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "header_text.hpp"
 
+#include <articula/model/joint_type_name.hpp>
 #include <articula/text/numbers.hpp>
 
 #include <algorithm>
@@ -99,26 +100,12 @@ std::string link_text(const Link& link) {
   return members.text(element_indent);
 }
 
-std::string_view type_text(JointType type) {
-  switch (type) {
-    case JointType::revolute:
-      return "revolute";
-    case JointType::continuous:
-      return "continuous";
-    case JointType::prismatic:
-      return "prismatic";
-    case JointType::fixed:
-      break;
-  }
-  return "fixed";
-}
-
 std::string joint_text(const Joint& joint) {
   const Joint bare;
   Members members;
   members.add("name", quoted(joint.name));
   if (joint.type != bare.type) {
-    members.add("type", "articula::JointType::" + std::string(type_text(joint.type)));
+    members.add("type", "articula::JointType::" + std::string(to_string(joint.type)));
   }
   members.add("parent", quoted(joint.parent));
   members.add("child", quoted(joint.child));

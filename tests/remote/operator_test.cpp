@@ -116,6 +116,15 @@ TEST_CASE("a lost operator's activation is not begun after the loss") {
   CHECK(arm.loop.mode() == LoopMode::inactive);
 }
 
+TEST_CASE("a lost operator's deactivation is still done") {
+  SupervisedArm arm;
+  arm.ask(Activate{});
+  arm.session->ask(Deactivate{});
+  arm.session.reset();
+  arm.cycles(20);
+  CHECK(arm.loop.mode() == LoopMode::inactive);
+}
+
 TEST_CASE("what an operator has asked is not begun after the loop has found the silence") {
   Arm arm;
   Remote remote(arm, {.operator_lifetime = 0.01});  // 10 cycles

@@ -8,8 +8,8 @@
 
 namespace articula {
 
-/// What the commands of a loop's last cycles have done, and whether the controller's memory is still
-/// of the present motion. ControlLoop keeps one; use it to write a loop of your own.
+/// What the commands of a loop's last cycles have done, and whether the controller's memory still
+/// fits the motion. ControlLoop keeps one; use it to write a loop of your own.
 ///
 /// A cycle in which the controller's own command was written is good. After more than
 /// `borne_cycles` bad cycles in a row, or after one in which the hardware could not be read or

@@ -31,9 +31,8 @@ struct RemoteOptions {
   std::string urdf{};
 };
 
-/// The limits of the robot's description, completed where it has none: a velocity of 1 rad/s or
-/// 1 m/s, an acceleration that reaches the velocity in 0.25 s, a jerk that reaches the acceleration
-/// in 0.1 s.
+/// The limits of the robot's description. Where it has none, the velocity is 1 rad/s or 1 m/s, the
+/// acceleration reaches it in 0.25 s, and the jerk reaches the acceleration in 0.1 s.
 /// Real-time: yes.
 template <Robot R>
 [[nodiscard]] MotionLimits<joint_count<R>> default_motion_limits(const R& robot) noexcept {

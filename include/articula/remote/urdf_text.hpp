@@ -2,6 +2,7 @@
 /// @file A robot as a URDF document with shapes, for viewers.
 #pragma once
 
+#include "articula/model/joint_type_name.hpp"
 #include "articula/remote/link_shapes.hpp"
 #include "articula/remote/link_tree.hpp"
 #include "articula/text/xml_text.hpp"
@@ -89,8 +90,8 @@ inline void add_inertial(XmlText& xml, const TreeLink& link, const Body& body) {
   xml.close();
 }
 
-/// The limits of a mimic joint that follow from those of the mimicked one, wider by rounding so
-/// that a reader does not narrow the latter by them.
+/// The limits of a mimic joint, from those of the joint that it mimics. They are wider by rounding,
+/// so that a reader does not narrow the mimicked joint's.
 [[nodiscard]] inline JointLimits limits_of_mimic(const JointLimits& mimicked,
                                                  const Coupling& coupling) {
   JointLimits limits;
@@ -110,7 +111,7 @@ inline void add_inertial(XmlText& xml, const TreeLink& link, const Body& body) {
 
 /// Type, limits, damping and mimic of the joint that moves a body.
 struct JointText {
-  std::string type{};
+  JointType type = JointType::fixed;
   JointLimits limits{};
   double damping = 0, friction = 0;  ///< [N m s/rad, N m] or [N s/m, N]
   std::string mimicked{};
@@ -133,14 +134,14 @@ template <Robot R>
     text.mimicked = std::string(joint.name.view());
     text.limits = limits_of_mimic(joint.limits, text.coupling);
   }
-  text.type = model.mechanism.bodies[body].prismatic ? "prismatic"
-              : is_bounded                           ? "revolute"
-                                                     : "continuous";
+  text.type = model.mechanism.bodies[body].prismatic ? JointType::prismatic
+              : is_bounded                           ? JointType::revolute
+                                                     : JointType::continuous;
   return text;
 }
 
-inline void add_limits(XmlText& xml, const std::string& type, const JointLimits& limits) {
-  if (type == "continuous") {
+inline void add_limits(XmlText& xml, JointType type, const JointLimits& limits) {
+  if (type == JointType::continuous) {
     if (limits.velocity >= no_limit && limits.effort >= no_limit) return;
     xml.add("limit",
             {{"effort", finite_limit(limits.effort)}, {"velocity", finite_limit(limits.velocity)}});
@@ -158,8 +159,8 @@ void add_joint(XmlText& xml, const R& robot, const std::vector<TreeLink>& tree,
                const TreeLink& link) {
   const bool moves = link.moving_body >= 0;
   const auto body = static_cast<std::size_t>(std::max(link.moving_body, 0));
-  const JointText text = moves ? joint_text(robot, body) : JointText{.type = "fixed"};
-  xml.open("joint", {{"name", link.joint}, {"type", text.type}});
+  const JointText text = moves ? joint_text(robot, body) : JointText{};
+  xml.open("joint", {{"name", link.joint}, {"type", to_string(text.type)}});
   add_origin(xml, link.origin);
   xml.add("parent", {{"link", tree[static_cast<std::size_t>(link.parent)].name}});
   xml.add("child", {{"link", link.name}});

@@ -14,8 +14,8 @@ namespace articula::remote {
 inline constexpr int trajectory_capacity = 128;
 
 /// The sources of a loop's reference: rest, profile, setting, trajectory, signals, stop. One at a
-/// time is active. Each begins at the reference that it is given, in motion or not, so the reference
-/// does not jump, but where a request asks for a jump: a setting, a step or a square.
+/// time is active. Each begins at the present reference, in motion or not, so the reference does not
+/// jump. The exceptions are requests for a jump: a setting, a step, a square.
 ///
 /// In the loop's thread. Real-time: yes, all functions but the constructor.
 template <Robot R>

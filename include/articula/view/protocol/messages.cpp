@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/messages.hpp"
 
+#include "articula/model/joint_type_name.hpp"
+
 #include <cmath>
-#include <string_view>
 
 namespace articula::view {
 
@@ -10,24 +11,10 @@ namespace {
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-std::string_view type_of(JointType type) {
-  switch (type) {
-    case JointType::revolute:
-      return "revolute";
-    case JointType::continuous:
-      return "continuous";
-    case JointType::prismatic:
-      return "prismatic";
-    case JointType::fixed:
-      break;
-  }
-  return "fixed";
-}
-
 Json joint_json(const remote::SheetJoint& joint) {
   const JointLimits& limits = joint.limits;
   return {{"name", joint.name},
-          {"type", type_of(joint.type)},
+          {"type", to_string(joint.type)},
           {"position_unit", joint.position_unit()},
           {"effort_unit", joint.effort_unit()},
           {"limits",

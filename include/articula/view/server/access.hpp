@@ -27,8 +27,8 @@ class Access {
   ///         origin is none
   Access(const ViewOptions& options, bool is_loopback);
 
-  /// Refuses names of this machine that are not its own, which a page of somebody else's uses after
-  /// it has bound its own name to this machine's address (DNS rebinding).
+  /// Refuses a host name that is not this machine's. A foreign page uses such a name after it has
+  /// bound the name to this machine's address (DNS rebinding).
   /// @param host  the Host header
   /// @return      empty, or why the request is refused
   [[nodiscard]] std::string host_fault(std::string_view host) const;
