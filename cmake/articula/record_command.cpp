@@ -55,8 +55,12 @@ class CycleRows {
     const int status = columns.at("status").at(k).get<int>();
     row["status"] = std::string(to_string(static_cast<articula::Status>(status)));
     row["status_number"] = status;
-    row["timing"] = {{"latency", columns.at("latency").at(k)},
-                     {"update", columns.at("update").at(k)}};
+    for (const char* name : {"latency", "period", "update"}) {
+      row["timing"][name] = columns.at(name).at(k);
+    }
+    for (const auto& [name, values] : columns.at("input").items()) {
+      row["input"][name] = values.at(k);
+    }
     return row;
   }
 
@@ -67,8 +71,12 @@ class CycleRows {
       for (std::size_t j = 0; j < joints_.size(); ++j) columns.push_back({0.0});
       return columns;
     };
-    Json columns{
-        {"time", {0.0}}, {"number", {0}}, {"status", {0}}, {"latency", {0.0}}, {"update", {0.0}}};
+    Json columns{{"time", {0.0}},    {"number", {0}},   {"status", {0}},
+                 {"latency", {0.0}}, {"period", {0.0}}, {"update", {0.0}}};
+    for (const char* name :
+         {"read", "write", "request", "change", "posted", "overruns", "missed"}) {
+      columns["input"][name] = {0};
+    }
     for (const char* name : {"position", "velocity", "effort", "reference_position",
                              "reference_velocity", "reference_acceleration", "reference_effort"}) {
       columns[name] = per_joint();
@@ -82,11 +90,23 @@ class CycleRows {
   std::vector<std::string> joints_, commands_;
 };
 
+/// The gains of all controllers as a change. Those that are infinite are left out.
+Json present_settings(Connection& connection) {
+  Json change = Json::object();
+  const Json answer = connection.call("/describe_parameters");
+  for (const Json& gain : answer.value("parameters", Json::array())) {
+    const Json& value = gain.at("value");
+    if (value.is_number()) change["gains"][gain.at("name").get<std::string>()] = value;
+  }
+  return change;
+}
+
 void record(const Program& program, const std::string& file, double seconds) {
   Connection connection(program);
   const CycleRows rows(connection.call("/robot"));
   articula::McapWriter writer(file, "cycle", "articula.Cycle",
                               articula::schema_of(rows.example()).dump());
+  Json settings = present_settings(connection);
   connection.subscribe("/cycles");
   end_on_signal();
   using Clock = std::chrono::steady_clock;
@@ -101,11 +121,16 @@ void record(const Program& program, const std::string& file, double seconds) {
     for (std::size_t k = 0; k < columns.at("time").size(); ++k) {
       const auto number = columns.at("number").at(k).get<std::uint64_t>();
       const auto time = columns.at("time").at(k);
+      Json row = rows.row(columns, k);
+      if (cycles == 0 && !settings.empty()) row["changes"].push_back(std::move(settings));
+      for (const Json& change : columns.at("changes")) {
+        if (change.at("cycle") == number) row["changes"].push_back(change.at("change"));
+      }
       if (cycles > 0 && number > last + 1) lost += number - last - 1;
       last = number;
       ++cycles;
       const double now = time.is_number() ? std::max(time.get<double>(), 0.0) : 0.0;
-      writer.write(std::chrono::nanoseconds(std::llround(now * 1e9)), rows.row(columns, k).dump());
+      writer.write(std::chrono::nanoseconds(std::llround(now * 1e9)), row.dump());
     }
   }
   writer.close();

@@ -4,9 +4,13 @@
 #include "running_arm.hpp"
 #include "scratch_file.hpp"
 
+#include <articula/recording/mcap_record_reader.hpp>
+#include <articula/replay/replay.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <future>
 #include <string>
@@ -286,6 +290,38 @@ TEST_CASE("record writes all cycles to an MCAP file") {
   CHECK(bytes.find("\"shoulder_active_joint\":{\"position\":") != std::string::npos);
   check_refused(arm.ask({"record", "/no/such/folder/x.mcap", "--seconds", "0"}),
                 {"/no/such/folder"});
+}
+
+TEST_CASE("what record writes is replayed to the last bit, with gains and a switch in it") {
+  RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  const std::string gain = "pid_plus_gravity." + std::string(elbow) + ".p";
+  CHECK(arm.ask({"gains", "set", gain + "=300"}).exit_code == 0);  // before the recording
+  CHECK(arm.ask({"deactivate"}).exit_code == 0);
+  const support::ScratchFile file("replay.mcap");
+  auto recorded = std::async(std::launch::async, [&] {
+    return arm.ask({"record", file.path().string(), "--seconds", "4"});
+  });
+  REQUIRE(eventually([&] { return std::filesystem::exists(file.path()); }));
+  CHECK(mode(arm) == "inactive");
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"activate"},
+           {"go", std::string(elbow) + "=0.4"},
+           {"gains", "set", gain + "=350"},
+           {"switch", "--start", "bypass", "--stop", "pid_plus_gravity"}}) {
+    CHECK(arm.ask(words).exit_code == 0);
+  }
+  CHECK(done(recorded.get()).at("lost") == 0);
+  using Loop = articula::SupervisedLoop<articula::Q2dSim, support::ArmControllers>;
+  const auto recording = articula::read_mcap_recording<Loop::Command>(articula::Q2d(), file.path());
+  REQUIRE(recording.changes.size() == 3);  // the first one has what was set before
+  CHECK(recording.changes.back().cycle > recording.cycles.front().cycle);
+  const articula::ReplayOptions<Loop::ControllerType> options{.supervision = {.overruns = 1000000}};
+  const auto found = articula::Replay<Loop>(recording, options).run();
+  CHECK((found ? articula::to_string(*found) : "") == "");
+  auto lacking = recording;
+  lacking.changes.erase(lacking.changes.begin());
+  CHECK(articula::Replay<Loop>(lacking, options).run());
 }
 
 TEST_CASE("somebody else's controls are respected") {

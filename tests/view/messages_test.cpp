@@ -6,6 +6,7 @@
 #include "catch.hpp"
 #include "fake_port.hpp"
 
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string>
@@ -30,7 +31,12 @@ remote::Cycle cycle(std::uint64_t number) {
           .reference_effort = {13, 14},
           .command = {{15, 16}},
           .latency = 1e-6,
-          .update = 2e-6};
+          .period = 1.5e-3,
+          .update = 2e-6,
+          .input = {.read = articula::Status::stale_state,
+                    .request = articula::LoopRequest::deactivation,
+                    .posted = number % 2 == 1,
+                    .missed = number}};
 }
 
 /// The members of a message are those of its topic's schema.
@@ -52,6 +58,11 @@ TEST_CASE("cycles are columns, and every number comes back with all its bits") {
   CHECK(json["dropped"] == 17);
   CHECK(json["number"] == Json{3, 4, 5});
   CHECK(json["status"] == Json{5, 5, 5});
+  CHECK(json["period"] == Json{1.5e-3, 1.5e-3, 1.5e-3});
+  CHECK(json["input"]["read"] == Json{5, 5, 5});
+  CHECK(json["input"]["request"] == Json{2, 2, 2});
+  CHECK(json["input"]["posted"] == Json{1, 0, 1});
+  CHECK(json["input"]["missed"] == Json{3, 4, 5});
   for (std::size_t k = 0; k < cycles.size(); ++k) {
     CHECK(json["time"][k].get<double>() == cycles[k].time);
     for (std::size_t j = 0; j < 2; ++j) {
@@ -61,6 +72,19 @@ TEST_CASE("cycles are columns, and every number comes back with all its bits") {
       CHECK(json["command"]["effort"][j][k].get<double>() == cycles[k].command[0][j]);
     }
   }
+}
+
+TEST_CASE("changes of the controller have the number of their cycle, and -0 keeps its sign") {
+  support::FakePort port;
+  std::vector<remote::Cycle> cycles{cycle(3), cycle(4)};
+  cycles[1].changes = {{.cycle = 4, .gains = {{"pid.elbow.p", 5}}},
+                       {.cycle = 4, .request = {.stop = {"pid"}, .start = {"bypass"}}}};
+  cycles[0].command[0][1] = -0.0;
+  const Json json = Json::parse(cycles_message(port.robot(), cycles, 0));
+  REQUIRE(json["changes"].size() == 2);
+  CHECK(json["changes"][0] == Json{{"cycle", 4}, {"change", {{"gains", {{"pid.elbow.p", 5}}}}}});
+  CHECK(json["changes"][1]["change"]["start"] == Json{"bypass"});
+  CHECK(std::signbit(json["command"]["effort"][1][0].get<double>()));
 }
 
 TEST_CASE("a number that is not finite, or missing, is null") {

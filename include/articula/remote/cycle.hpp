@@ -3,7 +3,9 @@
 #pragma once
 
 #include "articula/core/status.hpp"
+#include "articula/loop/cycle_input.hpp"
 #include "articula/loop/supervision/loop_mode.hpp"
+#include "articula/recording/loop_change.hpp"
 
 #include <cstdint>
 #include <vector>
@@ -26,7 +28,10 @@ struct Cycle {
   std::vector<double> reference_effort{};        ///< [N m or N]
   std::vector<std::vector<double>> command{};    ///< one vector for each of RobotSheet::commands
   double latency = 0;                            ///< from when the cycle was due to its start [s]
+  double period = 0;                             ///< from the start of the last cycle to its [s]
   double update = 0;                             ///< what the loop's update took [s]
+  CycleInput input{};                            ///< what else its command depends on
+  std::vector<LoopChange> changes{};             ///< made before this cycle, in their order
 };
 
 /// Statistics since the start of a run. Durations in seconds.

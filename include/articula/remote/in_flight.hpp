@@ -3,8 +3,9 @@
 #pragma once
 
 #include "articula/model/robot.hpp"
+#include "articula/recording/loop_change.hpp"
 #include "articula/remote/engine/loop_rings.hpp"
-#include "articula/remote/gain_parameters.hpp"
+#include "articula/remote/gains/gain_parameters.hpp"
 #include "articula/remote/task_answer.hpp"
 
 #include <algorithm>
@@ -60,9 +61,13 @@ class InFlight {
   }
 
   /// Takes back what the loop has ended, and answers what it did not take in time.
+  /// @param note  called with each change of the controller that the loop has made
   /// @param give  called with client and answer
-  void collect(auto&& give) {
-    for (Task<R>* ended = nullptr; rings_.ended.pop(ended);) {
+  void collect(auto&& note, auto&& give) {
+    std::vector<Task<R>*> all_ended;
+    for (Task<R>* ended = nullptr; rings_.ended.pop(ended);) all_ended.push_back(ended);
+    note_changes(note);  // of tasks that ended, all are there by now
+    for (Task<R>* const ended : all_ended) {
       const auto found = std::find_if(pending_.begin(), pending_.end(),
                                       [&](const Pending& own) { return own.task.get() == ended; });
       if (found == pending_.end()) continue;
@@ -84,6 +89,18 @@ class InFlight {
     Changes changes{};
     bool answered = false;  ///< since the loop was late
   };
+
+  void note_changes(auto& note) {
+    for (Task<R>* changed = nullptr; rings_.changed.pop(changed);) {
+      LoopChange change{.cycle = changed->cycle};
+      if (const auto* gains = std::get_if<task::SetGains>(&changed->wish)) {
+        change.gains = gains->settings;
+      } else if (const auto* switched = std::get_if<task::Switch>(&changed->wish)) {
+        change.request = switched->request;
+      }
+      note(std::move(change));
+    }
+  }
 
   static void answer(const Pending& own, Answer answer, auto& give) {
     answer.request = own.request;

@@ -6,7 +6,8 @@
 #include "articula/remote/clients.hpp"
 #include "articula/remote/engine/loop_side.hpp"
 #include "articula/remote/engine/mutex.hpp"
-#include "articula/remote/gain_parameters.hpp"
+#include "articula/remote/forecast.hpp"
+#include "articula/remote/gains/gain_parameters.hpp"
 #include "articula/remote/in_flight.hpp"
 #include "articula/remote/published.hpp"
 #include "articula/remote/remote_options.hpp"
@@ -20,6 +21,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,7 @@ class Outside {
         robot_(loop.hardware().robot()),
         sheet_(robot_sheet_of(loop, options.urdf)),
         parameters_(robot_, loop.controller()),
+        forecast_(loop),
         maker_(robot_, limits_of(loop, options), options.largest_force),
         published_(rings_, side_, initial_position(robot_, SimulatorOptions<joint_count>{})),
         clients_(options.operator_lifetime),
@@ -84,6 +87,19 @@ class Outside {
     const std::lock_guard lock(mutex_);
     pump();
     return published_.statistics();
+  }
+
+  [[nodiscard]] FuturesAnswer futures(const FuturesQuestion& question) {
+    const std::lock_guard forecast_lock(forecast_mutex_);  // they take one core, not all
+    const auto now = [this] {
+      const std::lock_guard lock(mutex_);
+      pump();
+      if (published_.condition().mode != LoopMode::active || published_.last_cycle().cycle == 0) {
+        articula::detail::refuse({"futures: the loop is not active"});
+      }
+      return std::tuple(published_.last_cycle(), parameters_.list(), published_.controllers());
+    }();
+    return forecast_.answer(std::get<0>(now), std::get<1>(now), std::get<2>(now), question);
   }
 
   // Sessions, by their numbers:
@@ -209,16 +225,22 @@ class Outside {
     Changes changes;
     typename Task<R>::Wish wish = maker_.make(request, published_.reference());
     if (const auto* set = std::get_if<SetParameters>(&request)) {
-      wish = task::SetGains{parameters_.change(set->values, changes)};
+      std::vector<GainSetting> settings;
+      for (const ParameterValue& own : set->values) settings.push_back({own.name, own.value});
+      wish = task::SetGains{parameters_.change(set->values, changes), std::move(settings)};
     }
     in_flight_.hand_over(client, number, std::move(wish), std::move(changes));
   }
 
   void pump() {
     published_.collect(clients_);
-    in_flight_.collect([this](std::uint64_t client, Answer answer) {
-      if (auto* const found = clients_.find(client)) found->answers.push_back(std::move(answer));
-    });
+    // After the records: the change of a cycle is in the ring before its record.
+    in_flight_.collect([this](LoopChange change) { published_.note(std::move(change)); },
+                       [this](std::uint64_t client, Answer answer) {
+                         if (auto* const found = clients_.find(client)) {
+                           found->answers.push_back(std::move(answer));
+                         }
+                       });
     if (clients_.operator_is_silent(Clients::Clock::now())) lose_operator("is silent");
   }
   void tell(Event::Level level, std::string text) {
@@ -231,6 +253,8 @@ class Outside {
   RobotSheet sheet_;
   Mutex mutex_{};
   GainParameters<R> parameters_;
+  Mutex forecast_mutex_{};
+  Forecast<LoopType> forecast_;
   TaskMaker<LoopType> maker_;
   Published<LoopType> published_;
   Clients clients_;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "articula/control/switching/switch_request.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/remote/cycle.hpp"
-#include "articula/remote/parameter.hpp"
+#include "articula/remote/futures_question.hpp"
+#include "articula/remote/gains/parameter.hpp"
 #include "articula/remote/request.hpp"
 #include "articula/remote/robot_sheet.hpp"
 
@@ -94,6 +96,12 @@ class Port {
       const std::vector<double>& position) const = 0;
   [[nodiscard]] virtual std::vector<Parameter> parameters() = 0;
   [[nodiscard]] virtual Statistics statistics() = 0;
+  /// Simulates what the loop would do with other gains. Changes nothing, and takes its time: ask
+  /// from a thread that may wait. Questions of several threads are answered one after another.
+  /// @throws std::invalid_argument with the reason if there is no answer
+  [[nodiscard]] virtual FuturesAnswer futures(const FuturesQuestion&) {
+    articula::detail::refuse({"futures: this port has none"});
+  }
   /// @param name      of the client, for others to see
   /// @param operates  whether it may take the controls
   [[nodiscard]] virtual std::unique_ptr<Session> connect(std::string name, bool operates) = 0;

@@ -6,6 +6,7 @@
 #include "articula/core/command_parts.hpp"
 #include "articula/loop/duration_histogram.hpp"
 #include "articula/loop/status_advice.hpp"
+#include "articula/recording/loop_change.hpp"
 #include "articula/remote/clients.hpp"
 #include "articula/remote/cycle.hpp"
 #include "articula/remote/engine/loop_side.hpp"
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +57,8 @@ class Published {
   /// Of the last cycle [s].
   [[nodiscard]] double time() const { return last_.cycle.time; }
   [[nodiscard]] const LoopCondition& condition() const { return condition_; }
+  /// The last cycle; before the first one all zeros.
+  [[nodiscard]] const auto& last_cycle() const { return last_.cycle; }
   /// The last fault of a supervised loop. A plain loop has no mode that shows what is wrong: the
   /// status of its last cycle.
   [[nodiscard]] Status fault() const {
@@ -89,6 +93,12 @@ class Published {
             .execution_max = seconds(execution_.max())};
   }
 
+  /// Takes over a change of the controller. The last ones are kept.
+  void note(LoopChange change) {
+    changes_.push_back(std::move(change));
+    if (changes_.size() > kept_changes) changes_.pop_front();
+  }
+
   /// The number of the next cycle to come, for readers.
   [[nodiscard]] std::uint64_t end() const { return history_.end(); }
   /// Copies the cycle of a number, or the oldest one that is kept, whose vectors are reused.
@@ -116,12 +126,19 @@ class Published {
     cycle.command.resize(parts.size());
     for (std::size_t k = 0; k < parts.size(); ++k) copy(cycle.command[k], *parts[k].values);
     cycle.latency = seconds(own.timing.latency);
+    cycle.period = seconds(own.timing.period);
     cycle.update = seconds(own.timing.update);
+    cycle.input = own.input;
+    cycle.changes.clear();
+    for (const LoopChange& change : changes_) {
+      if (change.cycle == own.cycle) cycle.changes.push_back(change);
+    }
     return true;
   }
 
  private:
   static constexpr std::size_t kept_records = 4096;
+  static constexpr std::size_t kept_changes = 4096;
   static constexpr bool switched =
       articula::detail::switch_size<typename LoopType::ControllerType> > 0;
 
@@ -162,6 +179,7 @@ class Published {
   Rings& rings_;
   LoopSide<LoopType>& side_;
   RecordHistory<Record> history_{kept_records};
+  std::deque<LoopChange> changes_{};
   Record last_{};
   Reference reference_;
   LoopCondition condition_{};

@@ -102,6 +102,9 @@ class Remote final : public Port {
   }
   [[nodiscard]] std::vector<Parameter> parameters() override { return outside_->parameters(); }
   [[nodiscard]] Statistics statistics() override { return outside_->statistics(); }
+  [[nodiscard]] FuturesAnswer futures(const FuturesQuestion& question) override {
+    return outside_->futures(question);
+  }
   [[nodiscard]] std::unique_ptr<Session> connect(std::string name, bool operates) override {
     return std::make_unique<Client>(*outside_, std::move(name), operates);
   }

@@ -4,7 +4,7 @@
 
 #include "articula/reference/joint_signals.hpp"
 #include "articula/reference/trajectory/named_trajectory.hpp"
-#include "articula/remote/parameter.hpp"
+#include "articula/remote/gains/parameter.hpp"
 
 #include <array>
 #include <string>

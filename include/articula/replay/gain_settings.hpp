@@ -4,7 +4,7 @@
 
 #include "articula/model/robot.hpp"
 #include "articula/recording/loop_change.hpp"
-#include "articula/remote/gain_parameters.hpp"
+#include "articula/remote/gains/gain_parameters.hpp"
 
 #include <vector>
 

@@ -32,7 +32,8 @@ template <class C>
 struct ReplayOptions {
   C controller = detail::default_controller<C>();  ///< as it was made there
   SupervisionOptions supervision{};                ///< of a SupervisedLoop
-  double period = 0;                               ///< [s]; 0: that of the records
+  /// [s]; 0: that of the records, in whole nanoseconds if they begin in the middle of a run
+  double period = 0;
 };
 
 /// Feeds what was recorded to a new loop of the same types, and compares what it commands with what
@@ -50,7 +51,8 @@ struct ReplayOptions {
 ///     replay.loop().controller().set_gains(others);
 ///     while (replay.loop().update() == Status::ok) ...
 ///
-/// - The recording begins with the first cycle of the loop. With the record of cycle 0, which
+/// - The recording begins with the first cycle of the loop, or of a supervised loop with one in which
+///   it is inactive: its activation starts the controller anew. With the record of cycle 0, which
 ///   `record_of(loop, RunReport{})` makes before the run, it also has the first measurement; without
 ///   it, bad cycles before the first good one may differ.
 /// - The recording has no gap: a difference in time shows one.
@@ -83,7 +85,9 @@ class Replay {
          ReplayOptions<ControllerType> options)
       : recording_(recording),
         loop_(made(first_hardware(robot, recording, options.period), std::move(options))),
-        next_(has_beginning(recording) ? 1 : 0) {}
+        next_(has_beginning(recording) ? 1 : 0) {
+    if (next_ < recording.cycles.size()) first_period_ = periods_of(recording.cycles[next_].time);
+  }
   /// For a robot known at compile time, with the default controller.
   explicit Replay(const Recording<joint_count, Command>& recording)
     requires DescribedRobot<RobotType>
@@ -160,15 +164,23 @@ class Replay {
     const auto& cycles = recording.cycles;
     if (cycles.empty()) detail::refuse({"replay: the recording is empty"});
     const std::size_t first = has_beginning(recording) ? 1 : 0;
-    if (cycles.size() > first && cycles[first].time != 0) {
+    const bool is_inactive =
+        supervised && cycles[first == cycles.size() ? 0 : first].status == Status::inactive;
+    if (cycles.size() > first && cycles[first].time != 0 && !is_inactive) {
       detail::refuse({"replay: the recording begins at ", cycles[first].time,
                       " s, in the middle of its run; what the controller remembered is not known"});
     }
-    // The time is a whole number of periods, and so that of the second cycle is the period.
-    if (period == 0) period = cycles.size() > first + 1 ? cycles[first + 1].time : 1e-3;
+    if (period == 0) period = cycles.size() > first + 1 ? period_of(cycles, first) : 1e-3;
     HardwareType hardware(robot, period);
     if (first == 1) hardware.show(cycles.front());
     return hardware;
+  }
+
+  /// The time is a whole number of periods, so that of the second cycle of a run is the period. In
+  /// the middle of a run, where differences are rounded, the period has whole nanoseconds.
+  [[nodiscard]] static double period_of(const std::vector<Record>& cycles, std::size_t first) {
+    if (cycles[first].time == 0) return cycles[first + 1].time;
+    return std::round((cycles[first + 1].time - cycles[first].time) * 1e9) / 1e9;
   }
 
   [[nodiscard]] static ReplayedLoop made(HardwareType hardware,
@@ -180,6 +192,11 @@ class Replay {
     } else {
       return ReplayedLoop(std::move(hardware), std::move(options.controller), period);
     }
+  }
+
+  /// The number of periods in a time of the loop [s].
+  [[nodiscard]] long long periods_of(double time) const {
+    return std::llround(time / loop_.period());
   }
 
   void make_changes(std::uint64_t cycle) {
@@ -229,10 +246,12 @@ class Replay {
 
   [[nodiscard]] std::optional<ReplayDifference> compare(const Record& record, Status status) const {
     ReplayDifference difference{.cycle = record.cycle, .time = record.time};
-    if (!are_same(record.time, loop_.time())) {
+    const double time =
+        static_cast<double>(first_period_ + periods_of(loop_.time())) * loop_.period();
+    if (!are_same(record.time, time)) {
       difference.quantity = "time";
       difference.recorded = record.time;
-      difference.computed = loop_.time();
+      difference.computed = time;
       return difference;
     }
     if (record.status != status) {
@@ -264,6 +283,7 @@ class Replay {
   ReplayedLoop loop_;
   std::size_t next_;             ///< index of the record that is computed next
   std::size_t next_change_ = 0;  ///< index of the change that is made next
+  long long first_period_ = 0;   ///< of the recorded run, in which the replayed one begins
 };
 
 }  // namespace articula

@@ -34,6 +34,9 @@ struct LoopRings {
   // Written by the loop:
   EventRing<Record, most_records> records{};
   EventRing<ConditionChange, 64> changes{};
+  /// Changes of the controller that are made, each before the record of the cycle in which it has
+  /// effect first, and before it has ended.
+  EventRing<Task<R>*, most_tasks> changed{};
   EventRing<Task<R>*, most_tasks> ended{};
   std::atomic<std::uint64_t> updates = 0;  ///< calls of update(), a sign that the loop runs
 };

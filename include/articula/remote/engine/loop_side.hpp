@@ -164,6 +164,7 @@ class LoopSide {
   void begin(Task<R>& own, [[maybe_unused]] task::Switch& wish) noexcept {
     if constexpr (switched) {
       wish.outcome = switch_in(loop_.controller()).request(wish.request);
+      note_change(own);
     }
     returns_.finish(own, TaskEnd::done);
   }
@@ -172,7 +173,13 @@ class LoopSide {
       if (!change->fits()) return returns_.finish(own, TaskEnd::outdated);
     }
     for (const auto& change : wish.changes) change->apply();
+    note_change(own);
     returns_.finish(own, TaskEnd::done);
+  }
+  /// The controller is not the same in the next cycle.
+  void note_change(Task<R>& own) noexcept {
+    own.cycle = cycles_ + 1;
+    rings_.changed.push(&own);
   }
 
   void publish(const CycleTiming& timing) noexcept {

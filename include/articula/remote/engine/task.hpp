@@ -5,6 +5,7 @@
 #include "articula/control/switching/switch_request.hpp"
 #include "articula/core/status.hpp"
 #include "articula/dynamics/forward_kinematics.hpp"
+#include "articula/recording/loop_change.hpp"
 #include "articula/remote/engine/reference_source.hpp"
 #include "articula/remote/gains/gain_change.hpp"
 
@@ -48,6 +49,7 @@ struct Switch {
 };
 struct SetGains {
   std::vector<std::unique_ptr<GainChange>> changes{};
+  std::vector<GainSetting> settings{};  ///< the same by their names, for recordings
 };
 struct Pause {
   bool paused = true;
@@ -110,6 +112,7 @@ struct Task {
   std::atomic<bool> claimed = false;
   // Filled in by the loop:
   TaskEnd end = TaskEnd::open;
+  std::uint64_t cycle = 0;  ///< of a change of the controller: the first one in which it has effect
   Status status = Status::ok;
   TrajectoryOutcome outcome = TrajectoryOutcome::idle;
   TrajectoryRefusal refusal{};

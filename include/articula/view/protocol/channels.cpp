@@ -24,7 +24,7 @@ constexpr std::string_view text_schema =
 constexpr std::string_view cycles_schema = R"({"type":"object","properties":{
 "number":{"type":"array","items":{"type":"integer"}},"time":{"type":"array","items":{"type":"number"}},
 "status":{"type":"array","items":{"type":"integer"}},"latency":{"type":"array","items":{"type":"number"}},
-"update":{"type":"array","items":{"type":"number"}},
+"period":{"type":"array","items":{"type":"number"}},"update":{"type":"array","items":{"type":"number"}},
 "position":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
 "velocity":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
 "effort":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
@@ -32,7 +32,12 @@ constexpr std::string_view cycles_schema = R"({"type":"object","properties":{
 "reference_velocity":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
 "reference_acceleration":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
 "reference_effort":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
-"command":{"type":"object"},"dropped":{"type":"integer"}}})";
+"command":{"type":"object"},
+"input":{"type":"object","properties":{"read":{"type":"array","items":{"type":"integer"}},
+"write":{"type":"array","items":{"type":"integer"}},"request":{"type":"array","items":{"type":"integer"}},
+"change":{"type":"array","items":{"type":"integer"}},"posted":{"type":"array","items":{"type":"integer"}},
+"overruns":{"type":"array","items":{"type":"integer"}},"missed":{"type":"array","items":{"type":"integer"}}}},
+"changes":{"type":"array","items":{"type":"object"}},"dropped":{"type":"integer"}}})";
 
 constexpr std::string_view situation_schema = R"({"type":"object","properties":{
 "mode":{"type":"string"},"fault":{"type":"string"},"advice":{"type":"string"},"motion":{"type":"string"},

@@ -50,6 +50,7 @@ void append_number(std::string& text, double x) {
   char digits[32];
   const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;
   text.append(digits, end);
+  if (x == 0 && std::signbit(x)) text += ".0";  // readers take -0 for an integer without a sign
 }
 
 void append_string(std::string& text, std::string_view x) { text += to_text(Json(x)); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/stream_messages.hpp"
 
+#include "articula/recording/change_json.hpp"
 #include "articula/view/protocol/json.hpp"
 
 #include <cstddef>
@@ -54,6 +55,38 @@ void append_columns(std::string& text, std::string_view name, std::size_t joints
     }
     text += ']';
   });
+}
+
+/// Appends what else came into the cycles, in columns with the numbers of CycleInput.
+void append_inputs(std::string& text, std::span<const remote::Cycle> cycles) {
+  std::string columns;
+  const auto append = [&](std::string_view name, auto&& value) {
+    append_array(columns, name, cycles.size(), [&](std::size_t k) {
+      append_integer(columns, static_cast<std::uint64_t>(value(cycles[k].input)));
+    });
+  };
+  append("read", [](const CycleInput& input) { return input.read; });
+  append("write", [](const CycleInput& input) { return input.write; });
+  append("request", [](const CycleInput& input) { return input.request; });
+  append("change", [](const CycleInput& input) { return input.change; });
+  append("posted", [](const CycleInput& input) { return input.posted; });
+  append("overruns", [](const CycleInput& input) { return input.overruns; });
+  append("missed", [](const CycleInput& input) { return input.missed; });
+  text += ",\"input\":{";
+  text += std::string_view(columns).substr(1);
+  text += '}';
+}
+
+/// Appends the changes of the controller, each with the number of its cycle.
+void append_changes(std::string& text, std::span<const remote::Cycle> cycles) {
+  Json all = Json::array();
+  for (const remote::Cycle& cycle : cycles) {
+    for (const LoopChange& change : cycle.changes) {
+      all.push_back({{"cycle", cycle.number}, {"change", change_json(change)}});
+    }
+  }
+  text += ",\"changes\":";
+  text += to_text(all);
 }
 
 void append_member(std::string& text, std::string_view before, double x) {
@@ -133,6 +166,7 @@ std::string cycles_message(const remote::RobotSheet& robot, std::span<const remo
     append_integer(text, static_cast<std::uint64_t>(cycle.status));
   });
   append_scalars("latency", [&](const Cycle& cycle) { append_number(text, cycle.latency); });
+  append_scalars("period", [&](const Cycle& cycle) { append_number(text, cycle.period); });
   append_scalars("update", [&](const Cycle& cycle) { append_number(text, cycle.update); });
   const auto append_joints = [&](std::string_view name, std::vector<double> Cycle::* values) {
     append_columns(text, name, joints, cycles,
@@ -156,7 +190,10 @@ std::string cycles_message(const remote::RobotSheet& robot, std::span<const remo
                    });
     text += std::string_view(commands).substr(c == 0 ? 1 : 0);  // no comma before the first
   }
-  text += "}}";
+  text += '}';
+  append_inputs(text, cycles);
+  append_changes(text, cycles);
+  text += '}';
   return text;
 }
 

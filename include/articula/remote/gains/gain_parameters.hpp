@@ -8,8 +8,8 @@
 #include "articula/core/controller.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/remote/gains/gain_holder.hpp"
+#include "articula/remote/gains/parameter.hpp"
 #include "articula/remote/gains/unit_text.hpp"
-#include "articula/remote/parameter.hpp"
 
 #include <algorithm>
 #include <concepts>

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <articula/articula.hpp>
+#include <articula/futures/futures.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include "catch.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+using namespace articula;
+
+namespace {
+
+using Arm = Loop<Q2dSim, PidPlusGravity>;
+using Law = PidPlusGravity<Q2d>;
+using Start = FutureStart<EffortCommand<2>>;
+
+constexpr FutureSpread no_spread{
+    .mass = 0, .friction = 0, .delay = 0, .position_noise = 0, .velocity_noise = 0};
+
+/// An arm in the middle of a step, with integrals that are not 0.
+void move(Arm& arm) {
+  arm.reference().position << 0.3, -0.2;
+  for (int k = 0; k < 40; ++k) REQUIRE(arm.update() == Status::ok);
+}
+Start start_of(const Arm& arm) {
+  return {arm.hardware().true_state(), arm.reference(), arm.command()};
+}
+std::vector<Future<2>> futures_of(const Arm& arm, const FutureOptions& options) {
+  return futures(Q2d(), arm.controller(), start_of(arm), arm.hardware().options(), options);
+}
+/// The distance of two futures at their most distant sample.
+double distance(const Future<2>& a, const Future<2>& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < std::min(a.positions.size(), b.positions.size()); ++k) {
+    most = std::max(most, (a.positions[k] - b.positions[k]).cwiseAbs().maxCoeff());
+  }
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("without a spread, futures are what the loop does, to the last bit") {
+  Arm arm;
+  move(arm);
+  const auto fan = futures_of(arm, {.spread = no_spread, .count = 2, .samples = 1000});
+  REQUIRE(fan.size() == 2);
+  CHECK(distance(fan[0], fan[1]) == 0);
+  REQUIRE(fan[0].positions.size() == 1001);
+  CHECK((fan[0].positions[0] - fan[0].positions[1000]).norm() > 0.01);
+  for (std::size_t k = 0; k <= 1000; ++k) {
+    const JointVector<2>& simulated = fan[0].positions[k];
+    const JointVector<2>& real = arm.hardware().true_state().position;
+    REQUIRE((simulated[0] == real[0] && simulated[1] == real[1]));
+    REQUIRE(arm.update() == Status::ok);
+  }
+}
+
+TEST_CASE("a future depends on seed and number alone, in whatever order they are computed") {
+  Arm arm;
+  move(arm);
+  const FutureOptions options{.count = 5};
+  const auto fan = futures_of(arm, options);
+  for (const std::uint64_t k : {4U, 0U, 2U, 3U, 1U}) {
+    const auto own =
+        future_of(Q2d(), arm.controller(), start_of(arm), arm.hardware().options(), options, k);
+    CHECK(distance(own, fan[k]) == 0);
+    CHECK(own.positions.size() == 51);
+  }
+  CHECK(distance(fan[0], fan[1]) > 0);
+  const auto other = futures_of(arm, {.seed = 2, .count = 1});
+  CHECK(distance(other[0], fan[0]) > 0);
+}
+
+TEST_CASE("each spread alone makes different futures") {
+  Arm arm;
+  move(arm);
+  FutureSpread spread = no_spread;
+  SECTION("mass") { spread.mass = 0.2; }
+  SECTION("friction") { spread.friction = 0.2; }
+  SECTION("delay") { spread.delay = 20; }
+  SECTION("noise of positions") { spread.position_noise = 1e-3; }
+  SECTION("noise of velocities") { spread.velocity_noise = 0.1; }
+  const auto fan = futures_of(arm, {.spread = spread, .count = 10});
+  double most = 0;
+  for (const auto& future : fan) most = std::max(most, distance(future, fan[0]));
+  CHECK(most > 1e-6);
+  CHECK(most < 0.5);
+}
+
+TEST_CASE("the masses of a varied model are within the spread, and its dynamics are theirs") {
+  const auto model = varied_model(Q2d(), {.mass = 0.2, .friction = 0}, 7);
+  const auto& described = model_of(Q2d());
+  for (int b = 0; b < 2; ++b) {
+    const double factor =
+        model.mechanism.bodies[b].inertia.mass / described.mechanism.bodies[b].inertia.mass;
+    CHECK(factor != 1);
+    CHECK(std::abs(factor - 1) <= 0.2);
+  }
+  // The elbow's inertia is that of its body, and of nothing else.
+  const double factor =
+      model.mechanism.bodies[1].inertia.mass / described.mechanism.bodies[1].inertia.mass;
+  const JointVector<2> q{0.1, 0.4};
+  CHECK(mass_matrix(model, q)(1, 1) == Approx(factor * mass_matrix(Q2d(), q)(1, 1)));
+}
+
+TEST_CASE("gains that make the arm unstable give unstable futures, and good ones stable futures") {
+  Arm arm;
+  move(arm);
+  for (const Future<2>& future : futures_of(arm, {.count = 20})) {
+    CHECK(future.end == FutureEnd::stable);
+  }
+  JointPidGains<2> gains = Q2d::pid_gains;
+  for (PidGains& own : gains) own.derivative = 1000;
+  const Law bad(gains);
+  for (const Future<2>& future : futures(Q2d(), bad, start_of(arm), {}, {.count = 20})) {
+    CHECK(future.end == FutureEnd::unstable);
+    CHECK(future.positions.size() == 51);
+  }
+}
+
+TEST_CASE("futures end when they are not wanted any more") {
+  const Law law(Q2d::pid_gains);
+  int asked = 0;
+  const auto some = futures(Q2d(), law, Start{}, {}, {.count = 10}, [&] { return ++asked < 1000; });
+  CHECK(some.size() == 7);  // a future of 1000 cycles asks 126 times
+  const auto all = futures(Q2d(), law, Start{}, {}, {.count = 10});
+  REQUIRE(all.size() == 10);
+  for (std::size_t k = 0; k < some.size(); ++k) CHECK(some[k].positions == all[k].positions);
+  CHECK(futures(Q2d(), law, Start{}, {}, {.count = 10}, [] { return false; }).empty());
+}
+
+TEST_CASE("a controller that computes no number ends its future") {
+  const auto broken = [](const ControlInput<2>&) noexcept {
+    return EffortCommand<2>{JointVector<2>::Constant(std::numeric_limits<double>::quiet_NaN())};
+  };
+  const auto fan = futures(Q2d(), broken, Start{}, {}, {.count = 1});
+  CHECK(fan[0].end == FutureEnd::non_finite);
+  CHECK(fan[0].positions.size() == 1);
+}
+
+TEST_CASE("options out of their range are refused by name") {
+  const auto refusal = [](const FutureOptions& options, const Start& start = {}) -> std::string {
+    try {
+      static_cast<void>(futures(Q2d(), Law(), start, {}, options));
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(refusal({.count = 1001}) == "futures: count 1001 is not within 1 .. 1000");
+  CHECK(refusal({.horizon = 0}).starts_with("futures: horizon 0"));
+  CHECK(refusal({.samples = 0}).starts_with("futures: samples 0"));
+  CHECK(refusal({.spread = {.mass = 1}}).starts_with("futures: mass 1 "));
+  CHECK(refusal({.spread = {.friction = -1}}).starts_with("futures: friction -1"));
+  CHECK(refusal({.spread = {.delay = 101}}).starts_with("futures: delay 101"));
+  Start start;
+  start.state.position[1] = std::numeric_limits<double>::quiet_NaN();
+  CHECK(refusal({}, start).find("not finite") != std::string::npos);
+}
