@@ -77,7 +77,8 @@ set(articula_live_folder ${PROJECT_SOURCE_DIR}/include/articula/view)
 file(GLOB articula_live_sources CONFIGURE_DEPENDS ${articula_live_folder}/protocol/*.cpp
      ${articula_live_folder}/live/*.cpp)
 list(APPEND articula_live_sources ${articula_live_folder}/server/broadcast.cpp
-     ${articula_live_folder}/server/client.cpp ${articula_live_folder}/server/latest.cpp
+     ${articula_live_folder}/server/client.cpp ${articula_live_folder}/server/futures_desk.cpp
+     ${articula_live_folder}/server/latest.cpp
      ${PROJECT_SOURCE_DIR}/examples/webassembly/exceptions.cpp)
 set(articula_live_objects "")
 foreach(source IN LISTS articula_live_sources)

@@ -2,6 +2,7 @@
 #include "articula/view/server/client.hpp"
 
 #include "articula/view/server/broadcast.hpp"
+#include "articula/view/server/futures_thread.hpp"
 #include "catch.hpp"
 #include "fake_port.hpp"
 #include "scratch_folder.hpp"
@@ -30,7 +31,8 @@ struct Talk {
   explicit Talk(FakePort& port, ViewOptions view_options = {.operates = true})
       : options(std::move(view_options)),
         broadcast(port),
-        client(port, broadcast.latest(), options, "somebody") {
+        futures(port),
+        client(port, futures, broadcast.latest(), options, "somebody") {
     broadcast.add(client);
   }
 
@@ -84,6 +86,7 @@ struct Talk {
 
   ViewOptions options;
   Broadcast broadcast;
+  FuturesDesk futures;
   Client client;
   Client::TimePoint now = std::chrono::steady_clock::now();
 };
@@ -99,6 +102,101 @@ TEST_CASE("a new client gets the server's name, channels and services") {
   CHECK(texts[0]["name"] == "articula: fake arm");
   CHECK(texts[1]["channels"].size() == topic_count);
   CHECK(texts[2]["services"].size() == services().size());
+}
+
+TEST_CASE("futures are answered with quantiles, curves and margins") {
+  FakePort port;
+  Talk talk(port);
+  (void)talk.sent();
+  talk.send_call("/futures", R"({"gains":{"pid.elbow.p":3},"count":3,"horizon":2,"delay":4})");
+  CHECK(talk.sent().empty());
+  talk.tick();
+  const auto frames = talk.sent();
+  REQUIRE(frames.size() == 1);
+  const Json answer = Json::parse(frames[0].head.substr(1 + 12 + 4));
+  CHECK(answer["success"] == true);
+  CHECK(answer["horizon"] == 2);
+  CHECK(answer["count"] == 3);
+  CHECK(answer["unstable"] == 1);
+  CHECK(answer["joints"][1]["name"] == "elbow");
+  CHECK(answer["joints"][1]["curves"].size() == 3);
+  // The fake port's future k is at 3 (k + 1) at the second sample.
+  CHECK(answer["joints"][1]["quantiles"] == Json::parse("[[0,3],[0,3],[0,6],[0,9],[0,9]]"));
+  CHECK(answer["margins"][0]["joint"] == "elbow");
+  CHECK(answer["margins"][0]["gain_margin"].is_null());
+  CHECK(answer["margins"][0]["delay_margin"] == 4);
+}
+
+TEST_CASE("futures that cannot be simulated are refused with the reason") {
+  FakePort port;
+  Talk talk(port);
+  CHECK(talk.call("/futures", R"({"count":"many"})")["message"].get<std::string>().find("count") !=
+        std::string::npos);
+  talk.send_call("/futures", R"({"gains":{"no.such.gain":3}})");
+  talk.tick();
+  const Json answer = Json::parse(talk.sent().at(0).head.substr(1 + 12 + 4));
+  CHECK(answer["success"] == false);
+  CHECK(answer["message"] == "there is no parameter 'no.such.gain'");
+
+  Talk watcher(port, {.operates = false});
+  CHECK(watcher.call("/futures")["success"] == false);
+}
+
+TEST_CASE("of several questions for futures the newest one is answered") {
+  FakePort port;
+  Talk talk(port);
+  talk.send_call("/futures", R"({"gains":{"pid.elbow.p":3},"count":1})");
+  const Json first = talk.call("/futures", R"({"gains":{"pid.elbow.p":5},"count":1})");
+  CHECK(first["success"] == false);
+  CHECK(first["message"] == "futures: a newer question has replaced this one");
+  talk.tick();
+  const Json second = Json::parse(talk.sent().at(0).head.substr(1 + 12 + 4));
+  CHECK(second["joints"][1]["curves"][0][1] == 5);
+}
+
+TEST_CASE("a thread for futures answers each client's last question, and no client that has left") {
+  FakePort port;
+  FuturesThread desk(port);
+  const auto a = desk.next_number(), b = desk.next_number(), gone = desk.next_number();
+  for (const double gain : {1.0, 2.0, 3.0}) {
+    desk.ask(a, {.gains = {{"pid.elbow.p", gain}}, .options = {.count = 1}});
+    desk.ask(gone, {});
+  }
+  desk.forget(gone);
+  desk.ask(b, {.gains = {{"no.such.gain", 1}}});
+  const auto answer_to = [&](FuturesDesk::ClientNumber client) {
+    while (true) {
+      if (auto answer = desk.take(client)) return *answer;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  };
+  const auto answer = std::get<articula::remote::FuturesAnswer>(answer_to(a));
+  CHECK(answer.futures.at(0).positions[1][1] == 3);
+  CHECK(std::holds_alternative<std::string>(answer_to(b)));
+  CHECK_FALSE(desk.take(a).has_value());
+  CHECK_FALSE(desk.take(gone).has_value());
+}
+
+TEST_CASE(
+    "a question is not answered to its end when its client has left; the longest waiting is next") {
+  FakePort port;
+  FuturesThread desk(port);
+  const auto a = desk.next_number(), b = desk.next_number(), gone = desk.next_number();
+  desk.ask(gone, {.options = {.horizon = 9}});
+  while (port.questions == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  for (const auto& [client, gain] : {std::pair(b, 1.0), {a, 3.0}, {b, 2.0}}) {
+    desk.ask(client, {.gains = {{"pid.elbow.p", gain}}, .options = {.count = 1}});
+  }
+  desk.forget(gone);
+  while (!desk.take(a)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(port.answered_gains == std::vector<double>{1, 2, 3});  // the first is the default of `gone`
+}
+
+TEST_CASE("the end of a view ends the question under way") {
+  FakePort port;
+  FuturesThread desk(port);
+  desk.ask(desk.next_number(), {.options = {.horizon = 9}});
+  while (port.questions == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
 TEST_CASE("topics that change seldom are sent at once to who subscribes") {
@@ -121,7 +219,7 @@ TEST_CASE("topics that change seldom are sent at once to who subscribes") {
 TEST_CASE("a change of the situation is told to each client, with its own part") {
   FakePort port;
   Talk talk(port);
-  Client other(port, talk.broadcast.latest(), talk.options, "another");
+  Client other(port, talk.futures, talk.broadcast.latest(), talk.options, "another");
   talk.broadcast.add(other);
   talk.subscribe(Topic::situation);
   talk.tick();
@@ -179,7 +277,7 @@ TEST_CASE("requests go to the port, and refusals come back with their reason") {
 TEST_CASE("one client operates at a time") {
   FakePort port;
   Talk first(port);
-  Client another(port, first.broadcast.latest(), first.options, "another");
+  Client another(port, first.futures, first.broadcast.latest(), first.options, "another");
   CHECK(first.call("/take_controls")["success"] == true);
   const std::string id = number(1), take = "\x02" + id + id + number(4) + "json{}";
   const auto last_answer = [&] {

@@ -5,16 +5,19 @@
 #include "articula/remote/port.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -67,6 +70,32 @@ class FakePort final : public remote::Port {
     return parameters_;
   }
   [[nodiscard]] remote::Statistics statistics() override { return {.cycles = cycles_now()}; }
+  std::atomic<int> questions = 0;        ///< that were begun
+  std::vector<double> answered_gains{};  ///< in their order
+  /// Future k of the elbow goes from 0 to its proposed gain times k + 1, and the last one of several
+  /// is unstable. A question of more than 5 s goes on until it is stopped.
+  [[nodiscard]] remote::FuturesAnswer futures(const remote::FuturesQuestion& question) override {
+    ++questions;
+    while (question.options.horizon > 5 && !(question.stop && question.stop->requested())) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    double gain = 1;
+    for (const remote::ParameterValue& value : question.gains) {
+      if (value.name != "pid.elbow.p") {
+        throw std::invalid_argument("there is no parameter '" + value.name + "'");
+      }
+      gain = value.value;
+    }
+    answered_gains.push_back(gain);
+    remote::FuturesAnswer answer{.time = 1, .horizon = question.options.horizon, .samples = 1};
+    for (int k = 0; k < std::clamp(question.options.count, 0, 100); ++k) {
+      answer.futures.push_back({articula::FutureEnd::stable, {{0, 0}, {0, gain * (k + 1)}}});
+    }
+    if (answer.futures.size() > 1) answer.futures.back().end = articula::FutureEnd::unstable;
+    answer.margins = {{"pid", "elbow", true, std::numeric_limits<double>::infinity(), 1,
+                       static_cast<double>(question.options.spread.delay)}};
+    return answer;
+  }
   [[nodiscard]] std::unique_ptr<remote::Session> connect(std::string name, bool operates) override {
     return std::make_unique<FakeSession>(*this, std::move(name), operates);
   }

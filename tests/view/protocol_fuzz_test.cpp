@@ -54,7 +54,10 @@ std::vector<Message> right_messages() {
       const char* json :
       {"{}", R"({"positions":{"elbow":0.5,"shoulder":-1e3},"speed":0.5})",
        R"({"positions":{"elbow":0.5},"velocities":{"elbow":1},"efforts":{"elbow":2}})",
-       R"({"values":{"pid.elbow.p":3}})", R"({"paused":true})", R"({"factor":2})",
+       R"({"values":{"pid.elbow.p":3}})",
+       R"({"gains":{"pid.elbow.p":3},"count":3,"horizon":0.5,"samples":9,"seed":7})",
+       R"({"mass":0.1,"friction":0.1,"delay":2,"position_noise":1e-3,"velocity_noise":1e-2})",
+       R"({"paused":true})", R"({"factor":2})",
        R"({"start":["a"],"stop":["b"],"best_effort":true,"replace":false})",
        R"({"link":"base","point":[1,2,3],"force":[4,5,6]})",
        R"({"duration":1,"signals":[{"joint":"elbow","kind":"sine","amplitude":1,"frequency":2}]})",
@@ -160,7 +163,8 @@ TEST_CASE("a million messages, right, wrong and random, do no harm") {
   std::size_t asked = 0, frames = 0, longest = 0;
   constexpr int clients = 1000, messages = 1000;
   for (int c = 0; c < clients; ++c) {
-    Client client(port, broadcast.latest(), options, "fuzz");
+    FuturesDesk futures(port);
+    Client client(port, futures, broadcast.latest(), options, "fuzz");
     broadcast.add(client);
     for (int i = 0; i < messages; ++i) {
       Message message =

@@ -31,6 +31,50 @@ async function switchControllers(browser, url) {
 }
 export {switchControllers as switch};
 
+export async function futures(browser, url) {
+  const robot = await openPage(browser, url);
+  await robot.tab('gains');
+  const field = 'input[aria-label^="pid_plus_gravity.shoulder_active_joint.p "]';
+  const pixels = () =>
+    robot.page.evaluate(() => {
+      const canvas = document.querySelector('.pane canvas');
+      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      return data.reduce((count, x, k) => count + (k % 4 === 3 && x > 0), 0);
+    });
+  const shows = (text) =>
+    robot.until(
+      `the text ${text}`,
+      (text) => document.querySelector('.fan').textContent.includes(text),
+      text,
+    );
+  await robot.type(field, 500);
+  await shows('100 simulated robots with these gains: no drive swings between its limits');
+  await robot.until('the margins are shown', () =>
+    [...document.querySelectorAll('.margins')].some((line) => /gain .*phase/.test(line.textContent)),
+  );
+  await robot.until('the fan goes beyond the present', () => {
+    const {futures, samples} = articula.session;
+    return futures && futures.time + futures.horizon > samples.lastTime;
+  });
+  await new Promise((resolve) => setTimeout(resolve, 1000)); // some redraws
+  const withFan = await pixels();
+  await robot.picture('futures');
+  await robot.type('input[aria-label^="pid_plus_gravity.shoulder_active_joint.d "]', 1000);
+  await shows('unstable');
+  await robot.picture('futures_unstable');
+  await robot.click('button::-p-text(Revert)');
+  const isGone = () =>
+    articula.session.futures === null && document.querySelector('.fan').textContent === '';
+  await robot.until('the fan is gone after Revert', isGone);
+  await new Promise((resolve) => setTimeout(resolve, 1000));
+  const without = await pixels();
+  check(withFan > without, `the fan is drawn: ${withFan} pixels with it, ${without} without`);
+  await robot.type(field, 2000);
+  await shows('no drive swings');
+  await robot.page.keyboard.press('Enter');
+  await robot.until('the fan is gone when the gain is set', isGone);
+}
+
 export async function gains(browser, url) {
   const robot = await openPage(browser, url);
   const watcher = await openPage(browser, url);

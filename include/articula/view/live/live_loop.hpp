@@ -81,7 +81,8 @@ class LiveLoopOf final : public LiveLoop {
   remote::Remote<LoopType> remote_{loop_, {.operator_lifetime = patience, .answer_time = patience}};
   ViewOptions options_{.operates = true};
   Broadcast broadcast_{remote_};
-  Client client_{remote_, broadcast_.latest(), options_, "this page"};
+  FuturesDesk futures_{remote_};
+  Client client_{remote_, futures_, broadcast_.latest(), options_, "this page"};
   RunReport report_{};
   double due_ = 0;  ///< cycles; a fraction of one is left for the next time
   std::chrono::nanoseconds passed_{3'600'000'000'000};  ///< of the clock, which begins anywhere

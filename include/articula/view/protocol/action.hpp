@@ -2,7 +2,7 @@
 /// @file What a client's frame asks of the server.
 #pragma once
 
-#include "articula/remote/parameter.hpp"
+#include "articula/remote/gains/parameter.hpp"
 #include "articula/view/protocol/channels.hpp"
 #include "articula/view/protocol/requests.hpp"
 

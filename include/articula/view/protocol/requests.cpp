@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/requests.hpp"
 
+#include "articula/view/protocol/futures_messages.hpp"
 #include "articula/view/protocol/read_motion.hpp"
 
 #include <array>
@@ -109,6 +110,7 @@ const std::array table{
     Service{"/describe_parameters", none, question<Query::parameters>},
     Service{"/situation", none, question<Query::situation>},
     Service{"/statistics", none, question<Query::statistics>},
+    Service{"/futures", futures_members, read_futures},
 };
 
 Asked read(std::span<const Member> members, Asked (*read)(const Json&), const Json& object) {

@@ -2,6 +2,7 @@
 /// @file Requests to the loop, read from JSON. Pure: texts in, requests or refusals out.
 #pragma once
 
+#include "articula/remote/futures_question.hpp"
 #include "articula/remote/request.hpp"
 #include "articula/view/protocol/json.hpp"
 #include "articula/view/protocol/members.hpp"
@@ -27,7 +28,8 @@ struct Refusal {
 };
 
 /// What a service call asks for.
-using Asked = std::variant<Refusal, Query, ControlsRequest, remote::Request>;
+using Asked =
+    std::variant<Refusal, Query, ControlsRequest, remote::FuturesQuestion, remote::Request>;
 
 /// A service: a request that clients call by name.
 struct Service {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/server/client.hpp"
 
+#include "articula/view/protocol/futures_messages.hpp"
 #include "articula/view/protocol/messages.hpp"
 #include "articula/view/server/files.hpp"
 
@@ -20,9 +21,11 @@ SharedText share(const Json& json) { return std::make_shared<const std::string>(
 
 }  // namespace
 
-Client::Client(remote::Port& port, const Latest& latest, const ViewOptions& options,
-               const std::string& name)
+Client::Client(remote::Port& port, FuturesDesk& futures, const Latest& latest,
+               const ViewOptions& options, const std::string& name)
     : port_(port),
+      futures_(futures),
+      number_(futures.next_number()),
       latest_(latest),
       options_(options),
       session_(port.connect(name, options.operates)),
@@ -32,6 +35,8 @@ Client::Client(remote::Port& port, const Latest& latest, const ViewOptions& opti
   queue_.add_answer(text_frame(latest.advertise_services));
 }
 
+Client::~Client() { futures_.forget(number_); }
+
 void Client::receive(bool is_text, std::string_view bytes) {
   const auto actions = is_text ? protocol_.read_text(bytes) : protocol_.read_bytes(bytes);
   for (const Action& action : actions) std::visit([&](const auto& x) { act(x); }, action);
@@ -40,6 +45,7 @@ void Client::receive(bool is_text, std::string_view bytes) {
 
 void Client::tick(TimePoint now) {
   take_answers();
+  take_futures();
   tell_situation();
   if (now - second_ < std::chrono::seconds(1)) return;
   second_ = now;
@@ -127,6 +133,8 @@ void Client::act(const ServiceCall& action) {
   } else if (const auto* controls = std::get_if<ControlsRequest>(&action.asked)) {
     const std::string reason = change_controls(controls->take);
     reply(to, reason.empty(), reason.empty() ? "done" : reason);
+  } else if (const auto* question = std::get_if<remote::FuturesQuestion>(&action.asked)) {
+    ask(*question, to);
   } else {
     ask(std::get<remote::Request>(action.asked), to);
   }
@@ -165,6 +173,27 @@ void Client::ask(const remote::Request& request, const Reply& to) {
     return reply(to, false, reason);
   }
   pending_.emplace(session_->ask(request), to);
+}
+
+// They take a core's time, so those who only watch cannot ask.
+void Client::ask(const remote::FuturesQuestion& question, const CallReply& to) {
+  if (!options_.operates) return reply(to, false, only_shows);
+  if (futures_call_)
+    reply(*futures_call_, false, "futures: a newer question has replaced this one");
+  futures_call_ = to;
+  futures_.ask(number_, question);
+}
+
+void Client::take_futures() {
+  if (!futures_call_) return;
+  const auto answer = futures_.take(number_);
+  if (!answer) return;
+  const CallReply to = *std::exchange(futures_call_, std::nullopt);
+  if (const auto* reason = std::get_if<std::string>(&*answer)) return reply(to, false, *reason);
+  Json json = futures_json(std::get<remote::FuturesAnswer>(*answer), port_.robot());
+  json["success"] = true;
+  json["message"] = "done";
+  queue_.add_answer(response_frame(to.service, to.call, json));
 }
 
 void Client::take_answers() {

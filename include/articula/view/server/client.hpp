@@ -4,6 +4,7 @@
 
 #include "articula/remote/port.hpp"
 #include "articula/view/protocol/protocol.hpp"
+#include "articula/view/server/futures_desk.hpp"
 #include "articula/view/server/latest.hpp"
 #include "articula/view/server/send_queue.hpp"
 #include "articula/view/view_options.hpp"
@@ -30,8 +31,11 @@ class Client {
   using TimePoint = std::chrono::steady_clock::time_point;
 
   /// Connects to the port, and queues what a new client gets. All arguments outlive the client.
-  Client(remote::Port& port, const Latest& latest, const ViewOptions& options,
+  Client(remote::Port& port, FuturesDesk& futures, const Latest& latest, const ViewOptions& options,
          const std::string& name);
+  ~Client();
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
 
   /// A frame came from the client. Any bytes may come.
   void receive(bool is_text, std::string_view bytes);
@@ -81,7 +85,9 @@ class Client {
 
   void ask(const remote::Request& request, const Reply& reply);
   void reply(const Reply& reply, bool success, const std::string& text);
+  void ask(const remote::FuturesQuestion& question, const CallReply& reply);
   void take_answers();
+  void take_futures();
   void tell_situation();
   void send_parameters(const std::vector<std::string>& names, const std::optional<std::string>& id);
   void complain(const std::string& text);
@@ -90,13 +96,16 @@ class Client {
   [[nodiscard]] Frame asset(const AssetQuestion& question) const;
 
   remote::Port& port_;
+  FuturesDesk& futures_;
+  FuturesDesk::ClientNumber number_;  ///< at that desk
   const Latest& latest_;
   const ViewOptions& options_;
   std::unique_ptr<remote::Session> session_;
   Protocol protocol_{};
   SendQueue queue_;
   std::map<std::uint64_t, Reply> pending_{};
-  std::deque<AssetQuestion> assets_{};  ///< read one by one, when the last one is sent
+  std::optional<CallReply> futures_call_{};  ///< that waits for its futures
+  std::deque<AssetQuestion> assets_{};       ///< read one by one, when the last one is sent
   std::set<std::string> watched_{};
   bool watches_all_ = false;
   std::uint64_t told_situation_ = 0;

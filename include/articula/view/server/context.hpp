@@ -5,6 +5,7 @@
 #include "articula/remote/port.hpp"
 #include "articula/view/server/access.hpp"
 #include "articula/view/server/broadcast.hpp"
+#include "articula/view/server/futures_thread.hpp"
 #include "articula/view/view_options.hpp"
 
 #include <atomic>
@@ -27,7 +28,8 @@ struct Context {
       : options(view_options),
         access(options, is_loopback),
         port(loop_port),
-        broadcast(loop_port) {}
+        broadcast(loop_port),
+        futures(loop_port) {}
 
   /// Warns of something, at most once a second, so that a hostile client cannot fill a disk.
   void warn(const std::string& text) {
@@ -48,6 +50,7 @@ struct Context {
   Access access;
   remote::Port& port;
   Broadcast broadcast;
+  FuturesThread futures;
   std::set<WebSocketSession*> sessions{};
   std::list<HttpSession*> http_sessions{};  ///< the oldest first
   std::uint64_t names = 0;                  ///< given to clients so far

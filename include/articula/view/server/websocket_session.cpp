@@ -75,7 +75,8 @@ void WebSocketSession::start(Request request) {
 void WebSocketSession::accepted(Error error) {
   if (error) return;
   try {
-    client_.emplace(context_.port, context_.broadcast.latest(), context_.options, name_);
+    client_.emplace(context_.port, context_.futures, context_.broadcast.latest(), context_.options,
+                    name_);
   } catch (const std::exception& failure) {
     return drop(failure.what());
   }

@@ -5,6 +5,7 @@ import {Samples} from './samples';
 import type {Socket} from './socket';
 import type {
   Cycles,
+  Futures,
   LogEntry,
   Parameter,
   RobotSheet,
@@ -23,6 +24,7 @@ interface Events {
   log: LogEntry;
   parameters: Parameter[];
   values: Map<string, number>; // parameters that have changed
+  futures: Futures | null; // of gains that are typed and not applied
   notice: {text: string; isError: boolean};
 }
 
@@ -32,6 +34,7 @@ export class Session extends Emitter<Events> {
   samples: Samples | null = null;
   situation: Situation | null = null;
   statistics: Statistics | null = null;
+  futures: Futures | null = null;
   connected = false;
   private readonly client: FoxgloveClient;
 
@@ -96,6 +99,13 @@ export class Session extends Emitter<Events> {
 
   notify(text: string, isError = false): void {
     this.emit('notice', {text, isError});
+  }
+
+  /** Shows simulated futures, or no more. */
+  showFutures(futures: Futures | null): void {
+    if (futures === this.futures) return;
+    this.futures = futures;
+    this.emit('futures', futures);
   }
 
   private setConnected(connected: boolean): void {

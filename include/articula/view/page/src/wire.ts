@@ -89,6 +89,26 @@ export interface LogEntry {
   message: string;
 }
 
+/** Simulated robots with other gains, masses and friction: the answer of /futures. */
+export interface Futures {
+  time: number; // of the loop, at the first sample [s]
+  horizon: number; // until the last sample [s]
+  samples: number; // beside the first
+  count: number;
+  unstable: number; // of them
+  non_finite: number; // likewise
+  shares: number[]; // of the futures below each quantile
+  joints: {name: string; quantiles: (number | null)[][]; curves: (number | null)[][]}[];
+  margins: {
+    controller: string;
+    joint: string;
+    stable: boolean;
+    gain_margin: number | null; // null: infinite
+    phase_margin: number | null; // [rad]
+    delay_margin: number | null; // [s]
+  }[];
+}
+
 /** Every service answers so; `success: false` is a refusal, and the message is its reason. */
 export interface ServiceAnswer {
   success: boolean;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import {button, element} from '../dom';
 import type {Session} from '../session';
-import type {Parameter} from '../wire';
+import type {Futures, Parameter} from '../wire';
 import {GainField} from './gain_field';
+import {GainFutures} from './gain_futures';
+import {marginText} from './margin_text';
 
 /** Gains by controller and joint. All changed ones are applied together, or none of them. */
 export class GainsPanel {
@@ -14,6 +16,10 @@ export class GainsPanel {
     },
   });
   private fields: GainField[] = [];
+  private refusedInFan = new Set<GainField>();
+  private margins = new Map<string, HTMLElement>(); // by controller and joint
+  private readonly futures: GainFutures;
+  private readonly fan = element('p', {class: 'hint fan', role: 'status'});
   private readonly list = element('div', {});
   private readonly applyButton = element(
     'button',
@@ -22,7 +28,8 @@ export class GainsPanel {
   );
   private readonly revert = button('Revert', () => {
     for (const field of this.fields) field.reset();
-    this.enable();
+    this.outcome.textContent = '';
+    this.propose();
   });
   private readonly outcome = element('p', {class: 'hint', role: 'status'});
 
@@ -31,7 +38,9 @@ export class GainsPanel {
       this.list,
       element('div', {class: 'row'}, this.applyButton, this.revert),
       this.outcome,
+      this.fan,
     );
+    this.futures = new GainFutures(session, (futures, refusal) => this.tell(futures, refusal));
     this.box.noValidate = true; // the loop decides what is valid
     session.on('parameters', (parameters) => this.load(parameters));
     session.on('values', (values) => this.update(values));
@@ -41,12 +50,13 @@ export class GainsPanel {
 
   private load(parameters: Parameter[]): void {
     const groups = new Map<string, Map<string, GainField[]>>(); // controller, joint
+    this.margins.clear();
     this.fields = parameters.map((parameter) => {
       const parts = parameter.name.split('.');
       const gain = parts.pop() ?? '';
       const joint = parts.pop() ?? '';
       const controller = parts.join('.');
-      const field = new GainField(parameter, gain, () => this.enable());
+      const field = new GainField(parameter, gain, () => this.propose());
       const joints = groups.get(controller) ?? new Map<string, GainField[]>();
       joints.set(joint, [...(joints.get(joint) ?? []), field]);
       groups.set(controller, joints);
@@ -58,17 +68,17 @@ export class GainsPanel {
           'details',
           {open: true},
           element('summary', {}, controller),
-          ...[...joints].map(([joint, fields]) => this.group(joint, fields)),
+          ...[...joints].map(([joint, fields]) => this.group(`${controller}.${joint}`, joint, fields)),
         ),
       ),
     );
     if (parameters.length === 0)
       this.list.append(element('p', {class: 'hint'}, 'The controllers have no gains to set.'));
-    this.enable();
+    this.propose();
   }
 
   // The gains that everybody tunes are seen at once, the many others on demand.
-  private group(joint: string, fields: GainField[]): HTMLElement {
+  private group(key: string, joint: string, fields: GainField[]): HTMLElement {
     const long = fields.filter(({isShort}) => !isShort);
     const rest = element(
       'details',
@@ -76,11 +86,14 @@ export class GainsPanel {
       element('summary', {}, `${long.length} more`),
       ...long.map(({box}) => box),
     );
+    const margins = element('p', {class: 'margins'});
+    this.margins.set(key, margins);
     return element(
       'fieldset',
       {},
       element('legend', {}, joint),
       ...fields.filter(({isShort}) => isShort).map(({box}) => box),
+      margins,
       long.length > 0 ? rest : null,
     );
   }
@@ -90,7 +103,7 @@ export class GainsPanel {
       const value = values.get(field.parameter.name);
       if (value !== undefined) field.holds(value);
     }
-    this.enable();
+    this.propose();
   }
 
   private async apply(): Promise<void> {
@@ -110,7 +123,33 @@ export class GainsPanel {
       const named = changed.filter(({parameter}) => answer.message.includes(parameter.name));
       for (const field of named.length > 0 ? named : changed) field.refuse(answer.message);
     }
+    this.propose();
+  }
+
+  // What the loop would do with the numbers in the fields, before they are applied.
+  private propose(): void {
     this.enable();
+    const changed = this.fields.filter((field) => field.isChanged);
+    const complete = changed.every((field) => !Number.isNaN(field.value));
+    const asks = changed.length > 0 && complete && this.session.mayOperate;
+    const entries = changed.map((field) => [field.parameter.name, field.value]);
+    this.futures.propose(asks ? Object.fromEntries(entries) : null);
+  }
+
+  private tell(futures: Futures | null, refusal: string): void {
+    for (const [key, line] of this.margins) {
+      const own = futures?.margins.find(({controller, joint}) => `${controller}.${joint}` === key);
+      line.textContent = own ? marginText(own) : '';
+      line.classList.toggle('bad', own?.stable === false);
+    }
+    const bad = futures ? futures.unstable + futures.non_finite : 0;
+    this.fan.textContent = futures
+      ? `${futures.count} simulated robots with these gains: ${bad === 0 ? 'no drive swings between its limits' : `${bad} unstable`}.`
+      : refusal;
+    this.fan.classList.toggle('bad', bad > 0 || refusal !== '');
+    for (const field of this.refusedInFan) field.refuse('');
+    this.refusedInFan = new Set(this.fields.filter((field) => refusal.includes(field.parameter.name)));
+    for (const field of this.refusedInFan) field.refuse(refusal);
   }
 
   private enable(): void {

@@ -4,9 +4,10 @@ import {button, element, format} from '../dom';
 import type {Samples} from '../samples';
 import {withPlainCanvas} from '../graphics';
 import {colour, jointColour} from '../theme';
-import type {RobotSheet} from '../wire';
+import type {Futures, RobotSheet} from '../wire';
 import {niceRange, timeAxis, valueAxis} from './axes';
 import {plotColumns} from './decimate';
+import {drawFan, type FanJoints, withFan} from './fan';
 import {type Quantity, quantitiesOf, type Signal, signalsOf} from './quantities';
 import {QuantityMenu} from './quantity_menu';
 
@@ -16,6 +17,7 @@ export interface PaneOwner {
   live(): void;
   mark(time: number, second: boolean): void; // sets one of the two cursors
   markers(): (number | null)[];
+  futures(): Futures | null; // to be drawn over the positions
   changed(pane: PlotPane): void; // other quantities
   remove(pane: PlotPane): void;
 }
@@ -72,6 +74,7 @@ export class PlotPane {
     this.signals = signalsOf(this.sheet, chosen, joints);
     this.menu.show(chosen);
     if (this.signals.length === 0) return;
+    const {owner} = this;
     const units = [...new Set(this.signals.map(({unit}) => unit))];
     this.plot = withPlainCanvas(
       () =>
@@ -83,7 +86,13 @@ export class PlotPane {
             padding: [6, units.length > 1 ? 0 : 20, 0, 0],
             scales: {
               x: {time: false},
-              ...Object.fromEntries(units.map((unit) => [unit, {range: niceRange}])),
+              ...Object.fromEntries(units.map((unit) => [
+                  unit,
+                  {
+                    range: (plot: uPlot, low: number, high: number) =>
+                      niceRange(plot, ...withFan(owner.futures(), this.fanJoints, unit, low, high)),
+                  },
+                ])),
             },
             axes: [timeAxis(), ...units.slice(0, 2).map((unit, k) => valueAxis(unit, k === 0))],
             series: [
@@ -115,7 +124,7 @@ export class PlotPane {
             hooks: {
               setSelect: [(plot) => this.selected(plot)],
               setCursor: [() => this.showValues()],
-              draw: [(plot) => this.drawMarkers(plot)],
+              draw: [(plot) => this.drawFutures(plot), (plot) => this.drawMarkers(plot)],
             },
           },
           [[]],
@@ -181,6 +190,15 @@ export class PlotPane {
           : jointColour(joint),
       );
     });
+  }
+
+  private get fanJoints(): FanJoints {
+    return this.signals.filter(({quantity}) => quantity.key === 'position');
+  }
+
+  private drawFutures(plot: uPlot): void {
+    const futures = this.owner.futures();
+    if (futures) drawFan(plot, futures, this.fanJoints);
   }
 
   private drawMarkers(plot: uPlot): void {

@@ -2,7 +2,7 @@
 import {button, element, select, setPressed, toggle} from '../dom';
 import type {Session} from '../session';
 import {jointColour, onTheme} from '../theme';
-import type {RobotSheet} from '../wire';
+import type {Futures, RobotSheet} from '../wire';
 import {csvText, saveFile} from './csv';
 import {LatencyHistogram} from './histogram';
 import {cursorLine, stepLines} from './metrics_line';
@@ -65,6 +65,7 @@ export class PlotPanel implements PaneOwner {
     this.list.append(this.histogram.box);
     box.append(bar, this.list, this.metrics);
     session.on('robot', (sheet) => this.load(sheet));
+    session.on('futures', () => (this.lastDrawn = 0));
     onTheme(() => {
       if (session.sheet)
         this.load(
@@ -107,6 +108,10 @@ export class PlotPanel implements PaneOwner {
 
   markers(): (number | null)[] {
     return this.marked;
+  }
+
+  futures(): Futures | null {
+    return this.session.futures;
   }
 
   changed(pane: PlotPane): void {
@@ -164,7 +169,9 @@ export class PlotPanel implements PaneOwner {
 
   private range(): [number, number] {
     if (this.held) return this.held;
-    const last = this.session.samples?.lastTime ?? 0;
+    const now = this.session.samples?.lastTime ?? 0;
+    const {futures} = this.session;
+    const last = futures ? Math.max(now, futures.time + futures.horizon) : now;
     // Before the window is full, the lines grow from its left end.
     return last < this.window ? [0, this.window] : [last - this.window, last];
   }
