@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What ROS 2 asks of the transport for each kind of topic.
+#pragma once
+
+#include <cstddef>
+
+namespace articula::ros2 {
+
+/// How a topic is transported. All topics here are reliable: lost samples are sent again.
+struct QualityOfService {
+  bool transient_local = false;  ///< late readers get the last samples of the writer
+  std::size_t depth = 1;         ///< samples that are kept
+};
+
+namespace quality_of_service {
+
+/// Requests and replies of services, also of those that make up actions.
+inline constexpr QualityOfService service{.transient_local = false, .depth = 10};
+/// Requests and replies of the services of parameters.
+inline constexpr QualityOfService parameters{.transient_local = false, .depth = 1000};
+inline constexpr QualityOfService action_feedback{.transient_local = false, .depth = 10};
+inline constexpr QualityOfService action_status{.transient_local = true, .depth = 1};
+/// Joint states, states of controllers and commands.
+inline constexpr QualityOfService states{.transient_local = false, .depth = 1};
+inline constexpr QualityOfService robot_description{.transient_local = true, .depth = 1};
+inline constexpr QualityOfService tf{.transient_local = false, .depth = 100};
+/// Writers of static transforms. Readers keep 100 samples.
+inline constexpr QualityOfService tf_static{.transient_local = true, .depth = 1};
+inline constexpr QualityOfService activity{.transient_local = true, .depth = 1};
+inline constexpr QualityOfService discovery_info{.transient_local = true, .depth = 1};
+
+}  // namespace quality_of_service
+
+}  // namespace articula::ros2
