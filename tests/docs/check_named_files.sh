@@ -15,7 +15,7 @@ room='examples|tests|benchmarks|docs|cmake'
 for document in "$@"; do
   # Code blocks have headers of the reader's own; the compiler checks theirs.
   names=$(sed '/^```/,/^```/d' "$document" |
-    grep -oE "[A-Za-z0-9_./*-]+\.($ending)|($room)/[A-Za-z0-9_./*-]*[A-Za-z0-9_*]" | sort -u)
+    grep -oE "[A-Za-z0-9_./*-]+\.($ending)\b|($room)/[A-Za-z0-9_./*-]*[A-Za-z0-9_*]" | sort -u)
   for name in $names; do
     checked=$((checked + 1))
     found=no
