@@ -69,7 +69,8 @@ class CdrDecoder {
         std::uint8_t dummy = 0;
         return take_number(dummy);
       } else {
-        return for_each_field(value, [this](std::string_view, auto& field) { return take(field); });
+        return for_each_field(value,
+                              [this](std::string_view, auto& field) { return this->take(field); });
       }
     } else {
       return take_items(value);

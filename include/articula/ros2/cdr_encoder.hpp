@@ -51,8 +51,8 @@ class CdrEncoder {
       if constexpr (field_count<T>() == 0) {
         return put_number(std::uint8_t{0});  // CDR has no empty structs
       } else {
-        return for_each_field(value,
-                              [this](std::string_view, const auto& field) { return put(field); });
+        return for_each_field(
+            value, [this](std::string_view, const auto& field) { return this->put(field); });
       }
     } else {
       return put_items(value);
