@@ -209,30 +209,33 @@ std::optional<CyclonePeer::Reply> CyclonePeer::take_reply() {
 
 std::uint64_t CyclonePeer::client() const { return entities_->client; }
 
-std::vector<std::string> CyclonePeer::user_data_of_participants() {
-  std::vector<std::string> all;
+std::vector<CyclonePeer::Discovered> CyclonePeer::participants() {
+  std::vector<Discovered> all;
   for_each_sample<dds_builtintopic_participant_t>(
-      entities_->participants, false,
-      [&](const auto& participant) { all.push_back(user_data(participant.qos)); });
+      entities_->participants, false, [&](const dds_builtintopic_participant_t& participant) {
+        all.push_back({std::to_array(participant.key.v), user_data(participant.qos)});
+      });
   return all;
 }
 
-std::vector<std::string> CyclonePeer::user_data_of_writers(const std::string& topic) {
-  std::vector<std::string> all;
-  for_each_sample<dds_builtintopic_endpoint_t>(entities_->publications, false,
-                                               [&](const dds_builtintopic_endpoint_t& endpoint) {
-                                                 if (topic == endpoint.topic_name)
-                                                   all.push_back(user_data(endpoint.qos));
-                                               });
+namespace {
+
+std::vector<CyclonePeer::Discovered> endpoints(dds_entity_t reader, const std::string& topic) {
+  std::vector<CyclonePeer::Discovered> all;
+  for_each_sample<dds_builtintopic_endpoint_t>(
+      reader, false, [&](const dds_builtintopic_endpoint_t& endpoint) {
+        if (topic != endpoint.topic_name) return;
+        all.push_back({std::to_array(endpoint.key.v), user_data(endpoint.qos)});
+      });
   return all;
 }
 
-std::vector<std::string> CyclonePeer::user_data_of_readers(const std::string& topic) {
-  std::vector<std::string> all;
-  for_each_sample<dds_builtintopic_endpoint_t>(entities_->subscriptions, false,
-                                               [&](const dds_builtintopic_endpoint_t& endpoint) {
-                                                 if (topic == endpoint.topic_name)
-                                                   all.push_back(user_data(endpoint.qos));
-                                               });
-  return all;
+}  // namespace
+
+std::vector<CyclonePeer::Discovered> CyclonePeer::writers(const std::string& topic) {
+  return endpoints(entities_->publications, topic);
+}
+
+std::vector<CyclonePeer::Discovered> CyclonePeer::readers(const std::string& topic) {
+  return endpoints(entities_->subscriptions, topic);
 }

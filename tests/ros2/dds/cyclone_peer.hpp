@@ -2,6 +2,7 @@
 /// @file Another vendor's DDS as peer in tests: Cyclone DDS, with the types of ROS.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -44,10 +45,14 @@ class CyclonePeer {
   std::optional<Reply> take_reply();
   [[nodiscard]] std::uint64_t client() const;
 
-  /// USER_DATA as this peer has discovered it: of participants, and of the endpoints of a topic.
-  std::vector<std::string> user_data_of_participants();
-  std::vector<std::string> user_data_of_writers(const std::string& topic);
-  std::vector<std::string> user_data_of_readers(const std::string& topic);
+  /// A participant, reader or writer as this peer has discovered it.
+  struct Discovered {
+    std::array<std::uint8_t, 16> guid{};
+    std::string user_data{};
+  };
+  std::vector<Discovered> participants();
+  std::vector<Discovered> writers(const std::string& topic);
+  std::vector<Discovered> readers(const std::string& topic);
 
  private:
   struct Entities;

@@ -16,6 +16,7 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 
+#include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <map>
@@ -93,7 +94,8 @@ struct FastDdsPeer::Entities {
   }
 };
 
-FastDdsPeer::FastDdsPeer(unsigned domain) : entities_(std::make_unique<Entities>()) {
+FastDdsPeer::FastDdsPeer(unsigned domain, bool poses_as_cyclone)
+    : entities_(std::make_unique<Entities>()) {
   fast::DomainParticipantQos quality;
   quality.transport().use_builtin_transports = false;
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
@@ -104,6 +106,10 @@ FastDdsPeer::FastDdsPeer(unsigned domain) : entities_(std::make_unique<Entities>
   rtps::IPLocator::setIPv4(loopback, "127.0.0.1");
   quality.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(loopback);
   quality.wire_protocol().builtin.initialPeersList.push_back(loopback);
+  if (poses_as_cyclone) {
+    const unsigned char prefix[] = {0x01, 0x10, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+    std::copy(std::begin(prefix), std::end(prefix), quality.wire_protocol().prefix.value);
+  }
   Entities& e = *entities_;
   e.participant =
       fast::DomainParticipantFactory::get_instance()->create_participant(domain, quality);
@@ -180,13 +186,4 @@ std::vector<FastDdsPeer::Reply> FastDdsPeer::take_replies(std::size_t reader) {
                    related.writer_guid() == entities_->readers[reader]->guid(), bytes});
   }
   return all;
-}
-
-std::array<std::uint8_t, 16> FastDdsPeer::guid_of_reader(std::size_t reader) const {
-  const rtps::GUID_t& guid = entities_->readers[reader]->guid();
-  std::array<std::uint8_t, 16> bytes{};
-  auto* const entity =
-      std::copy(std::begin(guid.guidPrefix.value), std::end(guid.guidPrefix.value), bytes.begin());
-  std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), entity);
-  return bytes;
 }

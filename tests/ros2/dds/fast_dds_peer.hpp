@@ -2,7 +2,6 @@
 /// @file A peer in tests that uses Fast DDS as rmw_fastrtps does, with messages as bytes.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -17,7 +16,8 @@ using Bytes = std::vector<std::byte>;
 /// the way over UDP, too.
 class FastDdsPeer {
  public:
-  explicit FastDdsPeer(unsigned domain);
+  /// @param poses_as_cyclone  its identifier begins as those of Cyclone DDS
+  explicit FastDdsPeer(unsigned domain, bool poses_as_cyclone = false);
   FastDdsPeer(const FastDdsPeer&) = delete;
   FastDdsPeer& operator=(const FastDdsPeer&) = delete;
   ~FastDdsPeer();
@@ -41,9 +41,6 @@ class FastDdsPeer {
     Bytes bytes;
   };
   std::vector<Reply> take_replies(std::size_t reader);
-
-  /// The identifier of a writer's or reader's participant, and of itself: 16 bytes.
-  [[nodiscard]] std::array<std::uint8_t, 16> guid_of_reader(std::size_t reader) const;
 
  private:
   struct Entities;

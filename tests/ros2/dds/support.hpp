@@ -18,7 +18,7 @@
 
 namespace articula::ros2::test {
 
-using Text = std_msgs::msg::String<Jazzy>;
+using TextMessage = std_msgs::msg::String<Jazzy>;
 using Trigger = std_srvs::srv::Trigger<Jazzy>;
 
 /// A domain that other test programs at the same time hardly have.
@@ -27,8 +27,8 @@ inline unsigned domain() { return 1 + static_cast<unsigned>(getpid()) % 100; }
 inline TopicEndpoint text_topic(const std::string& topic, QualityOfService quality) {
   return {.node = "/tester",
           .topic = topic,
-          .type = std::string(Text::ros_type.view()),
-          .hash = std::string(type_hash<Text>.view()),
+          .type = std::string(TextMessage::ros_type.view()),
+          .hash = std::string(type_hash<TextMessage>.view()),
           .quality = quality};
 }
 
@@ -48,11 +48,11 @@ std::vector<std::byte> bytes_of(const M& message, std::size_t room = 1024) {
 }
 
 inline std::vector<std::byte> text_bytes(const std::string& text) {
-  return bytes_of(Text{.data = text}, text.size() + 64);
+  return bytes_of(TextMessage{.data = text}, text.size() + 64);
 }
 
 inline std::string text_of(Sample sample) {
-  Text text;
+  TextMessage text;
   return decode(sample, text) == CdrError::none ? text.data : "not a text";
 }
 
