@@ -14,6 +14,8 @@ packages=(
   liburdfdom-dev     # robots from URDF files
   nlohmann-json3-dev # recordings as JSON
   libyaml-cpp-dev    # configuration files
+  libfastrtps-dev    # Fast DDS, for topics and services of ROS 2
+  cyclonedds-dev     # another vendor's DDS, as peer in their tests
   catch2             # tests
   libxsimd-dev       # another library's packs, for tests of programs over them
   binutils           # nm, for the check of the object code

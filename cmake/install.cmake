@@ -43,6 +43,14 @@ install(
   FILES_MATCHING
   PATTERN "*.cpp")
 
+# The component ros2, with the source of its transport.
+install(FILES cmake/articula-ros2.cmake DESTINATION ${articula_package_dir})
+install(
+  DIRECTORY include/articula/ros2/dds
+  DESTINATION ${articula_package_dir}/ros2
+  FILES_MATCHING
+  PATTERN "*.cpp")
+
 # The component config.
 install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_package_dir})
 

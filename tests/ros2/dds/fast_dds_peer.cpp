@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fast_dds_peer.hpp"
+
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <fastrtps/xmlparser/XMLProfileManager.h>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+
+namespace fast = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+class RawType final : public fast::TopicDataType {
+ public:
+  explicit RawType(const std::string& name) {
+    setName(name.c_str());
+    m_typeSize = 4 << 20;
+    auto_fill_type_object(false);
+    auto_fill_type_information(false);
+  }
+  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
+    const Bytes& bytes = *static_cast<const Bytes*>(data);
+    if (payload->max_size < bytes.size()) return false;
+    payload->length = static_cast<std::uint32_t>(bytes.size());
+    if (!bytes.empty()) std::memcpy(payload->data, bytes.data(), bytes.size());
+    return true;
+  }
+  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
+    const auto* const begin = reinterpret_cast<const std::byte*>(payload->data);
+    static_cast<Bytes*>(data)->assign(begin, begin + payload->length);
+    return true;
+  }
+  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override {
+    return [size = static_cast<std::uint32_t>(static_cast<const Bytes*>(data)->size())] {
+      return size;
+    };
+  }
+  void* createData() override { return new Bytes; }
+  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
+  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
+};
+
+template <class Quality>
+void set(Quality& quality, bool transient_local) {
+  quality.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
+  quality.durability().kind =
+      transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS : fast::VOLATILE_DURABILITY_QOS;
+  quality.history().kind = fast::KEEP_LAST_HISTORY_QOS;
+  quality.history().depth = 100;
+  quality.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
+  quality.data_sharing().off();
+}
+
+}  // namespace
+
+void talk_over_udp_only() {
+  eprosima::fastrtps::LibrarySettingsAttributes settings;
+  settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
+  eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);
+}
+
+struct FastDdsPeer::Entities {
+  fast::DomainParticipant* participant = nullptr;
+  fast::Publisher* publisher = nullptr;
+  fast::Subscriber* subscriber = nullptr;
+  std::map<std::string, fast::Topic*> topics{};
+  std::vector<fast::DataWriter*> writers{};
+  std::vector<fast::DataReader*> readers{};
+
+  fast::Topic* topic(const std::string& name, const std::string& type) {
+    fast::Topic*& topic = topics[name];
+    if (topic == nullptr) {
+      participant->register_type(fast::TypeSupport(new RawType(type)));
+      topic = participant->create_topic(name, type, fast::TOPIC_QOS_DEFAULT);
+    }
+    return topic;
+  }
+};
+
+FastDdsPeer::FastDdsPeer(unsigned domain, bool poses_as_cyclone)
+    : entities_(std::make_unique<Entities>()) {
+  fast::DomainParticipantQos quality;
+  quality.transport().use_builtin_transports = false;
+  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  udp->interfaceWhiteList = {"127.0.0.1"};
+  quality.transport().user_transports = {udp};
+  rtps::Locator_t loopback;
+  loopback.kind = LOCATOR_KIND_UDPv4;
+  rtps::IPLocator::setIPv4(loopback, "127.0.0.1");
+  quality.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(loopback);
+  quality.wire_protocol().builtin.initialPeersList.push_back(loopback);
+  if (poses_as_cyclone) {
+    const unsigned char prefix[] = {0x01, 0x10, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
+    std::copy(std::begin(prefix), std::end(prefix), quality.wire_protocol().prefix.value);
+  }
+  Entities& e = *entities_;
+  e.participant =
+      fast::DomainParticipantFactory::get_instance()->create_participant(domain, quality);
+  if (e.participant == nullptr) throw std::runtime_error("no participant");
+  e.publisher = e.participant->create_publisher(fast::PUBLISHER_QOS_DEFAULT);
+  e.subscriber = e.participant->create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT);
+}
+
+FastDdsPeer::~FastDdsPeer() {
+  entities_->participant->delete_contained_entities();
+  fast::DomainParticipantFactory::get_instance()->delete_participant(entities_->participant);
+}
+
+std::size_t FastDdsPeer::make_writer(const std::string& topic, const std::string& type,
+                                     bool transient_local) {
+  fast::DataWriterQos quality;
+  set(quality, transient_local);
+  auto* writer = entities_->publisher->create_datawriter(entities_->topic(topic, type), quality);
+  if (writer == nullptr) throw std::runtime_error("no writer");
+  entities_->writers.push_back(writer);
+  return entities_->writers.size() - 1;
+}
+
+std::size_t FastDdsPeer::make_reader(const std::string& topic, const std::string& type,
+                                     bool transient_local) {
+  fast::DataReaderQos quality;
+  set(quality, transient_local);
+  auto* reader = entities_->subscriber->create_datareader(entities_->topic(topic, type), quality);
+  if (reader == nullptr) throw std::runtime_error("no reader");
+  entities_->readers.push_back(reader);
+  return entities_->readers.size() - 1;
+}
+
+void FastDdsPeer::write(std::size_t writer, std::span<const std::byte> bytes) {
+  Bytes copy(bytes.begin(), bytes.end());
+  entities_->writers[writer]->write(&copy);
+}
+
+std::vector<Bytes> FastDdsPeer::take(std::size_t reader) {
+  std::vector<Bytes> all;
+  for (Reply& reply : take_replies(reader)) all.push_back(std::move(reply.bytes));
+  return all;
+}
+
+std::size_t FastDdsPeer::matches_of_writer(std::size_t writer) const {
+  fast::PublicationMatchedStatus status;
+  entities_->writers[writer]->get_publication_matched_status(status);
+  return static_cast<std::size_t>(status.current_count);
+}
+
+std::size_t FastDdsPeer::matches_of_reader(std::size_t reader) const {
+  fast::SubscriptionMatchedStatus status;
+  entities_->readers[reader]->get_subscription_matched_status(status);
+  return static_cast<std::size_t>(status.current_count);
+}
+
+std::int64_t FastDdsPeer::request(std::size_t writer, std::size_t reader,
+                                  std::span<const std::byte> bytes) {
+  Bytes copy(bytes.begin(), bytes.end());
+  rtps::WriteParams parameters;
+  parameters.related_sample_identity().writer_guid() = entities_->readers[reader]->guid();
+  entities_->writers[writer]->write(&copy, parameters);
+  return static_cast<std::int64_t>(parameters.sample_identity().sequence_number().to64long());
+}
+
+std::vector<FastDdsPeer::Reply> FastDdsPeer::take_replies(std::size_t reader) {
+  std::vector<Reply> all;
+  Bytes bytes;
+  fast::SampleInfo info;
+  while (entities_->readers[reader]->take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK) {
+    if (!info.valid_data) continue;
+    const auto& related = info.related_sample_identity;
+    all.push_back({static_cast<std::int64_t>(related.sequence_number().to64long()),
+                   related.writer_guid() == entities_->readers[reader]->guid(), bytes});
+  }
+  return all;
+}
