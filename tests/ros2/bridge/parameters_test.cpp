@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gains of a loop are parameters as ros2 param and rqt_reconfigure expect them.
 #include "articula/ros2/messages/rcl_interfaces.hpp"
+#include "articula/ros2/messages/trajectory_msgs.hpp"
 #include "articula/ros2/messages/type_description_interfaces.hpp"
 
 #include "bridged_arm.hpp"
@@ -61,8 +62,9 @@ TEST_CASE("parameters are listed by prefix and depth") {
   const auto all = list({}, 0);
   CHECK(std::find(all.names.begin(), all.names.end(), p) != all.names.end());
   CHECK(std::find(all.names.begin(), all.names.end(), "joints") != all.names.end());
-  CHECK(all.prefixes == Names{"gains." + shoulder_joint, "gains." + elbow_joint});
-  CHECK(all.names.size() == 2 * 14 + 5);
+  CHECK(all.prefixes == Names{"gains." + shoulder_joint, "gains." + elbow_joint, "constraints",
+                              "constraints." + shoulder_joint, "constraints." + elbow_joint});
+  CHECK(all.names.size() == 2 * 14 + 6 + 5);
   CHECK(list({}, 1).names.size() == 5);
   CHECK(list({"gains." + elbow_joint}, 1).names.size() == 14);
   CHECK(list({"gains"}, 1).names.empty());
@@ -181,4 +183,29 @@ TEST_CASE("all nodes have parameters") {
   const auto type = arm.call<srv::GetParameters<Jazzy>>("/controller_manager/get_parameters",
                                                         {.names = {"pid_plus_gravity.type"}});
   CHECK(type.values[0].string_value == "joint_trajectory_controller/JointTrajectoryController");
+}
+
+TEST_CASE("constraints are parameters, and hold for trajectories that bring no tolerances") {
+  BridgedArm arm;
+  arm.ask(remote::Activate{});
+  const std::string constraint = "constraints." + shoulder_joint + ".trajectory";
+  CHECK(get(arm, constraint) == 0);
+  const auto bad = set(arm, {number(constraint, -1)});
+  CHECK(bad[0].reason == "parameter '" + constraint + "': -1 is not a finite number >= 0");
+  CHECK_FALSE(set_all(arm, {number(constraint, 0.1), number(p, -1)}).successful);
+  CHECK(get(arm, constraint) == 0);
+  CHECK(set_all(arm, {number(constraint, 1e-7), number(p, 2000)}).successful);
+  CHECK(get(arm, constraint) == 1e-7);
+  trajectory_msgs::msg::JointTrajectory<Jazzy> trajectory;
+  trajectory.joint_names = {shoulder_joint};
+  trajectory.points = {{.positions = {1}, .time_from_start = {1, 0}}};
+  arm.publish(node + "joint_trajectory", trajectory);
+  arm.run(1500);
+  CHECK(arm.bridge.dropped().refused == 1);
+  const bool logged = std::ranges::any_of(arm.transport.topics["/rosout"].sent, [](auto& bytes) {
+    rcl_interfaces::msg::Log<Jazzy> line;
+    return decode(bytes, line) == CdrError::none &&
+           line.msg.find("path tolerance violated") != std::string::npos;
+  });
+  CHECK(logged);
 }

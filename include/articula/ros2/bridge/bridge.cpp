@@ -26,7 +26,7 @@ struct FixedNode {
 
 /// A controller as a node.
 struct ControllerNode {
-  ControllerNode(BridgeCore& core, const BridgedController& controller)
+  ControllerNode(BridgeCore& core, BridgedController& controller)
       : node(core.context, controller.node, core.options.name_space),
         store(core, controller),
         parameters(node, store),
@@ -65,7 +65,7 @@ struct Bridge::Parts {
         std::vector<NodeParameter>{sim_time,
                                    read_only("robot_description", to_value(port.robot().urdf),
                                              "The robot as a URDF document.")}));
-    for (const BridgedController& own : core.controllers) {
+    for (BridgedController& own : core.controllers) {
       controllers.push_back(std::make_unique<ControllerNode>(core, own));
     }
   }

@@ -4,6 +4,7 @@
 
 #include "articula/remote/port.hpp"
 #include "articula/ros2/bridge/bridge_options.hpp"
+#include "articula/ros2/bridge/trajectory_constraints.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -20,6 +21,7 @@ struct BridgedController {
   std::string type{};                 ///< as joint_trajectory_controller/JointTrajectoryController
   std::vector<std::string> joints{};  ///< those that it commands
   std::string quantity{};             ///< of <controller>/commands
+  TrajectoryConstraints constraints{};
 };
 
 /// A name in the characters of ROS names: letters, digits, underscores, no digit first.
@@ -59,6 +61,7 @@ struct BridgedController {
     if (own.joints.empty()) {
       for (const remote::SheetJoint& joint : port.robot().joints) own.joints.push_back(joint.name);
     }
+    own.constraints.joints.resize(own.joints.size());
     all.push_back(std::move(own));
   }
   return all;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/bridge/controller_parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace articula::ros2 {
@@ -14,7 +16,7 @@ std::string number_text(double value) { return articula::detail::message_of({val
 
 }  // namespace
 
-ControllerParameters::ControllerParameters(BridgeCore& core, const BridgedController& controller)
+ControllerParameters::ControllerParameters(BridgeCore& core, BridgedController& controller)
     : core_(core), controller_(controller) {
   const std::vector<std::string> states{"position", "velocity", "effort"};
   fixed_ = {
@@ -47,20 +49,65 @@ std::vector<NodeParameter> ControllerParameters::list() {
     }
     all.push_back(std::move(parameter));
   }
+  for (const Constraint& own : constraints()) {
+    NodeParameter parameter{.value = to_value(own.value)};
+    parameter.descriptor.name = own.name;
+    parameter.descriptor.type = parameter.value.type;
+    parameter.descriptor.description = own.description + " 0: as the loop has it.";
+    parameter.descriptor.additional_constraints = "a finite number >= 0";
+    all.push_back(std::move(parameter));
+  }
   all.insert(all.end(), fixed_.begin(), fixed_.end());
   return all;
 }
 
-void ControllerParameters::set(const NamedValues& values, OnSet on_set) {
-  remote::SetParameters request;
-  for (const auto& own : values) {
-    request.values.push_back(
-        {controller_.name + "." + own.name.substr(gains.size()), own.value.double_value});
+std::vector<ControllerParameters::Constraint> ControllerParameters::constraints() {
+  TrajectoryConstraints& own = controller_.constraints;
+  std::vector<Constraint> all{
+      {"constraints.goal_time", own.goal_time, "Time to arrive after the last point [s]."},
+      {"constraints.stopped_velocity_tolerance", own.stopped_velocity_tolerance,
+       "Velocity at the end [rad/s or m/s]."}};
+  for (std::size_t j = 0; j < own.joints.size(); ++j) {
+    const std::string prefix = "constraints." + controller_.joints[j];
+    all.push_back({prefix + ".trajectory", own.joints[j].trajectory,
+                   "Distance from the trajectory [rad or m]."});
+    all.push_back({prefix + ".goal", own.joints[j].goal, "Distance at the end [rad or m]."});
   }
-  core_.loop_operator.ask(request, [on_set = std::move(on_set)](const remote::Answer& answer) {
-    const bool done = answer.verdict == remote::Verdict::done;
-    on_set(done ? std::string() : answer.text.empty() ? "refused" : answer.text);
-  });
+  return all;
+}
+
+void ControllerParameters::set(const NamedValues& values, OnSet on_set) {
+  const auto all = constraints();
+  remote::SetParameters request;
+  std::vector<std::pair<double*, double>> changes;
+  for (const auto& own : values) {
+    const double value = own.value.double_value;
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const auto& other) { return other.name == own.name; });
+    if (found == all.end()) {
+      request.values.push_back({controller_.name + "." + own.name.substr(gains.size()), value});
+    } else if (std::isfinite(value) && value >= 0) {
+      changes.emplace_back(&found->value, value);
+    } else {
+      return on_set("parameter '" + own.name + "': " + number_text(value) +
+                    " is not a finite number >= 0");
+    }
+  }
+  const auto apply = [changes] {
+    for (const auto& [constraint, value] : changes) *constraint = value;
+  };
+  if (request.values.empty()) {
+    apply();
+    return on_set({});
+  }
+  core_.loop_operator.ask(request,
+                          [on_set = std::move(on_set), apply](const remote::Answer& answer) {
+                            if (answer.verdict == remote::Verdict::done) {
+                              apply();
+                              return on_set({});
+                            }
+                            on_set(answer.text.empty() ? "refused" : answer.text);
+                          });
 }
 
 }  // namespace articula::ros2

@@ -24,19 +24,28 @@ class FixedParameters final : public ParameterStore {
 };
 
 /// The parameters of a controller: its gains as gains.<joint>.<gain>, which the loop checks and sets
-/// between two cycles; its joints and interfaces, which are read-only.
+/// between two cycles; constraints of trajectories that bring no tolerances; its joints and
+/// interfaces, which are read-only.
 class ControllerParameters final : public ParameterStore {
  public:
   /// @param core        outlives this
   /// @param controller  likewise
-  ControllerParameters(BridgeCore& core, const BridgedController& controller);
+  ControllerParameters(BridgeCore& core, BridgedController& controller);
 
   [[nodiscard]] std::vector<NodeParameter> list() override;
   void set(const NamedValues& values, OnSet on_set) override;
 
  private:
   BridgeCore& core_;
-  const BridgedController& controller_;
+  /// A constraint and its parameter.
+  struct Constraint {
+    std::string name;
+    double& value;
+    std::string description;
+  };
+  [[nodiscard]] std::vector<Constraint> constraints();
+
+  BridgedController& controller_;
   std::vector<NodeParameter> fixed_{};
 };
 

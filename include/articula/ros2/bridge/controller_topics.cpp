@@ -131,7 +131,9 @@ void ControllerTopics::take(const TrajectoryMessage& message) {
     return refuse("Incoming joint " + joint + " doesn't match the controller's joints.");
   }
   moving_since_.reset();
-  ask(to_request(message, core_.context.now));
+  remote::PlayTrajectory request = to_request(message, core_.context.now);
+  controller_.constraints.complete(request, controller_.joints);
+  ask(request);
 }
 
 void ControllerTopics::set(const remote::SetReference& reference, bool moves) {

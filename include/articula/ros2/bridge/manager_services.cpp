@@ -59,8 +59,8 @@ class Services final : public ManagerServices {
       response.controller = controllers();
       return response;
     });
-    on<srv::ListControllerTypes<Layout>>("list_controller_types",
-                                         [this](const auto&) { return controller_types(); });
+    on<srv::ListControllerTypes<Jazzy>>("list_controller_types",
+                                        [this](const auto&) { return controller_types(); });
     on<srv::ListHardwareComponents<Layout>>("list_hardware_components", [this](const auto&) {
       typename srv::ListHardwareComponents<Layout>::Response response;
       response.component = {component()};
@@ -77,7 +77,7 @@ class Services final : public ManagerServices {
     serve<srv::SwitchController<Layout>>(
         core.manager, "~/switch_controller",
         [this](const auto& request, const auto& reply) { switch_controllers(request, reply); });
-    serve<srv::SetHardwareComponentState<Layout>>(
+    serve<srv::SetHardwareComponentState<Jazzy>>(
         core.manager, "~/set_hardware_component_state",
         [this](const auto& request, const auto& reply) { set_hardware(request, reply); });
   }
@@ -156,7 +156,7 @@ class Services final : public ManagerServices {
   }
 
   [[nodiscard]] auto controller_types() const {
-    typename srv::ListControllerTypes<Layout>::Response response;
+    srv::ListControllerTypes<Jazzy>::Response response;
     for (const auto& own : controllers()) {
       if (contains(response.types, own.type)) continue;
       response.types.push_back(own.type);
@@ -180,17 +180,17 @@ class Services final : public ManagerServices {
         return response;
       });
     };
-    answer("load_controller", TypeOf<srv::LoadController<Layout>>(), "");
-    answer("configure_controller", TypeOf<srv::ConfigureController<Layout>>(), "");
-    answer("unload_controller", TypeOf<srv::UnloadController<Layout>>(),
+    answer("load_controller", TypeOf<srv::LoadController<Jazzy>>(), "");
+    answer("configure_controller", TypeOf<srv::ConfigureController<Jazzy>>(), "");
+    answer("unload_controller", TypeOf<srv::UnloadController<Jazzy>>(),
            "is compiled into the loop, which cannot unload it");
     if constexpr (Layout::distribution >= Distribution::jazzy) {
-      answer("cleanup_controller", TypeOf<srv::CleanupController<Layout>>(),
+      answer("cleanup_controller", TypeOf<srv::CleanupController<Jazzy>>(),
              "is compiled into the loop and always configured");
     }
-    on<srv::ReloadControllerLibraries<Layout>>("reload_controller_libraries", [this](const auto&) {
+    on<srv::ReloadControllerLibraries<Jazzy>>("reload_controller_libraries", [this](const auto&) {
       refuse("reload_controller_libraries: the controllers are compiled into the loop");
-      return typename srv::ReloadControllerLibraries<Layout>::Response{};
+      return srv::ReloadControllerLibraries<Jazzy>::Response{};
     });
   }
 
@@ -298,12 +298,12 @@ class Services final : public ManagerServices {
     return own;
   }
 
-  void set_hardware(const typename srv::SetHardwareComponentState<Layout>::Request& request,
-                    const Reply<srv::SetHardwareComponentState<Layout>>& reply) {
+  void set_hardware(const srv::SetHardwareComponentState<Jazzy>::Request& request,
+                    const Reply<srv::SetHardwareComponentState<Jazzy>>& reply) {
     const auto answer = [this, reply](bool ok, const std::string& text) {
       if (!ok) refuse("set_hardware_component_state: " + text);
       core_.watch.situation = core_.port.situation();
-      typename srv::SetHardwareComponentState<Layout>::Response response;
+      srv::SetHardwareComponentState<Jazzy>::Response response;
       response.ok = ok;
       const State state = hardware_state();
       response.state.id = state.id;

@@ -76,6 +76,7 @@ class Action final : public TrajectoryAction {
     request.goal_tolerances = to_request(goal.goal_tolerance);
     const double goal_time = seconds_of(goal.goal_time_tolerance);
     request.goal_time = goal_time < 0 ? -1 : goal_time;
+    controller_.constraints.complete(request, controller_.joints);
     running_[id] = {.order = ++last_order_,
                     .first_cycle = core_.watch.cycle.number,
                     .asked = core_.context.now};
