@@ -143,8 +143,8 @@ class Outside {
     const std::lock_guard lock(mutex_);
     pump();
     const std::uint64_t number = ++clients_.of(client).last_request;
-    const auto refuse = [&](std::string text) {
-      clients_.of(client).answers.push_back({number, Verdict::refused, std::move(text)});
+    const auto refuse = [&](std::string text, TrajectoryOutcome outcome = TrajectoryOutcome::idle) {
+      clients_.of(client).answers.push_back({number, Verdict::refused, std::move(text), outcome});
       return number;
     };
     // Whoever may operate may stop, also without the controls.
@@ -158,6 +158,8 @@ class Outside {
       return refuse("too many requests are waiting for the loop");
     try {
       hand_over(client, number, request);
+    } catch (const TrajectoryError& error) {
+      return refuse(error.what(), error.outcome());
     } catch (const std::exception& error) {
       return refuse(error.what());
     }

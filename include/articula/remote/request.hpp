@@ -4,9 +4,11 @@
 
 #include "articula/reference/joint_signals.hpp"
 #include "articula/reference/trajectory/named_trajectory.hpp"
+#include "articula/reference/trajectory/trajectory_outcome.hpp"
 #include "articula/remote/gains/parameter.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -49,9 +51,24 @@ struct SetReference {
   std::vector<JointValue> efforts{};     ///< [N m or N]
 };
 
+/// How far a joint may be from a trajectory. 0: as configured, -1: any distance.
+struct NamedTolerance {
+  std::string joint{};
+  double position = 0;  ///< [rad or m]
+  double velocity = 0;  ///< [rad/s or m/s]
+};
+
 /// Follows a trajectory from the present reference. Its answer comes when the trajectory has ended.
 struct PlayTrajectory {
   NamedTrajectory trajectory{};
+  std::vector<NamedTolerance> path_tolerances{};  ///< before the end
+  std::vector<NamedTolerance> goal_tolerances{};  ///< at the end
+  double goal_time =
+      0;  ///< time to arrive after the last point [s]; 0: as configured, -1: unlimited
+  /// When it begins, after the request has come to the loop [s]. Until then the present motion goes on
+  /// if it is a trajectory, otherwise it stops. Negative: the points before are skipped. Without it,
+  /// the trajectory begins at once.
+  std::optional<double> delay{};
 };
 
 /// Adds signals to the present reference for a time. Then the reference moves back to where it was.
@@ -146,6 +163,8 @@ struct Answer {
   unsigned long long request = 0;
   Verdict verdict = Verdict::done;
   std::string text{};  ///< the reason of a refusal, or the outcome, as "goal reached"
+  /// Of a trajectory, if it began or was refused for what it is; otherwise idle.
+  TrajectoryOutcome outcome = TrajectoryOutcome::idle;
 };
 
 }  // namespace articula::remote

@@ -33,12 +33,19 @@ struct SheetMimic {
   double offset = 0;
 };
 
+/// The link to which a link is attached.
+struct SheetParent {
+  int link = -1;          ///< index in RobotSheet::links; -1 for the root
+  bool is_fixed = false;  ///< the link does not move in its parent's frame
+};
+
 /// What does not change while a loop runs: its robot, period and kind of command.
 struct RobotSheet {
   std::string name{};
   std::vector<SheetJoint> joints{};  ///< in the order of all vectors of numbers
   std::vector<SheetMimic> mimics{};
   std::vector<std::string> links{};     ///< all links, the root first
+  std::vector<SheetParent> parents{};   ///< of each link
   std::vector<std::string> commands{};  ///< the quantities of the loop's command, as "effort"
   std::string urdf{};                   ///< the robot as a URDF document, with visuals
   double period = 1e-3;                 ///< of the loop [s]

@@ -5,10 +5,12 @@
 #include "articula/core/command_parts.hpp"
 #include "articula/dynamics/forward_kinematics.hpp"
 #include "articula/remote/engine/loop_traits.hpp"
+#include "articula/remote/link_tree.hpp"
 #include "articula/remote/port.hpp"
 #include "articula/remote/robot_sheet.hpp"
 #include "articula/remote/urdf_text.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <type_traits>
@@ -51,8 +53,14 @@ template <class LoopType>
                               coupling.multiplier, coupling.offset});
     }
   }
-  for (const std::size_t i : sheet_links(robot)) {
+  const auto order = sheet_links(robot);
+  const std::vector<TreeLink> tree = link_tree(robot);
+  for (const std::size_t i : order) {
     sheet.links.emplace_back(model.links[i].name.view());
+    const auto parent = std::find(order.begin(), order.end(),
+                                  static_cast<std::size_t>(tree[i].parent));  // not there: the root
+    const int place = parent == order.end() ? -1 : static_cast<int>(parent - order.begin());
+    sheet.parents.push_back({place, tree[i].moving_body < 0});
   }
   const typename LoopType::Command command{};
   for (const auto& part : parts_of(command)) {

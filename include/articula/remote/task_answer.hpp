@@ -13,7 +13,7 @@ namespace articula::remote {
 /// Verdict and text on a task that the loop has given back. Real-time: no (allocates).
 /// @param robot  whose joints the text names
 template <Robot R>
-[[nodiscard]] Answer answer_to(const R& robot, const Task<R>& task) {
+[[nodiscard]] Answer answer_text(const R& robot, const Task<R>& task) {
   const std::string fault(to_string(task.status));
   const auto trajectory = [&] {
     std::string text(to_string(task.outcome));
@@ -71,6 +71,15 @@ template <Robot R>
   }
   return {.verdict = Verdict::timed_out,
           .text = "the loop did not take the request in time: does it run?"};
+}
+
+/// The answer to a task that the loop has given back. Real-time: no (allocates).
+/// @param robot  whose joints the text names
+template <Robot R>
+[[nodiscard]] Answer answer_to(const R& robot, const Task<R>& task) {
+  Answer answer = answer_text(robot, task);
+  answer.outcome = task.outcome;
+  return answer;
 }
 
 }  // namespace articula::remote

@@ -114,7 +114,25 @@ class TaskMaker {
                    limits_of(j).velocity * (1 + 1e-9));  // rounding
       }
     }
-    return task::Follow<R>{trajectory};
+    task::Follow<R> wish{.trajectory = trajectory, .delay = play.delay};
+    put_tolerances(play.path_tolerances, wish.tolerances.path_position,
+                   wish.tolerances.path_velocity);
+    put_tolerances(play.goal_tolerances, wish.tolerances.goal_position,
+                   wish.tolerances.stopped_velocity);
+    wish.tolerances.goal_time = play.goal_time;
+    if (play.delay && !is_finite(*play.delay)) {
+      refuse({"trajectory: delay ", *play.delay, " s is not a finite number"});
+    }
+    return wish;
+  }
+
+  void put_tolerances(const std::vector<NamedTolerance>& named, Vector& position,
+                      Vector& velocity) const {
+    for (const NamedTolerance& own : named) {
+      const int joint = joint_index(robot_, checked_name(own.joint));
+      position[joint] = own.position;
+      velocity[joint] = own.velocity;
+    }
   }
 
   [[nodiscard]] Wish make_wish(const PlaySignals& play, const Reference& present) const {

@@ -88,7 +88,7 @@ class MotionControl {
   }
   void begin(Task<R>& own, task::Follow<R>& wish) noexcept {
     if (!can_begin(own)) return;
-    own.outcome = source_.follow(reference(), wish.trajectory);
+    own.outcome = source_.follow(reference(), wish.trajectory, wish.tolerances, wish.delay);
     own.refusal = source_.refusal();
     if (own.outcome != TrajectoryOutcome::active) return returns_.finish(own, TaskEnd::refused);
     replace(own, TaskEnd::open);

@@ -25,6 +25,7 @@ class ReferenceSource {
   using Reference = JointReference<joint_count>;
   using Follower = TrajectoryFollower<R, trajectory_capacity>;
   using Signals = JointSignals<R>;
+  using Tolerances = TrajectoryTolerances<joint_count>;
 
   /// At rest.
   /// @param limits      of profiles and stops
@@ -32,7 +33,8 @@ class ReferenceSource {
   /// @throws std::invalid_argument naming joint, limit and value
   ReferenceSource(const R& robot, const MotionLimits<joint_count>& limits,
                   const TrajectoryTolerances<joint_count>& tolerances)
-      : follower_(robot, JointVector<joint_count>::Zero(), limits, {.tolerances = tolerances}),
+      : tolerances_(tolerances),
+        follower_(robot, JointVector<joint_count>::Zero(), limits, {.tolerances = tolerances}),
         stop_(robot, JointVector<joint_count>::Zero(), limits),
         go_(robot, limits),
         set_(robot, limits) {
@@ -69,11 +71,17 @@ class ReferenceSource {
   }
 
   /// Begins a trajectory.
+  /// @param tolerances  in addition to the configured ones, see `overridden`
+  /// @param delay       until its time 0 [s]; without it, it begins at once
   /// @return active, or the reason of a refusal, see refusal(); the present motion then goes on
-  [[nodiscard]] TrajectoryOutcome follow(
-      const Reference& from, const Trajectory<R, trajectory_capacity>& trajectory) noexcept {
+  [[nodiscard]] TrajectoryOutcome follow(const Reference& from,
+                                         const Trajectory<R, trajectory_capacity>& trajectory,
+                                         const Tolerances& tolerances,
+                                         std::optional<double> delay = {}) noexcept {
     if (kind_ != MotionKind::trajectory) follower_.take_over(from, time_);
-    const TrajectoryOutcome outcome = follower_.start(trajectory);
+    const double start = delay ? time_ + *delay : Follower::now;
+    const TrajectoryOutcome outcome =
+        follower_.start(trajectory, overridden(tolerances_, tolerances), start);
     if (outcome == TrajectoryOutcome::active) kind_ = MotionKind::trajectory;
     return outcome;
   }
@@ -143,6 +151,7 @@ class ReferenceSource {
  private:
   MotionKind kind_ = MotionKind::rest;
   double time_ = 0;  ///< the clock of trajectories [s]
+  Tolerances tolerances_;
   Follower follower_;
   StopAndReturn<R> stop_;
   GoMotion<R> go_;

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct Set {
 template <Robot R>
 struct Follow {
   Trajectory<R, trajectory_capacity> trajectory;
+  TrajectoryTolerances<articula::joint_count<R>> tolerances{
+      .stopped_velocity =
+          JointVector<articula::joint_count<R>>::Zero()};  ///< as `overridden` reads them
+  std::optional<double> delay{};                           ///< [s]
 };
 template <Robot R>
 struct Play {

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/ros2/bridge/bridge_thread.hpp"
+
+#include "articula/core/refuse.hpp"
+#include "articula/ros2/bridge/bridge.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace articula::ros2 {
+
+struct BridgeThread::Parts {
+  Parts(remote::Port& port, std::unique_ptr<Transport> own_transport, const BridgeOptions& options)
+      : transport(std::move(own_transport)), bridge(port, checked(), options) {}
+
+  [[nodiscard]] Transport& checked() const {
+    if (transport == nullptr) articula::detail::refuse({"ros2: there is no transport"});
+    return *transport;
+  }
+
+  void run() {
+    try {
+      while (runs) {
+        transport->poll(std::chrono::milliseconds(2));
+        bridge.update(std::chrono::system_clock::now().time_since_epoch());
+        const std::lock_guard lock(mutex);
+        dropped = bridge.dropped();
+      }
+    } catch (const std::exception& caught) {
+      const std::lock_guard lock(mutex);
+      error = caught.what();
+    }
+  }
+
+  std::unique_ptr<Transport> transport;
+  Bridge bridge;  ///< ends before the transport
+  std::atomic<bool> runs = true;
+  std::mutex mutex{};
+  DroppedMessages dropped{};  ///< under the mutex
+  std::string error{};        ///< likewise
+  std::thread thread{};
+};
+
+BridgeThread::BridgeThread(remote::Port& port, std::unique_ptr<Transport> transport,
+                           const BridgeOptions& options)
+    : parts_(std::make_unique<Parts>(port, std::move(transport), options)) {
+  parts_->thread = std::thread([parts = parts_.get()] { parts->run(); });
+}
+
+BridgeThread::~BridgeThread() {
+  parts_->runs = false;
+  parts_->thread.join();
+}
+
+DroppedMessages BridgeThread::dropped() const {
+  const std::lock_guard lock(parts_->mutex);
+  return parts_->dropped;
+}
+
+std::string BridgeThread::error() const {
+  const std::lock_guard lock(parts_->mutex);
+  return parts_->error;
+}
+
+}  // namespace articula::ros2

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/ros2/bridge/controller_topics.hpp"
+
+#include "articula/ros2/node/service.hpp"
+#include "articula/ros2/node/subscription.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace articula::ros2 {
+
+namespace {
+
+using Values = std::vector<double>;
+
+/// The same point in the layout of a distribution.
+template <class Layout>
+trajectory_msgs::msg::JointTrajectoryPoint<Layout> convert(const TrajectoryPointMessage& from) {
+  return {from.positions, from.velocities, from.accelerations, from.effort, from.time_from_start};
+}
+
+/// The state of a follower of trajectories.
+template <class Layout>
+control_msgs::msg::JointTrajectoryControllerState<Layout> state_of(
+    const std_msgs::msg::Header<Jazzy>& header, const std::vector<std::string>& joints,
+    const CyclePoints& points) {
+  control_msgs::msg::JointTrajectoryControllerState<Layout> state;
+  state.header = {header.stamp, header.frame_id};
+  state.joint_names = joints;
+  state.reference = convert<Layout>(points.reference);
+  state.feedback = convert<Layout>(points.measured);
+  state.error = convert<Layout>(points.error);
+  state.output = convert<Layout>(points.output);
+  if constexpr (Layout::distribution == Distribution::humble) {
+    state.desired = state.reference;
+    state.actual = state.feedback;
+  } else {
+    state.speed_scaling_factor = 1;
+  }
+  return state;
+}
+
+std::vector<remote::JointValue> named(const std::vector<std::string>& joints,
+                                      const Values& values) {
+  std::vector<remote::JointValue> all;
+  for (std::size_t k = 0; k < values.size(); ++k) all.push_back({joints[k], values[k]});
+  return all;
+}
+
+bool any(const Values& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+}
+
+}  // namespace
+
+ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
+                                   const BridgedController& controller)
+    : core_(core), controller_(controller), state_due_(core.options.controller_state_rate) {
+  const auto& joints = core.port.robot().joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (std::find(controller.joints.begin(), controller.joints.end(), joints[j].name) !=
+        controller.joints.end()) {
+      joints_.push_back(j);
+    }
+  }
+  if (core.options.distribution == Distribution::humble) {
+    humble_state_.emplace(node, "~/controller_state", quality_of_service::states);
+  } else {
+    state_.emplace(node, "~/controller_state", quality_of_service::states);
+  }
+  const auto in = quality_of_service::states;
+  const auto taken = [this](const auto& message) { take(message); };
+  subscribe<std_msgs::msg::Float64MultiArray<Jazzy>>(node, "~/commands", in, taken);
+  subscribe<TrajectoryPointMessage>(node, "~/reference", in, taken);
+  subscribe<TrajectoryMessage>(node, "~/joint_trajectory", in, taken);
+  serve<control_msgs::srv::QueryTrajectoryState<Jazzy>>(
+      node, "~/query_state",
+      [this](const auto& request, const auto& reply) { reply.send(query(request.time)); });
+}
+
+void ControllerTopics::update() {
+  if (moving_since_ &&
+      core_.context.now - *moving_since_ > to_duration(core_.options.controls_time)) {
+    moving_since_.reset();
+    refuse("no reference has followed one with a velocity: the joints stop");
+    ask(remote::Stop{});
+  }
+  if (!core_.watch.has_cycle || !state_due_.due(core_.context.now)) return;
+  const CyclePoints points = points_of(core_.watch.cycle, joints_, core_.port.robot().commands);
+  if (humble_state_) {
+    humble_state_->publish(state_of<Humble>(core_.header(), controller_.joints, points));
+  } else {
+    state_->publish(state_of<Jazzy>(core_.header(), controller_.joints, points));
+  }
+}
+
+void ControllerTopics::take(const std_msgs::msg::Float64MultiArray<Jazzy>& message) {
+  if (!is_active("commands")) return;
+  if (message.data.size() != controller_.joints.size()) {
+    return refuse("commands: " + std::to_string(message.data.size()) + " numbers for " +
+                  std::to_string(controller_.joints.size()) + " joints");
+  }
+  remote::SetReference reference;
+  auto& column = controller_.quantity == "position"   ? reference.positions
+                 : controller_.quantity == "velocity" ? reference.velocities
+                                                      : reference.efforts;
+  column = named(controller_.joints, message.data);
+  set(reference, controller_.quantity == "velocity" && any(message.data));
+}
+
+void ControllerTopics::take(const TrajectoryPointMessage& message) {
+  if (!is_active("reference")) return;
+  for (const Values* values : {&message.positions, &message.velocities, &message.effort}) {
+    if (values->empty() || values->size() == controller_.joints.size()) continue;
+    return refuse("reference: " + std::to_string(values->size()) + " numbers for " +
+                  std::to_string(controller_.joints.size()) + " joints");
+  }
+  set({.positions = named(controller_.joints, message.positions),
+       .velocities = named(controller_.joints, message.velocities),
+       .efforts = named(controller_.joints, message.effort)},
+      any(message.velocities));
+}
+
+void ControllerTopics::take(const TrajectoryMessage& message) {
+  if (!is_active("joint_trajectory")) return;
+  for (const std::string& joint : message.joint_names) {
+    if (std::find(controller_.joints.begin(), controller_.joints.end(), joint) !=
+        controller_.joints.end()) {
+      continue;
+    }
+    return refuse("Incoming joint " + joint + " doesn't match the controller's joints.");
+  }
+  moving_since_.reset();
+  remote::PlayTrajectory request = to_request(message, core_.context.now);
+  controller_.constraints.complete(request, controller_.joints);
+  ask(request);
+}
+
+void ControllerTopics::set(const remote::SetReference& reference, bool moves) {
+  moving_since_ = moves ? std::optional(core_.context.now) : std::nullopt;
+  ask(reference);
+}
+
+void ControllerTopics::ask(const remote::Request& request) {
+  core_.loop_operator.ask(request, [this](const remote::Answer& answer) {
+    if (answer.verdict != remote::Verdict::done) refuse(answer.text);
+  });
+}
+
+void ControllerTopics::refuse(const std::string& reason) {
+  core_.log.refuse(controller_.node, reason);
+}
+
+bool ControllerTopics::is_active(const char* topic) {
+  const bool active = core_.watch.is_active(controller_.name);
+  if (!active) refuse(std::string(topic) + ": controller '" + controller_.name + "' is not active");
+  return active;
+}
+
+control_msgs::srv::QueryTrajectoryState<Jazzy>::Response ControllerTopics::query(
+    const builtin_interfaces::msg::Time& time) const {
+  control_msgs::srv::QueryTrajectoryState<Jazzy>::Response response;
+  const auto& all = core_.watch.references;
+  const auto wanted = from_message(time);
+  if (!core_.watch.is_active(controller_.name)) {
+    response.message = "controller '" + controller_.name + "' is not active";
+    return response;
+  }
+  const auto later =
+      std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.time > wanted; });
+  if (later == all.begin() || (later == all.end() && wanted > core_.context.now)) {
+    response.message = "only references of the last cycles are known";
+    return response;
+  }
+  const PastReference& past = *std::prev(later);
+  response.success = true;
+  response.name = controller_.joints;
+  for (const std::size_t j : joints_) {
+    response.position.push_back(past.position[j]);
+    response.velocity.push_back(past.velocity[j]);
+    response.acceleration.push_back(past.acceleration[j]);
+  }
+  return response;
+}
+
+}  // namespace articula::ros2

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What is known of a loop: its last cycle, its situation, the last references.
+#pragma once
+
+#include "articula/remote/port.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string_view>
+#include <vector>
+
+namespace articula::ros2 {
+
+/// The reference of a cycle and its time in ROS.
+struct PastReference {
+  std::chrono::nanoseconds time{0};
+  std::vector<double> position{};      ///< [rad or m]
+  std::vector<double> velocity{};      ///< [rad/s or m/s]
+  std::vector<double> acceleration{};  ///< [rad/s^2 or m/s^2]
+};
+
+/// Reads the cycles of a loop. In the thread that polls the transport. Real-time: no (allocates).
+class LoopWatch {
+ public:
+  static constexpr std::size_t kept_references = 2000;
+
+  /// @param port     outlives this
+  /// @param session  likewise
+  LoopWatch(remote::Port& port, remote::Session& session) : port_(port), session_(session) {}
+
+  /// Reads what is new.
+  /// @param now           of ROS
+  /// @param use_sim_time  ROS has the loop's time
+  void update(std::chrono::nanoseconds now, bool use_sim_time) {
+    situation = port_.situation();
+    const std::size_t known = references.size();
+    while (session_.next(cycle)) {
+      has_cycle = true;
+      references.push_back({std::chrono::nanoseconds(static_cast<std::int64_t>(cycle.time * 1e9)),
+                            cycle.reference_position, cycle.reference_velocity,
+                            cycle.reference_acceleration});
+    }
+    if (!use_sim_time && references.size() > known) {
+      const auto shift = now - references.back().time;
+      for (std::size_t i = known; i < references.size(); ++i) references[i].time += shift;
+    }
+    while (references.size() > kept_references) references.pop_front();
+  }
+
+  /// The state of a controller.
+  [[nodiscard]] bool is_active(std::string_view controller) const {
+    if (situation.mode != LoopMode::active) return false;
+    for (const ControllerInfo& info : situation.controllers) {
+      if (info.name.view() == controller) return info.status == ControllerStatus::active;
+    }
+    return false;
+  }
+
+  remote::Situation situation{};
+  remote::Cycle cycle{};  ///< the last one
+  bool has_cycle = false;
+  std::deque<PastReference> references{};  ///< the last ones, oldest first
+
+ private:
+  remote::Port& port_;
+  remote::Session& session_;
+};
+
+}  // namespace articula::ros2

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The tolerances of a controller's trajectories that bring none.
+#pragma once
+
+#include "articula/remote/request.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace articula::ros2 {
+
+/// The constraints of a joint_trajectory_controller, by its parameters' names. 0: as the loop has it.
+struct TrajectoryConstraints {
+  /// Of one joint.
+  struct Joint {
+    double trajectory = 0;  ///< before the end [rad or m]
+    double goal = 0;        ///< at the end [rad or m]
+  };
+
+  double goal_time = 0;                   ///< time to arrive after the last point [s]
+  double stopped_velocity_tolerance = 0;  ///< at the end [rad/s or m/s]
+  std::vector<Joint> joints{};            ///< in the order of the controller's joints
+
+  /// Puts constraints where a request has no tolerance of its own.
+  /// @param names  of the controller's joints
+  /// Real-time: no (allocates).
+  void complete(remote::PlayTrajectory& request, const std::vector<std::string>& names) const {
+    const auto put = [](double& value, double own) {
+      if (value == 0) value = own;
+    };
+    const auto of = [](std::vector<remote::NamedTolerance>& all,
+                       const std::string& name) -> remote::NamedTolerance& {
+      const auto found =
+          std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.joint == name; });
+      return found == all.end() ? all.emplace_back(remote::NamedTolerance{.joint = name}) : *found;
+    };
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      put(of(request.path_tolerances, names[j]).position, joints[j].trajectory);
+      auto& at_goal = of(request.goal_tolerances, names[j]);
+      put(at_goal.position, joints[j].goal);
+      put(at_goal.velocity, stopped_velocity_tolerance);
+    }
+    put(request.goal_time, goal_time);
+  }
+};
+
+}  // namespace articula::ros2

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// ROS 2's tools see a loop's controllers, joints and frames, and switch controllers and hardware.
+#include "articula/ros2/messages/controller_manager_msgs.hpp"
+#include "articula/ros2/messages/rcl_interfaces.hpp"
+#include "articula/ros2/messages/sensor_msgs.hpp"
+#include "articula/ros2/messages/tf2_msgs.hpp"
+
+#include "bridged_arm.hpp"
+
+#include <algorithm>
+#include <string>
+
+using namespace articula;
+using namespace articula::ros2;
+namespace srv = controller_manager_msgs::srv;
+namespace msg = controller_manager_msgs::msg;
+using support::BridgedArm;
+using support::elbow_joint;
+using support::shoulder_joint;
+
+namespace {
+
+using Switching = srv::SwitchController<Jazzy>;
+using SetHardware = srv::SetHardwareComponentState<Jazzy>;
+const std::string manager = "/controller_manager/";
+
+template <class Layout = Jazzy>
+msg::ControllerState<Layout> controller(BridgedArm& arm, const std::string& name) {
+  const auto list = arm.call<srv::ListControllers<Layout>>(manager + "list_controllers");
+  for (const auto& own : list.controller) {
+    if (own.name == name) return own;
+  }
+  FAIL("no such controller: " << name);
+  return {};
+}
+
+SetHardware::Response set_hardware(BridgedArm& arm, const std::string& label) {
+  SetHardware::Request request;
+  request.name = "q2d";
+  request.target_state.label = label;
+  return arm.call<SetHardware>(manager + "set_hardware_component_state", request);
+}
+
+Switching::Response switch_to(BridgedArm& arm, std::vector<std::string> start,
+                              std::vector<std::string> stop, int strictness = 2) {
+  Switching::Request request;
+  request.activate_controllers = std::move(start);
+  request.deactivate_controllers = std::move(stop);
+  request.strictness = strictness;
+  return arm.call<Switching>(manager + "switch_controller", request);
+}
+
+}  // namespace
+
+TEST_CASE("the hardware is activated and deactivated by its name") {
+  BridgedArm arm;
+  CHECK(controller(arm, "pid_plus_gravity").state == "inactive");
+  const auto active = set_hardware(arm, "active");
+  CHECK(active.ok);
+  CHECK(active.state.label == "active");
+  CHECK(active.state.id == 3);
+  CHECK(controller(arm, "pid_plus_gravity").state == "active");
+  CHECK(set_hardware(arm, "active").ok);
+  CHECK_FALSE(set_hardware(arm, "finalized").ok);
+  const auto inactive = set_hardware(arm, "inactive");
+  CHECK(inactive.ok);
+  CHECK(inactive.state.id == 2);
+  SetHardware::Request other;
+  other.name = "arm";
+  other.target_state.label = "active";
+  CHECK_FALSE(arm.call<SetHardware>(manager + "set_hardware_component_state", other).ok);
+}
+
+TEST_CASE("controllers are listed with what they claim") {
+  BridgedArm arm;
+  set_hardware(arm, "active");
+  const auto own = controller(arm, "pid_plus_gravity");
+  CHECK(own.type == "joint_trajectory_controller/JointTrajectoryController");
+  CHECK(own.claimed_interfaces ==
+        std::vector<std::string>{shoulder_joint + "/effort", elbow_joint + "/effort"});
+  CHECK(own.required_state_interfaces.size() == 6);
+  CHECK(own.update_rate == 1000);
+  CHECK(controller(arm, "computed_torque").claimed_interfaces.empty());
+  CHECK(controller(arm, "computed_torque").required_command_interfaces.size() == 2);
+  CHECK(controller(arm, "joint_state_broadcaster").state == "active");
+  const auto types = arm.call<srv::ListControllerTypes<Jazzy>>(manager + "list_controller_types");
+  CHECK(types.types.size() == 2);
+  CHECK(types.base_classes.size() == 2);
+}
+
+TEST_CASE("the hardware is listed with its interfaces") {
+  BridgedArm arm;
+  set_hardware(arm, "active");
+  const auto list =
+      arm.call<srv::ListHardwareComponents<Jazzy>>(manager + "list_hardware_components");
+  REQUIRE(list.component.size() == 1);
+  const auto& own = list.component[0];
+  CHECK(own.name == "q2d");
+  CHECK(own.type == "system");
+  CHECK(own.rw_rate == 1000);
+  CHECK(own.state.label == "active");
+  REQUIRE(own.command_interfaces.size() == 2);
+  CHECK(own.command_interfaces[0].is_claimed);
+  CHECK(own.state_interfaces.size() == 6);
+  const auto all =
+      arm.call<srv::ListHardwareInterfaces<Jazzy>>(manager + "list_hardware_interfaces");
+  CHECK(all.command_interfaces[1].name == elbow_joint + "/effort");
+  CHECK(all.command_interfaces[1].data_type == "double");
+  CHECK(all.state_interfaces[0].name == shoulder_joint + "/position");
+}
+
+TEST_CASE("controllers are switched, and refusals say why") {
+  BridgedArm arm;
+  const auto early = switch_to(arm, {"computed_torque"}, {"pid_plus_gravity"});
+  CHECK_FALSE(early.ok);
+  CHECK(early.message ==
+        "the hardware is not active: ros2 control set_hardware_component_state q2d active");
+  set_hardware(arm, "active");
+  const auto done = switch_to(arm, {"computed_torque"}, {"pid_plus_gravity"});
+  CHECK(done.ok);
+  CHECK(controller(arm, "computed_torque").state == "active");
+  CHECK(controller(arm, "pid_plus_gravity").state == "inactive");
+
+  const auto occupied = switch_to(arm, {"pid_plus_gravity"}, {});
+  CHECK_FALSE(occupied.ok);
+  CHECK(occupied.message.find("another controller is active") != std::string::npos);
+  CHECK(switch_to(arm, {"pid_plus_gravity"}, {}, 4).ok);  // by force
+  CHECK(controller(arm, "computed_torque").state == "inactive");
+
+  const auto unknown = switch_to(arm, {"ghost"}, {}, 0);
+  CHECK_FALSE(unknown.ok);
+  CHECK(unknown.message == "controller 'ghost': unknown name");
+  CHECK(switch_to(arm, {"ghost", "computed_torque"}, {"pid_plus_gravity"}, 1).ok);
+  CHECK(controller(arm, "computed_torque").state == "active");
+  CHECK_FALSE(switch_to(arm, {}, {}, -2).ok);
+  CHECK(switch_to(arm, {}, {}).ok);
+}
+
+TEST_CASE("the broadcaster of joint states is switched as a controller") {
+  BridgedArm arm;
+  const std::string name = "joint_state_broadcaster";
+  CHECK_FALSE(switch_to(arm, {name}, {}).ok);
+  CHECK(switch_to(arm, {}, {name}).ok);
+  CHECK(controller(arm, name).state == "inactive");
+  const auto count = arm.transport.topics["/joint_states"].count;
+  arm.run(50);
+  CHECK(arm.transport.topics["/joint_states"].count == count);
+  CHECK_FALSE(switch_to(arm, {}, {name}).ok);
+  CHECK(switch_to(arm, {name}, {}).ok);
+  arm.run(50);
+  CHECK(arm.transport.topics["/joint_states"].count >= count + 5);
+}
+
+TEST_CASE("what has no meaning for compiled controllers is answered so") {
+  BridgedArm arm;
+  const auto ok = [&]<class Service>(const char* service, TypeOf<Service>, const char* name) {
+    typename Service::Request request;
+    request.name = name;
+    return arm.call<Service>(manager + service, request).ok;
+  };
+  const auto load = TypeOf<srv::LoadController<Jazzy>>();
+  const auto configure = TypeOf<srv::ConfigureController<Jazzy>>();
+  CHECK(ok("load_controller", load, "computed_torque"));
+  CHECK_FALSE(ok("load_controller", load, "ghost"));
+  const auto line = arm.transport.last<rcl_interfaces::msg::Log<Jazzy>>("/rosout");
+  REQUIRE(line);
+  CHECK(line->level == 30);
+  CHECK(line->msg ==
+        "load_controller: there is no controller 'ghost'; the loop has joint_state_broadcaster, "
+        "pid_plus_gravity, computed_torque");
+  CHECK(ok("configure_controller", configure, "computed_torque"));
+  CHECK_FALSE(ok("configure_controller", configure, ""));
+  CHECK_FALSE(ok("unload_controller", TypeOf<srv::UnloadController<Jazzy>>(), "computed_torque"));
+  CHECK_FALSE(ok("cleanup_controller", TypeOf<srv::CleanupController<Jazzy>>(), "computed_torque"));
+  CHECK_FALSE(arm.call<srv::ReloadControllerLibraries<Jazzy>>(
+                     manager + "reload_controller_libraries", {.force_kill = true})
+                  .ok);
+}
+
+TEST_CASE("joint states, frames and the description come as RViz and MoveIt read them") {
+  BridgedArm arm;
+  set_hardware(arm, "active");
+  arm.run(1000);
+  const auto states = arm.transport.last<sensor_msgs::msg::JointState<Jazzy>>("/joint_states");
+  REQUIRE(states);
+  CHECK(states->name == std::vector<std::string>{shoulder_joint, elbow_joint});
+  CHECK(states->position.size() == 2);
+  CHECK(states->effort.size() == 2);
+  const auto stamp = std::chrono::seconds(states->header.stamp.sec);
+  CHECK((arm.now - stamp < std::chrono::seconds(1) && arm.now >= stamp));
+  const auto count = arm.transport.topics["/joint_states"].count;
+  CHECK((count >= 95 && count <= 105));  // 100 Hz
+  CHECK(arm.transport.topics["/robot_description"].endpoint.quality.transient_local);
+  const auto moving = arm.transport.last<tf2_msgs::msg::TFMessage<Jazzy>>("/tf");
+  const auto fixed = arm.transport.last<tf2_msgs::msg::TFMessage<Jazzy>>("/tf_static");
+  REQUIRE((moving && fixed));
+  CHECK(moving->transforms.size() == 2);
+  CHECK(moving->transforms.size() + fixed->transforms.size() + 1 ==
+        arm.loop->port().robot().links.size());
+  for (const auto& transform : moving->transforms) {
+    CHECK_FALSE(transform.header.frame_id.empty());
+    CHECK(transform.header.frame_id != transform.child_frame_id);
+  }
+  const auto activity =
+      arm.transport.last<msg::ControllerManagerActivity<Jazzy>>("/controller_manager/activity");
+  REQUIRE(activity);
+  REQUIRE(activity->controllers.size() == 3);
+  CHECK(activity->controllers[1].state.label == "active");
+  CHECK(activity->hardware_components[0].state.id == 3);
+}
+
+TEST_CASE("each distribution gets its layout, and Humble no hashes") {
+  BridgedArm humble({.distribution = Distribution::humble, .name_space = "/left"});
+  const std::string service = "/left/controller_manager/list_controllers";
+  CHECK(humble.transport.services.at(service).endpoint.hash.empty());
+  CHECK(humble.call<srv::ListControllers<Humble>>(service).controller.size() == 3);
+  CHECK(humble.transport.topics.contains("/left/joint_states"));
+  CHECK(humble.transport.topics.contains("/tf"));
+  CHECK_FALSE(humble.transport.topics.contains("/left/controller_manager/activity"));
+  BridgedArm rolling({.distribution = Distribution::rolling});
+  CHECK(controller<Rolling>(rolling, "computed_torque").update_rate == 1000);
+  CHECK(rolling.transport.services.at(manager + "list_controllers")
+            .endpoint.hash.starts_with("RIHS01_"));
+}
+
+TEST_CASE("a client that watches only cannot switch") {
+  BridgedArm arm({.operates = false});
+  CHECK_FALSE(set_hardware(arm, "active").ok);
+  CHECK(arm.bridge.dropped().refused == 1);
+}
+
+TEST_CASE("the controls go back to others when ROS has been silent") {
+  BridgedArm arm;
+  set_hardware(arm, "active");
+  CHECK(arm.loop->port().situation().operator_name == "ROS 2");
+  arm.run(1100);
+  CHECK(arm.loop->port().situation().operator_name.empty());
+  const auto session = arm.loop->port().connect("window", true);
+  CHECK(session->take_controls().empty());
+  const auto refused = set_hardware(arm, "inactive");
+  CHECK_FALSE(refused.ok);
+  CHECK(refused.state.label == "active");
+}
+
+TEST_CASE("options that make no sense are refused") {
+  const auto loop = support::switched_arm();
+  support::MemoryTransport transport;
+  const auto make = [&](const BridgeOptions& options) { Bridge(loop->port(), transport, options); };
+  CHECK_THROWS_WITH(make({.name_space = "left"}),
+                    "ros2: name_space 'left' does not begin with / or ends with it");
+  CHECK_THROWS_WITH(make({.state_rate = 0}), "ros2: state_rate 0 is not within 0 .. 1000000");
+  CHECK_THROWS(make({.command_quantities = {{"pid", "torque"}}}));
+}

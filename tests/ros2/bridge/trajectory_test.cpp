@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: Apache-2.0
+// ROS 2's clients move a loop's robot: by trajectories as goals or messages, by references, by commands.
+#include "articula/ros2/messages/action_msgs.hpp"
+#include "articula/ros2/messages/control_msgs.hpp"
+#include "articula/ros2/messages/controller_manager_msgs.hpp"
+#include "articula/ros2/messages/rcl_interfaces.hpp"
+#include "articula/ros2/node/ros_time.hpp"
+
+#include "bridged_arm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+using namespace articula;
+using namespace articula::ros2;
+using support::BridgedArm;
+using support::elbow_joint;
+using support::shoulder_joint;
+
+namespace {
+
+using Follow = control_msgs::action::FollowJointTrajectory<Jazzy>;
+using Send = SendGoal<Follow>;
+using Get = GetResult<Follow>;
+using Cancel = action_msgs::srv::CancelGoal<Jazzy>;
+using GoalState = action_msgs::msg::GoalStatus;
+using Point = trajectory_msgs::msg::JointTrajectoryPoint<Jazzy>;
+using Numbers = std_msgs::msg::Float64MultiArray<Jazzy>;
+const std::string controller = "/pid_plus_gravity/",
+                  action = controller + "follow_joint_trajectory/_action/";
+
+/// An active arm.
+struct ActiveArm : BridgedArm {
+  using BridgedArm::BridgedArm;
+  explicit ActiveArm(const BridgeOptions& options = {}) : BridgedArm(options) {
+    REQUIRE(ask(remote::Activate{}).verdict == remote::Verdict::done);
+  }
+
+  std::vector<double> reference() {
+    const auto session = loop->port().connect("watcher", false);
+    remote::Cycle cycle;
+    run(1);
+    while (session->next(cycle)) {
+    }
+    return cycle.reference_position;
+  }
+  Send::Response send(std::uint8_t id, const Follow::Goal& goal) {
+    Send::Request request{.goal = goal};
+    request.goal_id.uuid[0] = id;
+    return call<Send>(action + "send_goal", request);
+  }
+  /// Asks for a result, which may come later.
+  std::shared_ptr<support::Bytes> result(std::uint8_t id) {
+    Get::Request request;
+    request.goal_id.uuid[0] = id;
+    return transport.request(action + "get_result", support::bytes_of(request));
+  }
+  Get::Response wait_for(std::uint8_t id) { return reply_to<Get>(result(id), 5000); }
+  std::int8_t status(std::uint8_t id) {
+    const auto all = transport.last<action_msgs::msg::GoalStatusArray<Jazzy>>(action + "status");
+    REQUIRE(all);
+    for (const auto& own : all->status_list) {
+      if (own.goal_info.goal_id.uuid[0] == id) return own.status;
+    }
+    return 0;
+  }
+  /// Whether one of the last lines of the log has these words.
+  bool logged(const std::string& words) {
+    return std::ranges::any_of(transport.topics["/rosout"].sent, [&](const auto& bytes) {
+      rcl_interfaces::msg::Log<Jazzy> line;
+      return decode(bytes, line) == CdrError::none && line.msg.find(words) != std::string::npos;
+    });
+  }
+};
+
+/// A goal for both joints.
+Follow::Goal goal_to(double shoulder, double elbow, std::int32_t seconds) {
+  Follow::Goal goal;
+  goal.trajectory.joint_names = {elbow_joint, shoulder_joint};
+  goal.trajectory.points = {{.positions = {elbow, shoulder}, .time_from_start = {seconds, 0}}};
+  return goal;
+}
+
+}  // namespace
+
+TEST_CASE("a goal is accepted, gives feedback, and succeeds") {
+  ActiveArm arm;
+  const auto accepted = arm.send(1, goal_to(0.3, -0.2, 1));
+  CHECK(accepted.accepted);
+  CHECK(accepted.stamp.sec == 1'700'000'000);
+  CHECK(arm.status(1) == GoalState::executing);
+  const auto result = arm.result(1);
+  arm.run(500);
+  CHECK(result->empty());
+  const auto feedback = arm.transport.last<FeedbackMessage<Follow>>(action + "feedback");
+  REQUIRE(feedback);
+  CHECK(feedback->goal_id.uuid[0] == 1);
+  CHECK(feedback->feedback.joint_names == std::vector<std::string>{shoulder_joint, elbow_joint});
+  CHECK(feedback->feedback.desired.positions[0] > 0.05);
+  CHECK(std::abs(feedback->feedback.error.positions[0]) < 0.05);
+  const auto count = arm.transport.topics[action + "feedback"].count;
+  CHECK((count >= 8 && count <= 12));  // 20 Hz
+  const auto response = arm.reply_to<Get>(result, 2000);
+  CHECK(response.status == GoalState::succeeded);
+  CHECK(response.result.error_code == 0);
+  CHECK(response.result.error_string == "Goal successfully reached!");
+  CHECK(arm.reference() == std::vector<double>{0.3, -0.2});
+  CHECK(arm.status(1) == GoalState::succeeded);
+  CHECK(arm.wait_for(1).status == GoalState::succeeded);  // again
+  arm.run(10100);
+  CHECK(arm.status(1) == 0);
+  CHECK(arm.wait_for(1).status == 0);
+}
+
+TEST_CASE("goals that cannot be followed are rejected, and the log says why") {
+  BridgedArm inactive;
+  Send::Request request{.goal = goal_to(0.1, 0.1, 1)};
+  CHECK_FALSE(inactive.call<Send>(action + "send_goal", request).accepted);
+  CHECK(inactive.transport.last<rcl_interfaces::msg::Log<Jazzy>>("/rosout")->msg ==
+        "Can't accept new action goals. Controller is not running.");
+
+  ActiveArm arm;
+  const auto rejected = [&](const Follow::Goal& goal, const std::string& words) {
+    CHECK_FALSE(arm.send(9, goal).accepted);
+    INFO(words);
+    CHECK(arm.logged(words));
+    arm.transport.topics["/rosout"].sent.clear();
+  };
+  auto goal = goal_to(0.1, 0.1, 1);
+  goal.trajectory.joint_names[0] = "knee";
+  rejected(goal, "Incoming joint knee doesn't match the controller's joints.");
+  goal = goal_to(0.1, 0.1, 1);
+  goal.trajectory.points[0].positions.pop_back();
+  rejected(goal, "1 positions for 2 joints");
+  goal = goal_to(0.1, 0.1, 1);
+  goal.trajectory.points.push_back(goal.trajectory.points[0]);
+  rejected(goal, "time_from_start");
+  rejected(goal_to(2, 0, 1), "position");
+  rejected(goal_to(std::nan(""), 0, 1), "nan");
+  rejected({}, "trajectory");
+  goal = goal_to(0.1, 0.1, 1);
+  goal.path_tolerance = {{.name = shoulder_joint, .position = -0.5}};
+  rejected(goal, "path_position");
+  goal = goal_to(0.1, 0.1, 1);
+  goal.trajectory.header.stamp = {1, 0};  // long ago
+  rejected(goal, "old header timestamp");
+  CHECK(arm.bridge.dropped().refused == 8);
+  CHECK(arm.send(9, goal_to(0.1, 0.1, 1)).accepted);
+  CHECK_FALSE(arm.send(9, goal_to(0.1, 0.1, 1)).accepted);  // the same identifier
+}
+
+TEST_CASE("a goal with a stamp begins at that time") {
+  ActiveArm arm;
+  auto goal = goal_to(0.2, 0.2, 1);
+  const auto begin = arm.now + std::chrono::seconds(1);
+  goal.trajectory.header.stamp = to_message<builtin_interfaces::msg::Time>(begin);
+  REQUIRE(arm.send(1, goal).accepted);
+  arm.run(900);
+  CHECK(arm.reference() == std::vector<double>{0, 0});
+  arm.run(500);
+  CHECK(arm.reference()[0] > 0.01);
+  const auto response = arm.wait_for(1);
+  CHECK(response.status == GoalState::succeeded);
+  const auto end = arm.now - begin;
+  CHECK((end >= std::chrono::milliseconds(990) && end < std::chrono::milliseconds(1100)));
+}
+
+TEST_CASE("a goal outside of its path tolerances is aborted with the code of ROS") {
+  ActiveArm arm;
+  auto goal = goal_to(1, -1, 1);
+  goal.path_tolerance = {{.name = shoulder_joint, .position = 1e-7}};
+  REQUIRE(arm.send(1, goal).accepted);
+  const auto response = arm.wait_for(1);
+  CHECK(response.status == GoalState::aborted);
+  CHECK(response.result.error_code == Follow::path_tolerance_violated);
+  CHECK(response.result.error_string == "Aborted due to path tolerance violation");
+}
+
+TEST_CASE("a goal that does not arrive in time is aborted with the code of ROS") {
+  ActiveArm arm;
+  auto goal = goal_to(1, -1, 1);
+  goal.goal_tolerance = {{.name = elbow_joint, .position = 1e-12, .velocity = 1e-12}};
+  goal.goal_time_tolerance = {0, 20'000'000};
+  REQUIRE(arm.send(1, goal).accepted);
+  const auto response = arm.wait_for(1);
+  CHECK(response.status == GoalState::aborted);
+  CHECK(response.result.error_code == Follow::goal_tolerance_violated);
+  CHECK(response.result.error_string.starts_with("Aborted due to goal_time_tolerance"));
+}
+
+TEST_CASE("a canceled goal stops the robot") {
+  ActiveArm arm;
+  REQUIRE(arm.send(1, goal_to(1, -1, 2)).accepted);
+  const auto result = arm.result(1);
+  arm.run(800);
+  const auto canceled = arm.call<Cancel>(action + "cancel_goal");  // all goals
+  CHECK(canceled.return_code == Cancel::none);
+  REQUIRE(canceled.goals_canceling.size() == 1);
+  CHECK(canceled.goals_canceling[0].goal_id.uuid[0] == 1);
+  const auto response = arm.reply_to<Get>(result);
+  CHECK(response.status == GoalState::canceled);
+  CHECK(response.result.error_code == 0);
+  arm.run(1000);
+  CHECK(arm.loop->port().situation().motion == "rest");
+  CHECK(arm.reference()[0] < 0.9);
+  Cancel::Request request;
+  request.goal_info.goal_id.uuid[0] = 1;
+  CHECK(arm.call<Cancel>(action + "cancel_goal", request).return_code == Cancel::goal_terminated);
+  request.goal_info.goal_id.uuid[0] = 7;
+  CHECK(arm.call<Cancel>(action + "cancel_goal", request).return_code == Cancel::unknown_goal);
+}
+
+TEST_CASE("goals are canceled by the time of their acceptance") {
+  ActiveArm arm;
+  REQUIRE(arm.send(1, goal_to(1, -1, 2)).accepted);
+  const auto stamp = [&](std::chrono::nanoseconds time) {
+    Cancel::Request request;
+    request.goal_info.stamp = to_message<builtin_interfaces::msg::Time>(time);
+    return arm.call<Cancel>(action + "cancel_goal", request).goals_canceling.size();
+  };
+  CHECK(stamp(arm.now - std::chrono::seconds(1)) == 0);
+  CHECK(stamp(arm.now) == 1);
+}
+
+TEST_CASE("a new goal replaces the last one") {
+  ActiveArm arm;
+  REQUIRE(arm.send(1, goal_to(1, -1, 2)).accepted);
+  arm.run(500);
+  CHECK_FALSE(arm.send(2, goal_to(9, -1, 2)).accepted);
+  CHECK(arm.status(1) == GoalState::executing);
+  REQUIRE(arm.send(3, goal_to(0.5, 0, 2)).accepted);
+  const auto old = arm.wait_for(1);
+  CHECK(old.status == GoalState::canceled);
+  CHECK(old.result.error_code == Follow::invalid_goal);
+  CHECK(old.result.error_string == "Current goal cancelled due to new incoming action.");
+  CHECK(arm.wait_for(3).status == GoalState::succeeded);
+  CHECK(arm.reference() == std::vector<double>{0.5, 0});
+}
+
+TEST_CASE("a goal ends with its controller, with the loop, and with another client's motion") {
+  ActiveArm arm;
+  using Switching = controller_manager_msgs::srv::SwitchController<Jazzy>;
+  REQUIRE(arm.send(1, goal_to(1, -1, 2)).accepted);
+  Switching::Request switching;
+  switching.activate_controllers = {"computed_torque"};
+  switching.deactivate_controllers = {"pid_plus_gravity"};
+  switching.strictness = Switching::strict;
+  REQUIRE(arm.call<Switching>("/controller_manager/switch_controller", switching).ok);
+  auto response = arm.wait_for(1);
+  CHECK(response.status == GoalState::canceled);
+  CHECK(response.result.error_string == "Current goal cancelled during deactivate transition.");
+  std::swap(switching.activate_controllers, switching.deactivate_controllers);
+  REQUIRE(arm.call<Switching>("/controller_manager/switch_controller", switching).ok);
+
+  REQUIRE(arm.send(2, goal_to(1, -1, 2)).accepted);
+  arm.publish(controller + "joint_trajectory", goal_to(0.1, 0.1, 1).trajectory);
+  response = arm.wait_for(2);
+  CHECK(response.status == GoalState::aborted);
+  CHECK(response.result.error_code == Follow::invalid_goal);
+
+  REQUIRE(arm.send(3, goal_to(1, -1, 2)).accepted);
+  controller_manager_msgs::srv::SetHardwareComponentState<Jazzy>::Request hardware;
+  hardware.name = "q2d";
+  hardware.target_state.label = "inactive";
+  REQUIRE(arm.call<controller_manager_msgs::srv::SetHardwareComponentState<Jazzy>>(
+                 "/controller_manager/set_hardware_component_state", hardware)
+              .ok);
+  response = arm.wait_for(3);
+  CHECK(response.status == GoalState::canceled);
+  CHECK(response.result.error_string == "Current goal cancelled during deactivate transition.");
+}
+
+TEST_CASE("hundreds of goals leave a bounded list") {
+  ActiveArm arm;
+  for (int k = 1; k <= 200; ++k) {
+    const auto id = static_cast<std::uint8_t>(k);
+    CHECK(arm.send(id, goal_to(0.001 * k, 0, 1)).accepted);
+  }
+  const auto all = arm.transport.last<action_msgs::msg::GoalStatusArray<Jazzy>>(action + "status");
+  CHECK(all->status_list.size() <= 64);
+  CHECK(arm.wait_for(200).status == GoalState::succeeded);
+}
+
+TEST_CASE("a trajectory is published as a message") {
+  ActiveArm arm;
+  arm.publish(controller + "joint_trajectory", goal_to(0.2, 0.1, 1).trajectory);
+  arm.run(1100);
+  CHECK(arm.reference() == std::vector<double>{0.2, 0.1});
+  auto partial = goal_to(0, 0.3, 1).trajectory;
+  partial.joint_names.pop_back();
+  partial.points[0].positions.pop_back();
+  arm.publish(controller + "joint_trajectory", partial);
+  arm.run(1100);
+  CHECK(arm.reference() == std::vector<double>{0.2, 0.3});
+  CHECK(arm.bridge.dropped().refused == 0);
+}
+
+TEST_CASE("references and commands are published, checked, and refused for inactive controllers") {
+  ActiveArm arm;
+  arm.publish(controller + "reference", Point{.positions = {0.01, 0.02}});
+  arm.run(3);
+  CHECK(arm.reference() == std::vector<double>{0.01, 0.02});
+  arm.publish(controller + "commands", Numbers{.data = {0.03, -0.01}});
+  arm.run(3);
+  CHECK(arm.reference() == std::vector<double>{0.03, -0.01});
+  CHECK(arm.bridge.dropped().refused == 0);
+
+  arm.publish(controller + "commands", Numbers{.data = {0.1}});
+  CHECK(arm.logged("commands: 1 numbers for 2 joints"));
+  arm.publish(controller + "reference", Point{.positions = {5, 0}});
+  arm.run(3);
+  CHECK(arm.logged("position 5 of joint 'shoulder_active_joint'"));
+  arm.publish(controller + "reference", Point{.positions = {std::nan(""), 0}});
+  arm.publish("/computed_torque/reference", Point{.positions = {0, 0}});
+  CHECK(arm.logged("reference: controller 'computed_torque' is not active"));
+  arm.run(3);
+  CHECK(arm.bridge.dropped().refused == 4);
+  CHECK(arm.reference() == std::vector<double>{0.03, -0.01});
+}
+
+TEST_CASE("a reference with a velocity holds until its publisher falls silent") {
+  ActiveArm arm;
+  arm.publish(controller + "reference", Point{.positions = {0, 0}, .velocities = {0.1, 0}});
+  arm.run(900);
+  CHECK(arm.loop->port().situation().motion == "set");
+  arm.run(200);
+  CHECK(arm.loop->port().situation().motion != "set");
+  CHECK(arm.logged("the joints stop"));
+}
+
+TEST_CASE("commands of a controller without gains are efforts") {
+  BridgedArm arm({}, support::bypass_arm());
+  arm.publish("/bypass/commands", Numbers{.data = {1, 0.5}});
+  arm.run(50);
+  const auto state = arm.transport.last<control_msgs::msg::JointTrajectoryControllerState<Jazzy>>(
+      "/bypass/controller_state");
+  REQUIRE(state);
+  CHECK(state->output.effort == std::vector<double>{1, 0.5});
+  arm.publish("/bypass/commands", Numbers{.data = {28, 0}});  // above the limit
+  arm.run(3);
+  CHECK(arm.bridge.dropped().refused == 1);
+}
+
+TEST_CASE("the state of a controller has reference, measurement and error") {
+  ActiveArm arm;
+  arm.publish(controller + "commands", Numbers{.data = {0.02, 0.01}});
+  arm.run(1000);
+  const std::string topic = controller + "controller_state";
+  const auto state =
+      arm.transport.last<control_msgs::msg::JointTrajectoryControllerState<Jazzy>>(topic);
+  REQUIRE(state);
+  CHECK(state->joint_names == std::vector<std::string>{shoulder_joint, elbow_joint});
+  CHECK(state->reference.positions == std::vector<double>{0.02, 0.01});
+  CHECK(std::abs(state->feedback.positions[0] - 0.02) < 1e-3);
+  CHECK(state->error.positions[0] == 0.02 - state->feedback.positions[0]);
+  CHECK(state->output.effort.size() == 2);
+  CHECK(state->speed_scaling_factor == 1);
+}
+
+TEST_CASE("the reference at a time that has passed is asked for") {
+  using Query = control_msgs::srv::QueryTrajectoryState<Jazzy>;
+  ActiveArm arm;
+  arm.run(100);
+  REQUIRE(arm.send(1, goal_to(0.5, 0, 1)).accepted);
+  const auto begin = arm.now;
+  REQUIRE(arm.wait_for(1).status == GoalState::succeeded);
+  const auto at = [&](std::chrono::nanoseconds time) {
+    return arm.call<Query>(controller + "query_state",
+                           {.time = to_message<builtin_interfaces::msg::Time>(time)});
+  };
+  const auto half = at(begin + std::chrono::milliseconds(500));
+  REQUIRE(half.success);
+  CHECK(half.name.size() == 2);
+  CHECK(std::abs(half.position[0] - 0.25) < 0.02);
+  CHECK(half.velocity[0] > 0.3);
+  CHECK_FALSE(at(begin - std::chrono::seconds(100)).success);
+  CHECK_FALSE(at(arm.now + std::chrono::seconds(1)).success);
+}
+
+TEST_CASE("Rolling's goals give feedback in its layout") {
+  using Rolled = control_msgs::action::FollowJointTrajectory<Rolling>;
+  ActiveArm arm({.distribution = Distribution::rolling});
+  REQUIRE(arm.send(1, goal_to(0.1, 0, 1)).accepted);
+  arm.run(500);
+  const auto feedback = arm.transport.last<FeedbackMessage<Rolled>>(action + "feedback");
+  REQUIRE(feedback);
+  CHECK(feedback->feedback.joint_names.size() == 2);
+}
