@@ -25,8 +25,9 @@ struct MassMatrix {
     for (int i = B; i-- > 0;) {
       Wrench<S> wrench = unit_acceleration_wrench(composite[i], mechanism.bodies[i].prismatic);
       matrix[i][i] = along_axis(mechanism.bodies[i], wrench);
-      const double reflected = mechanism.bodies[i].reflected_inertia;
-      if (reflected != 0) matrix[i][i] = matrix[i][i] + S(reflected);
+      if (mechanism.bodies[i].reflected_inertia != 0) {
+        matrix[i][i] = matrix[i][i] + configuration[i].reflected_inertia;
+      }
       int j = i;
       while (mechanism.bodies[j].parent >= 0) {
         const Vector3<S> force = configuration[j].to_parent(wrench.force);

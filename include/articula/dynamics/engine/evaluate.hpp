@@ -76,8 +76,15 @@ inline constexpr bool has_alternative_for_numbers = [] {
   }
 }();
 
+/// A robot of the kind of a described one, with other numbers: it runs that robot's programs.
+template <class R>
+concept HasNumbers = requires(const R& robot) {
+  typename R::Nominal;
+  robot.numbers().data();
+};
+
 /// Runs an algorithm on a robot at positions q. A described robot runs the program which the
-/// compiler has made of `Algorithm::evaluate`. A model runs this function itself, with the
+/// compiler has made of `Algorithm::evaluate`, a varied robot that with its numbers as inputs. A model runs this function itself, with the
 /// mechanism, the configuration at q and the other inputs as arrays, or that of the algorithm's
 /// alternative where it is faster.
 /// @param inputs  input[i] is a number, or a pack with the numbers of several robots
@@ -86,6 +93,8 @@ template <class Algorithm, Robot R, class Input, class... Inputs>
                                                                const Inputs&... inputs) noexcept {
   if constexpr (DescribedRobot<R>) {
     return compiled::run<Algorithm, R>(q, inputs...);
+  } else if constexpr (HasNumbers<R> && !compiled::needs_own_frames<Algorithm>) {
+    return compiled::run_with<Algorithm, typename R::Nominal>(robot.numbers().data(), q, inputs...);
   } else {
     compiled::check_masses<Algorithm, R>();
     using S = std::remove_cvref_t<decltype(q[0])>;
