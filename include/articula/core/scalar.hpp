@@ -49,9 +49,9 @@ template <class S>
 template <class Mask>
   requires requires(const Mask& mask) { mask[0]; }
 [[nodiscard]] constexpr bool any_of(const Mask& mask) noexcept {
-  bool any = false;
-  for (std::size_t k = 0; k < sizeof(mask) / sizeof(mask[0]); ++k) any = any || mask[k] != 0;
-  return any;
+  auto bits = mask[0];  // without branches: compilers reduce a register
+  for (std::size_t k = 1; k < sizeof(mask) / sizeof(mask[0]); ++k) bits |= mask[k];
+  return bits != 0;
 }
 /// Whether the mask is true in all lanes. Real-time: yes.
 [[nodiscard]] constexpr bool all_of(bool mask) noexcept { return mask; }
@@ -59,6 +59,14 @@ template <class Mask>
   requires requires(const Mask& mask) { mask[0]; }
 [[nodiscard]] constexpr bool all_of(const Mask& mask) noexcept {
   return !any_of(~mask);
+}
+
+/// Whether the mask is true in one lane. Real-time: yes.
+[[nodiscard]] constexpr bool is_true(bool mask, [[maybe_unused]] int lane) noexcept { return mask; }
+template <class Mask>
+  requires requires(const Mask& mask) { mask[0]; }
+[[nodiscard]] constexpr bool is_true(const Mask& mask, int lane) noexcept {
+  return mask[lane] != 0;
 }
 
 /// Replaces x by another number in lanes where the mask is true. For double this is a branch.

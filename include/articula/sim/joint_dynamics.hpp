@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
-#include <optional>
 
 namespace articula {
 
@@ -66,27 +65,35 @@ class JointDynamics {
     return motion;
   }
 
+  /// The motion of several robots after one step, and the lanes in which it is wrong, because an
+  /// event occurs in this step.
+  template <PackedScalar Pack>
+  struct SmoothStep {
+    State<Pack> motion;
+    MaskOf<Pack> event;
+  };
+
   /// The motion of several robots after one step without events.
   /// @tparam Pack   a scalar with the numbers of several robots
   /// @param motion, effort, step  as above
-  /// @return        nothing if a robot has an event in this step: then advance each robot alone
-  /// Real-time: yes if `effort` is. One Runge-Kutta step.
+  /// @return        the motion; robots with an event must be advanced each alone
+  /// Real-time: yes if `effort` is. One Runge-Kutta step, none if all robots have an event.
   template <PackedScalar Pack, class Drives>
-  [[nodiscard]] std::optional<State<Pack>> advance_smoothly(const State<Pack>& motion,
-                                                            const Drives& effort,
-                                                            double step) const noexcept {
+  [[nodiscard]] SmoothStep<Pack> advance_smoothly(const State<Pack>& motion, const Drives& effort,
+                                                  double step) const noexcept {
     Phase<Pack> phase;
-    bool event = any_at_stop(motion);
+    MaskOf<Pack> event = mask_of<Pack>(false);
     for (int j = 0; j < joint_count; ++j) {
-      if (joint(j).friction == 0) continue;
-      const Pack& v = motion.velocity[j];
-      phase.sliding[j] = select(v > 0, Pack(-joint(j).friction), Pack(joint(j).friction));
-      event = event || any_of(v == 0);
+      const auto& limits = joint(j).limits;
+      event |= (motion.position[j] <= limits.lower) | (motion.position[j] >= limits.upper);
+      if (!has_friction(j)) continue;
+      const Pack v = motion.velocity[j], sliding(joint(j).friction);
+      phase.sliding[j] = select(v > 0, -sliding, sliding);
+      event |= (v == 0) & (sliding != 0);
     }
-    if (event) return {};
+    if (all_of(event)) return {motion, event};
     const State<Pack> next = smooth_step(phase, motion, effort, step);
-    if (any_of(excess(phase, next) > 0)) return {};
-    return next;
+    return {next, event | (excess(phase, next) > 0)};
   }
 
  private:
@@ -104,20 +111,17 @@ class JointDynamics {
     JointVector<joint_count, S> sliding = JointVector<joint_count, S>::Zero();
   };
 
-  [[nodiscard]] const JointProperties& joint(int j) const noexcept {
-    return model_of(robot_).joints[j];
+  [[nodiscard]] const auto& joint(int j) const noexcept { return model_of(robot_).joints[j]; }
+  /// Whether a joint of any robot has dry friction.
+  [[nodiscard]] bool has_friction(int j) const noexcept { return any_of(joint(j).friction != 0); }
+  /// Whether a joint is at its stop.
+  [[nodiscard]] bool at_lower(const State<>& m, int j) const noexcept {
+    return m.position[j] <= joint(j).limits.lower;
   }
-  /// Whether a joint is at its stop, of any robot.
-  template <class S>
-  [[nodiscard]] bool at_lower(const State<S>& m, int j) const noexcept {
-    return any_of(m.position[j] <= joint(j).limits.lower);
+  [[nodiscard]] bool at_upper(const State<>& m, int j) const noexcept {
+    return m.position[j] >= joint(j).limits.upper;
   }
-  template <class S>
-  [[nodiscard]] bool at_upper(const State<S>& m, int j) const noexcept {
-    return any_of(m.position[j] >= joint(j).limits.upper);
-  }
-  template <class S>
-  [[nodiscard]] bool any_at_stop(const State<S>& m) const noexcept {
+  [[nodiscard]] bool any_at_stop(const State<>& m) const noexcept {
     bool any = false;
     for (int j = 0; j < joint_count; ++j) any = any || at_lower(m, j) || at_upper(m, j);
     return any;
@@ -218,7 +222,7 @@ class JointDynamics {
       if (phase.holding.upper[j] > 0) continue;
       include(joint(j).limits.lower - later.position[j]);
       include(later.position[j] - joint(j).limits.upper);
-      if (joint(j).friction != 0) include(later.velocity[j] * phase.sliding[j]);
+      if (has_friction(j)) include(later.velocity[j] * phase.sliding[j]);
     }
     return most;
   }
