@@ -13,8 +13,8 @@
 
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
+#include "articula/core/lane_mask.hpp"
 
-#include <cstddef>
 #include <type_traits>
 
 namespace articula {
@@ -44,31 +44,6 @@ template <class S>
 [[nodiscard]] constexpr double select(bool mask, double chosen, double other) noexcept {
   return mask ? chosen : other;
 }
-/// Whether the mask is true in any lane. Real-time: yes.
-[[nodiscard]] constexpr bool any_of(bool mask) noexcept { return mask; }
-template <class Mask>
-  requires requires(const Mask& mask) { mask[0]; }
-[[nodiscard]] constexpr bool any_of(const Mask& mask) noexcept {
-  auto bits = mask[0];  // without branches: compilers reduce a register
-  for (std::size_t k = 1; k < sizeof(mask) / sizeof(mask[0]); ++k) bits |= mask[k];
-  return bits != 0;
-}
-/// Whether the mask is true in all lanes. Real-time: yes.
-[[nodiscard]] constexpr bool all_of(bool mask) noexcept { return mask; }
-template <class Mask>
-  requires requires(const Mask& mask) { mask[0]; }
-[[nodiscard]] constexpr bool all_of(const Mask& mask) noexcept {
-  return !any_of(~mask);
-}
-
-/// Whether the mask is true in one lane. Real-time: yes.
-[[nodiscard]] constexpr bool is_true(bool mask, [[maybe_unused]] int lane) noexcept { return mask; }
-template <class Mask>
-  requires requires(const Mask& mask) { mask[0]; }
-[[nodiscard]] constexpr bool is_true(const Mask& mask, int lane) noexcept {
-  return mask[lane] != 0;
-}
-
 /// Replaces x by another number in lanes where the mask is true. For double this is a branch.
 /// Real-time: yes.
 template <class S>

@@ -2,6 +2,7 @@
 /// @file Packs: several doubles as one scalar, computed by the same instructions.
 #pragma once
 
+#include "articula/core/lane_mask.hpp"
 #include "articula/symbolic/vector_sine_cosine.hpp"
 
 #include <array>
@@ -37,6 +38,15 @@ class Pack {
   static constexpr int lanes = Lanes;
 
   Pack() = default;  ///< uninitialised, like a double
+  // A register at a time. Compilers would copy arrays of packs by halves of registers, and loading
+  // what was just stored in halves waits for the cache (failed store forwarding).
+  [[gnu::always_inline]] Pack(const Pack& other) noexcept : reals_(other.reals_) {}
+  [[gnu::always_inline]] Pack& operator=(
+      const Pack& other) noexcept {  // NOLINT: no members to free
+    reals_ = other.reals_;
+    return *this;
+  }
+  ~Pack() = default;
   /// The same number in all lanes.
   [[gnu::always_inline]] Pack(double x) noexcept : reals_(x - Reals{}) {}  // NOLINT: implicit
 
@@ -125,10 +135,7 @@ class Pack {
                                             std::array<Pack, K>& cosine) noexcept {
     Reals squares{};
     for (std::size_t i = 0; i < K; ++i) squares += angle[i].reals_ * angle[i].reals_;
-    const auto small = squares <= detail::largest_reduced_square;
-    bool all_small = true;
-    for (int lane = 0; lane < Lanes; ++lane) all_small = all_small & (small[lane] != 0);
-    if (all_small) [[likely]] {
+    if (all_of(squares <= detail::largest_reduced_square)) [[likely]] {
       sincos_of_small<0>(angle, sine, cosine);
     } else {
       // Arrays of its own: arrays whose addresses are passed to a call would go through memory.
