@@ -64,6 +64,12 @@ template <detail::VectorMask Mask>
   constexpr std::size_t lanes = sizeof(Mask) / sizeof(mask[0]);
   return detail::true_lanes(mask) == (1U << lanes) - 1;
 }
+/// True where the mask is false. Real-time: yes.
+[[nodiscard]] constexpr bool not_of(bool mask) noexcept { return !mask; }
+template <detail::VectorMask Mask>
+[[nodiscard, gnu::always_inline]] constexpr Mask not_of(const Mask& mask) noexcept {
+  return ~mask;
+}
 /// Whether the mask is true in one lane. Real-time: yes.
 [[nodiscard]] constexpr bool is_true(bool mask, [[maybe_unused]] int lane) noexcept { return mask; }
 template <detail::VectorMask Mask>

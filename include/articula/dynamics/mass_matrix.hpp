@@ -79,4 +79,13 @@ template <Robot R>
   return detail::to_matrix(detail::evaluate<MassMatrix>(robot, q));
 }
 
+/// The same for the robots of a pack.
+/// Real-time: yes.
+template <Robot R, JointVectorPack<R> Q>
+  requires(Q::ColsAtCompileTime == 1)
+[[nodiscard]] JointMatrix<joint_count<R>, typename Q::Scalar> mass_matrix(const R& robot,
+                                                                          const Q& q) noexcept {
+  return detail::to_matrix(detail::evaluate_numbers<MassMatrix>(robot, q.data()));
+}
+
 }  // namespace articula

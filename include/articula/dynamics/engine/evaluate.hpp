@@ -43,19 +43,19 @@ template <class S, int N>
   return for_each_joint<N, S>([&](int j) __attribute__((always_inline)) { return array[j]; });
 }
 
-template <int N>
-[[nodiscard]] JointRows<double, N> to_rows(const JointMatrix<N>& matrix) noexcept {
-  JointRows<double, N> rows;
+template <int N, class S>
+[[nodiscard]] JointRows<S, N> to_rows(const JointMatrix<N, S>& matrix) noexcept {
+  JointRows<S, N> rows;
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j) rows[i][j] = matrix(i, j);
   }
   return rows;
 }
 
-template <int N>
-[[nodiscard, gnu::always_inline]] inline JointMatrix<N> to_matrix(
-    const JointRows<double, N>& rows) noexcept {
-  JointMatrix<N> matrix;
+template <class S, int N>
+[[nodiscard, gnu::always_inline]] inline JointMatrix<N, S> to_matrix(
+    const JointRows<S, N>& rows) noexcept {
+  JointMatrix<N, S> matrix;
   // Row by row: clang refuses folds over more than 256 elements.
   [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
     const auto copy_row = [&](int i) __attribute__((always_inline)) {
