@@ -3,6 +3,7 @@
 #pragma once
 
 #include "catch.hpp"
+#include "numbers.hpp"
 #include "random.hpp"
 
 #include <articula/control/pid_plus_gravity.hpp>
@@ -10,8 +11,12 @@
 #include <articula/loop/control_loop.hpp>
 #include <articula/sim/simulator.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace support {
@@ -65,6 +70,7 @@ struct Differences {
   double stop = 10;       ///< farthest stop from the start [rad]
   double noise = 0;       ///< of positions [rad]
   double resolution = 0;  ///< of encoders [rad]
+  bool hostile = false;   ///< references of extreme size
   int delay = 0;          ///< highest [cycles]
 };
 
@@ -147,7 +153,12 @@ auto compare(unsigned seed, const Differences& by, int cycles) {
     if (cycle % 500 == 0) {
       for (int k = 0; k < Lanes::lane_count; ++k) {
         Alone& loop = alone[static_cast<std::size_t>(k)];
-        const JointVector<n> wanted = loop.state().position + random.vector<n>(1.0);
+        JointVector<n> wanted = loop.state().position + random.vector<n>(1.0);
+        if (by.hostile) {
+          for (double& x : wanted)
+            x = std::array{0.0, -0.0, smallest, -1e10,
+                           1e300}[static_cast<std::size_t>(random.integer(0, 4))];
+        }
         loop.reference() = {.position = wanted};
         lanes.set_reference(k, {.position = wanted});
       }

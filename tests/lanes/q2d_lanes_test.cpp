@@ -38,6 +38,12 @@ TEST_CASE("Q2Ds in lanes are held by dry friction as one by one") {
   CHECK(seen.at_rest > 100);
 }
 
+TEST_CASE("Q2Ds in lanes take references of any size as one by one") {
+  const auto seen = support::compare<Q2d>(7, {.stop = 1, .hostile = true}, 2000);
+  CHECK(seen.at_stop > 100);
+  CHECK(seen.at_limit > 100);
+}
+
 TEST_CASE("Q2Ds in lanes have sensors and delays of their own") {
   support::compare<Q2d>(5, {.friction = 0.05, .noise = 1e-4, .resolution = 1e-4, .delay = 3}, 1500);
 }

@@ -120,6 +120,7 @@ class LaneSimulator {
         period_(setups[0].simulation.period),
         substeps_(setups[0].simulation.substeps),
         sensors_(options_of(setups)) {
+    alone_.reserve(setups.size());
     for (int k = 0; k < lane_count; ++k) {
       const LaneSetup<R>& own = setups[static_cast<std::size_t>(k)];
       alone_.emplace_back(own.robot);
