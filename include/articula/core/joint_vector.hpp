@@ -45,10 +45,11 @@ template <int N, class Scalar = double, class Function>
 }
 
 /// A x. Real-time: yes. O(N^2).
-template <int N>
-[[nodiscard]] JointVector<N> product(const JointMatrix<N>& a, const JointVector<N>& x) noexcept {
-  return for_each_joint<N>([&](int i) noexcept {
-    double sum = 0;
+template <int N, class Scalar>
+[[nodiscard]] JointVector<N, Scalar> product(const JointMatrix<N, Scalar>& a,
+                                             const JointVector<N, Scalar>& x) noexcept {
+  return for_each_joint<N, Scalar>([&](int i) noexcept {
+    Scalar sum(0.0);
     for (int j = 0; j < N; ++j) sum += a(i, j) * x[j];
     return sum;
   });

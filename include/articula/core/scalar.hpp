@@ -13,8 +13,8 @@
 
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
+#include "articula/core/lane_mask.hpp"
 
-#include <cstddef>
 #include <type_traits>
 
 namespace articula {
@@ -44,23 +44,6 @@ template <class S>
 [[nodiscard]] constexpr double select(bool mask, double chosen, double other) noexcept {
   return mask ? chosen : other;
 }
-/// Whether the mask is true in any lane. Real-time: yes.
-[[nodiscard]] constexpr bool any_of(bool mask) noexcept { return mask; }
-template <class Mask>
-  requires requires(const Mask& mask) { mask[0]; }
-[[nodiscard]] constexpr bool any_of(const Mask& mask) noexcept {
-  bool any = false;
-  for (std::size_t k = 0; k < sizeof(mask) / sizeof(mask[0]); ++k) any = any || mask[k] != 0;
-  return any;
-}
-/// Whether the mask is true in all lanes. Real-time: yes.
-[[nodiscard]] constexpr bool all_of(bool mask) noexcept { return mask; }
-template <class Mask>
-  requires requires(const Mask& mask) { mask[0]; }
-[[nodiscard]] constexpr bool all_of(const Mask& mask) noexcept {
-  return !any_of(~mask);
-}
-
 /// Replaces x by another number in lanes where the mask is true. For double this is a branch.
 /// Real-time: yes.
 template <class S>

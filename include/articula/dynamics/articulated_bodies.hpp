@@ -146,7 +146,7 @@ struct ArticulatedBodies {
       unit.set(
           i, body.prismatic ? Wrench<S>{m.rows[2], h.column(2)} : Wrench<S>{h.rows[2], j.rows[2]});
       const S pivot = body.prismatic ? unit[i].force.z : unit[i].moment.z;
-      inverse[i] = S(1.0) / (pivot + S(body.reflected_inertia));
+      inverse[i] = S(1.0) / (pivot + configuration[i].reflected_inertia);
       remaining[i] =
           effort[i] - bias[i] - (body.prismatic ? wrench[i].force.z : wrench[i].moment.z);
       if (body.parent < 0) continue;

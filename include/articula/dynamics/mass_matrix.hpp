@@ -25,8 +25,9 @@ struct MassMatrix {
     for (int i = B; i-- > 0;) {
       Wrench<S> wrench = unit_acceleration_wrench(composite[i], mechanism.bodies[i].prismatic);
       matrix[i][i] = along_axis(mechanism.bodies[i], wrench);
-      const double reflected = mechanism.bodies[i].reflected_inertia;
-      if (reflected != 0) matrix[i][i] = matrix[i][i] + S(reflected);
+      if (mechanism.bodies[i].reflected_inertia != 0) {
+        matrix[i][i] = matrix[i][i] + configuration[i].reflected_inertia;
+      }
       int j = i;
       while (mechanism.bodies[j].parent >= 0) {
         const Vector3<S> force = configuration[j].to_parent(wrench.force);
@@ -76,6 +77,15 @@ template <Robot R>
 [[nodiscard]] JointMatrix<joint_count<R>> mass_matrix(
     const R& robot, const JointVector<joint_count<R>>& q) noexcept {
   return detail::to_matrix(detail::evaluate<MassMatrix>(robot, q));
+}
+
+/// The same for the robots of a pack.
+/// Real-time: yes.
+template <Robot R, JointVectorPack<R> Q>
+  requires(Q::ColsAtCompileTime == 1)
+[[nodiscard]] JointMatrix<joint_count<R>, typename Q::Scalar> mass_matrix(const R& robot,
+                                                                          const Q& q) noexcept {
+  return detail::to_matrix(detail::evaluate_numbers<MassMatrix>(robot, q.data()));
 }
 
 }  // namespace articula

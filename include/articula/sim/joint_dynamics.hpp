@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
-#include <optional>
 
 namespace articula {
 
@@ -66,27 +65,31 @@ class JointDynamics {
     return motion;
   }
 
+  /// The motion of several robots after one step, and the lanes in which it is wrong, because an
+  /// event occurs in this step.
+  template <PackedScalar Pack>
+  struct SmoothStep {
+    State<Pack> motion;
+    MaskOf<Pack> event;
+  };
+
   /// The motion of several robots after one step without events.
   /// @tparam Pack   a scalar with the numbers of several robots
   /// @param motion, effort, step  as above
-  /// @return        nothing if a robot has an event in this step: then advance each robot alone
-  /// Real-time: yes if `effort` is. One Runge-Kutta step.
+  /// @return        the motion; robots with an event must be advanced each alone
+  /// Real-time: yes if `effort` is. One Runge-Kutta step, none if all robots have an event.
   template <PackedScalar Pack, class Drives>
-  [[nodiscard]] std::optional<State<Pack>> advance_smoothly(const State<Pack>& motion,
-                                                            const Drives& effort,
-                                                            double step) const noexcept {
-    Phase<Pack> phase;
-    bool event = any_at_stop(motion);
+  [[nodiscard]] SmoothStep<Pack> advance_smoothly(const State<Pack>& motion, const Drives& effort,
+                                                  double step) const noexcept {
+    const Phase<Pack> phase = phase_at(motion, effort);
+    MaskOf<Pack> event = mask_of<Pack>(false);
     for (int j = 0; j < joint_count; ++j) {
-      if (joint(j).friction == 0) continue;
       const Pack& v = motion.velocity[j];
-      phase.sliding[j] = select(v > 0, Pack(-joint(j).friction), Pack(joint(j).friction));
-      event = event || any_of(v == 0);
+      event |= (at_lower(motion, j) & (v < 0)) | (at_upper(motion, j) & (v > 0));
     }
-    if (event) return {};
+    if (all_of(event)) return {motion, event};
     const State<Pack> next = smooth_step(phase, motion, effort, step);
-    if (any_of(excess(phase, next) > 0)) return {};
-    return next;
+    return {next, event | (excess(phase, next) > 0)};
   }
 
  private:
@@ -98,26 +101,26 @@ class JointDynamics {
   /// What is constant between two events.
   template <class S = double>
   struct Phase {
-    bool any_held = false;              ///< some joint is held still
-    EffortBounds<joint_count> holding;  ///< infinite for joints that are held, else 0
+    bool any_held = false;  ///< some joint is held still, of any robot
+    /// Infinite for joints that are held, else 0
+    EffortBounds<joint_count, S> holding;
     /// Friction efforts of the joints that slide [N m or N], N x 1
     JointVector<joint_count, S> sliding = JointVector<joint_count, S>::Zero();
   };
 
-  [[nodiscard]] const JointProperties& joint(int j) const noexcept {
-    return model_of(robot_).joints[j];
-  }
-  /// Whether a joint is at its stop, of any robot.
+  [[nodiscard]] const auto& joint(int j) const noexcept { return model_of(robot_).joints[j]; }
+  /// Whether a joint of any robot has dry friction.
+  [[nodiscard]] bool has_friction(int j) const noexcept { return any_of(joint(j).friction != 0); }
+  /// Whether a joint is at its stop.
   template <class S>
-  [[nodiscard]] bool at_lower(const State<S>& m, int j) const noexcept {
-    return any_of(m.position[j] <= joint(j).limits.lower);
-  }
-  template <class S>
-  [[nodiscard]] bool at_upper(const State<S>& m, int j) const noexcept {
-    return any_of(m.position[j] >= joint(j).limits.upper);
+  [[nodiscard]] MaskOf<S> at_lower(const State<S>& m, int j) const noexcept {
+    return m.position[j] <= joint(j).limits.lower;
   }
   template <class S>
-  [[nodiscard]] bool any_at_stop(const State<S>& m) const noexcept {
+  [[nodiscard]] MaskOf<S> at_upper(const State<S>& m, int j) const noexcept {
+    return m.position[j] >= joint(j).limits.upper;
+  }
+  [[nodiscard]] bool any_at_stop(const State<>& m) const noexcept {
     bool any = false;
     for (int j = 0; j < joint_count; ++j) any = any || at_lower(m, j) || at_upper(m, j);
     return any;
@@ -144,29 +147,34 @@ class JointDynamics {
   }
 
   /// Which joints are held from here on, and how friction acts on the others.
-  template <class Drives>
-  [[nodiscard]] Phase<> phase_at(const State<>& motion, const Drives& effort) const noexcept {
-    Phase<> phase;
-    EffortBounds<joint_count> bounds;
+  template <class S, class Drives>
+  [[nodiscard]] Phase<S> phase_at(const State<S>& motion, const Drives& effort) const noexcept {
+    constexpr double infinity = JointLimits::infinity;
+    Phase<S> phase;
+    EffortBounds<joint_count, S> bounds;
     bool may_hold = false;
     for (int j = 0; j < joint_count; ++j) {
-      if (motion.velocity[j] != 0) {
-        phase.sliding[j] = motion.velocity[j] > 0 ? -joint(j).friction : joint(j).friction;
-        continue;
+      const S &v = motion.velocity[j], friction = joint(j).friction;
+      const MaskOf<S> rests = v == 0;
+      if (any_of(not_of(rests))) {
+        phase.sliding[j] = select(v > 0, S(-friction), friction);
+        if (!any_of(rests)) continue;
+        phase.sliding[j] = select(rests, S(0), phase.sliding[j]);
       }
-      bounds.lower[j] = at_upper(motion, j) ? -JointLimits::infinity : -joint(j).friction;
-      bounds.upper[j] = at_lower(motion, j) ? JointLimits::infinity : joint(j).friction;
-      may_hold = may_hold || bounds.lower[j] < bounds.upper[j];
+      bounds.lower[j] =
+          select(rests, select(at_upper(motion, j), S(-infinity), S(-friction)), S(0));
+      bounds.upper[j] = select(rests, select(at_lower(motion, j), S(infinity), friction), S(0));
+      may_hold = may_hold || any_of(bounds.binds(j));
     }
     if (!may_hold) return phase;
     const auto answer = held_within(bounds, phase, motion.position, motion.velocity, effort);
     for (int j = 0; j < joint_count; ++j) {
-      if (answer.held[j]) {
-        phase.any_held = true;
-        phase.holding.lower[j] = -(phase.holding.upper[j] = JointLimits::infinity);
-      } else if (bounds.lower[j] < bounds.upper[j]) {
-        phase.sliding[j] = answer.effort[j];  // breaks away
-      }
+      const MaskOf<S>& held = answer.held[j];
+      phase.any_held = phase.any_held || any_of(held);
+      phase.holding.upper[j] = select(held, S(infinity), S(0));
+      phase.holding.lower[j] = -phase.holding.upper[j];
+      const MaskOf<S> breaks_away = not_of(held) & bounds.binds(j);
+      phase.sliding[j] = select(breaks_away, answer.effort[j], phase.sliding[j]);
     }
     return phase;
   }
@@ -175,12 +183,10 @@ class JointDynamics {
   template <class S, class Drives>
   [[nodiscard]] State<S> smooth_step(const Phase<S>& phase, const State<S>& motion,
                                      const Drives& effort, double step) const noexcept {
-    if constexpr (std::same_as<S, double>) {
-      if (phase.any_held) {
-        return runge_kutta_step(motion, step, [&](const auto& q, const auto& v) noexcept {
-          return held_within(phase.holding, phase, q, v, effort).motion;
-        });
-      }
+    if (phase.any_held) {
+      return runge_kutta_step(motion, step, [&](const auto& q, const auto& v) noexcept {
+        return held_within(phase.holding, phase, q, v, effort).motion;
+      });
     }
     return runge_kutta_step(motion, step, [&](const auto& q, const auto& v) noexcept {
       return forward_dynamics(robot_, q, v, applied(phase, v, effort(q, v)));
@@ -197,15 +203,26 @@ class JointDynamics {
   }
 
   /// The accelerations with joints held still as far as bounds allow. The load on the joints is M
-  /// times the acceleration without bounds, for which no further program has to be compiled.
-  template <class Drives>
-  [[nodiscard]] BoundedEffort<joint_count> held_within(const EffortBounds<joint_count>& bounds,
-                                                       const Phase<>& phase, const Vector& q,
-                                                       const Vector& v,
-                                                       const Drives& effort) const noexcept {
-    const Vector free = forward_dynamics(robot_, q, v, applied(phase, v, Vector(effort(q, v))));
-    const JointMatrix<joint_count> m = mass_matrix(robot_, q);
-    return hold_within_bounds<joint_count>(parents_, m, product<joint_count>(m, free), bounds);
+  /// times the acceleration without bounds, for which no further program has to be compiled. A robot
+  /// of a pack without bounds has that acceleration itself, to the last bit.
+  template <class S, class Drives>
+  [[nodiscard]] BoundedEffort<joint_count, S> held_within(
+      const EffortBounds<joint_count, S>& bounds, const Phase<S>& phase,
+      const JointVector<joint_count, S>& q, const JointVector<joint_count, S>& v,
+      const Drives& effort) const noexcept {
+    using Numbers = JointVector<joint_count, S>;
+    const Numbers free = forward_dynamics(robot_, q, v, applied(phase, v, Numbers(effort(q, v))));
+    const auto m = mass_matrix(robot_, q);
+    auto answer =
+        hold_within_bounds<joint_count>(parents_, m, product<joint_count>(m, free), bounds);
+    if constexpr (PackedScalar<S>) {
+      MaskOf<S> is_bound = mask_of<S>(false);
+      for (int j = 0; j < joint_count; ++j) is_bound |= bounds.binds(j);
+      for (int j = 0; j < joint_count; ++j) {
+        answer.motion[j] = select(is_bound, answer.motion[j], free[j]);
+      }
+    }
+    return answer;
   }
 
   /// The largest distance of a joint beyond its stop [rad or m], or power that friction would give
@@ -213,12 +230,15 @@ class JointDynamics {
   template <class S>
   [[nodiscard]] S excess(const Phase<S>& phase, const State<S>& later) const noexcept {
     S most = -JointLimits::infinity;
-    const auto include = [&most](const S& x) noexcept { most = select(most < x, x, most); };
     for (int j = 0; j < joint_count; ++j) {
-      if (phase.holding.upper[j] > 0) continue;
+      const MaskOf<S> held = phase.holding.upper[j] > 0;
+      if (all_of(held)) continue;
+      const auto include = [&](const S& x) noexcept {
+        most = select((most < x) & not_of(held), x, most);
+      };
       include(joint(j).limits.lower - later.position[j]);
       include(later.position[j] - joint(j).limits.upper);
-      if (joint(j).friction != 0) include(later.velocity[j] * phase.sliding[j]);
+      if (has_friction(j)) include(later.velocity[j] * phase.sliding[j]);
     }
     return most;
   }

@@ -18,16 +18,31 @@ namespace articula {
 template <int N, class S = double>
 class JointSensors {
  public:
+  /// The same sensors for all robots of a pack, with the seeds `seed`, `seed` + 1 and so on.
   explicit JointSensors(const SimulatorOptions<N>& options)
       : period_(options.period),
-        resolution_(options.encoder_resolution),
-        position_noise_(options.position_noise),
-        velocity_noise_(options.velocity_noise),
-        effort_noise_(options.effort_noise),
-        has_noise_(
-            !(position_noise_.isZero(0) && velocity_noise_.isZero(0) && effort_noise_.isZero(0))) {
+        resolution_(options.encoder_resolution.template cast<S>()),
+        position_noise_(options.position_noise.template cast<S>()),
+        velocity_noise_(options.velocity_noise.template cast<S>()),
+        effort_noise_(options.effort_noise.template cast<S>()),
+        has_noise_(is_noisy(options)) {
     std::uint64_t seed = options.seed;
     for (NormalNoise& noise : noise_) noise = NormalNoise(seed++);
+  }
+
+  /// Sensors and seeds of each robot of a pack.
+  explicit JointSensors(const JointArray<SimulatorOptions<N>, lanes<S>>& options)
+      : JointSensors(options[0]) {
+    has_noise_ = false;
+    for (int k = 0; k < lanes<S>; ++k) {
+      const SimulatorOptions<N>& own = options[k];
+      set_lane(resolution_, k, own.encoder_resolution);
+      set_lane(position_noise_, k, own.position_noise);
+      set_lane(velocity_noise_, k, own.velocity_noise);
+      set_lane(effort_noise_, k, own.effort_noise);
+      has_noise_ = has_noise_ || is_noisy(own);
+      noise_[k] = NormalNoise(own.seed);
+    }
   }
 
   /// The measurement of a state, one period after the last measurement.
@@ -42,12 +57,14 @@ class JointSensors {
       }
     }
     for (int j = 0; j < N; ++j) {
-      if (resolution_[j] == 0) continue;
+      const auto is_exact = resolution_[j] == 0;
+      if (all_of(is_exact)) continue;
       S steps = measured.position[j] / resolution_[j];
       for (int k = 0; k < lanes<S>; ++k) set_lane(steps, k, std::nearbyint(lane_of(steps, k)));
-      measured.position[j] = resolution_[j] * steps;
+      measured.position[j] = select(is_exact, measured.position[j], S(resolution_[j] * steps));
       if (measured_before_) {
-        measured.velocity[j] = (measured.position[j] - last_position_[j]) / period_;
+        const S change = (measured.position[j] - last_position_[j]) / period_;
+        measured.velocity[j] = select(is_exact, measured.velocity[j], change);
       }
     }
     last_position_ = measured.position;
@@ -56,6 +73,10 @@ class JointSensors {
   }
 
  private:
+  [[nodiscard]] static bool is_noisy(const SimulatorOptions<N>& options) {
+    return !(options.position_noise.isZero(0) && options.velocity_noise.isZero(0) &&
+             options.effort_noise.isZero(0));
+  }
   [[nodiscard]] S noise() noexcept {
     S numbers(0);
     for (int k = 0; k < lanes<S>; ++k) set_lane(numbers, k, noise_[k].next());
@@ -63,10 +84,10 @@ class JointSensors {
   }
 
   double period_;
-  JointVector<N> resolution_;
-  JointVector<N> position_noise_;
-  JointVector<N> velocity_noise_;
-  JointVector<N> effort_noise_;
+  JointVector<N, S> resolution_;
+  JointVector<N, S> position_noise_;
+  JointVector<N, S> velocity_noise_;
+  JointVector<N, S> effort_noise_;
   bool has_noise_;
   bool measured_before_ = false;
   JointVector<N, S> last_position_ = JointVector<N, S>::Zero();

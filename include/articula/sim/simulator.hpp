@@ -186,14 +186,17 @@ class Simulator {
     for (int i = 0; i < steps; ++i) {
       if constexpr (!PackedScalar<S>) {
         truth_ = dynamics_.advance(truth_, effort, step);
-      } else if (const auto next = dynamics_.advance_smoothly(truth_, effort, step)) {
-        truth_ = *next;
       } else {
+        const auto [next, event] = dynamics_.advance_smoothly(truth_, effort, step);
+        const State before = truth_;
+        truth_ = next;
+        if (!any_of(event)) continue;
         for (int k = 0; k < lanes<S>; ++k) {
+          if (!is_true(event, k)) continue;
           const auto own_command = lane_of(command, k);
           const JointVector<joint_count> own_external = lane_of(external_, k);
           const JointState<joint_count> own = dynamics_.advance(
-              lane_of(truth_, k),
+              lane_of(before, k),
               [&](const auto& q, const auto& v) noexcept {
                 return JointVector<joint_count>(drives(own_command, q, v) + own_external);
               },

@@ -152,11 +152,13 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
   for (int k = 0; k < 100; ++k) {
     for (int j = 0; j < n; ++j) mode[j] *= damping[j];
     mode = solve<double, n>(parents, factors, mode);
+    const double last_rate = rate;
     rate = 0;  // the largest number: a sum of squares may overflow
     for (const double x : mode) rate = std::fmax(rate, is_finite(x) ? std::abs(x) : infinity);
     if (rate == 0) return;
     if (!is_finite(rate)) refuse({"joint damping decays too fast for a number"});
     for (double& x : mode) x /= rate;
+    if (std::abs(rate - last_rate) <= 1e-9 * rate) break;
   }
   const double most = 2.785 / 2 / rate;
   if (options.period / options.substeps > most) {

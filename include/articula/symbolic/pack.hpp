@@ -2,6 +2,7 @@
 /// @file Packs: several doubles as one scalar, computed by the same instructions.
 #pragma once
 
+#include "articula/core/lane_mask.hpp"
 #include "articula/symbolic/vector_sine_cosine.hpp"
 
 #include <array>
@@ -37,6 +38,15 @@ class Pack {
   static constexpr int lanes = Lanes;
 
   Pack() = default;  ///< uninitialised, like a double
+  // A register at a time. Compilers would copy arrays of packs by halves of registers, and loading
+  // what was just stored in halves waits for the cache (failed store forwarding).
+  [[gnu::always_inline]] Pack(const Pack& other) noexcept : reals_(other.reals_) {}
+  [[gnu::always_inline]] Pack& operator=(
+      const Pack& other) noexcept {  // NOLINT: no members to free
+    reals_ = other.reals_;
+    return *this;
+  }
+  ~Pack() = default;
   /// The same number in all lanes.
   [[gnu::always_inline]] Pack(double x) noexcept : reals_(x - Reals{}) {}  // NOLINT: implicit
 
@@ -117,22 +127,20 @@ class Pack {
   }
 
   /// Sines and cosines of K packs of angles [rad], within three units in the last place; NaN for
-  /// angles that are not finite. If any angle is large, <cmath> computes all: one check costs less
-  /// than K checks.
+  /// angles that are not finite. If an angle of a lane is large, <cmath> computes those of this lane.
+  /// One check of all costs less than K checks.
   template <std::size_t K>
   [[gnu::always_inline]] friend void sincos(const std::array<Pack, K>& angle,
                                             std::array<Pack, K>& sine,
                                             std::array<Pack, K>& cosine) noexcept {
     Reals squares{};
     for (std::size_t i = 0; i < K; ++i) squares += angle[i].reals_ * angle[i].reals_;
-    double sum = 0;
-    for (int lane = 0; lane < Lanes; ++lane) sum += squares[lane];
-    if (sum <= detail::largest_reduced_square) [[likely]] {
+    if (all_of(squares <= detail::largest_reduced_square)) [[likely]] {
       sincos_of_small<0>(angle, sine, cosine);
     } else {
       // Arrays of its own: arrays whose addresses are passed to a call would go through memory.
       std::array<Pack, K> s, c;
-      sincos_of_large(std::array<Pack, K>(angle), s, c);
+      sincos_of_large(std::array<Pack, K>(angle), made_of(squares), s, c);
       sine = s;
       cosine = c;
     }
@@ -165,12 +173,20 @@ class Pack {
       sincos_of_small<Begin + count>(angle, sine, cosine);
     }
   }
+  /// The lanes do not depend on each other: the angles of a lane without a large one are computed as
+  /// they are in a pack without one, to the last bit.
   template <std::size_t K>
   [[gnu::noinline, gnu::cold]] static void sincos_of_large(const std::array<Pack, K>& angle,
+                                                           const Pack& squares,
                                                            std::array<Pack, K>& sine,
                                                            std::array<Pack, K>& cosine) noexcept {
-    for (std::size_t i = 0; i < K; ++i) {
-      for (int lane = 0; lane < Lanes; ++lane) {
+    std::array<Pack, K> small;
+    const auto is_small = squares <= Pack(detail::largest_reduced_square);
+    for (std::size_t i = 0; i < K; ++i) small[i] = select(is_small, angle[i], Pack(0));
+    sincos_of_small<0>(small, sine, cosine);
+    for (int lane = 0; lane < Lanes; ++lane) {
+      if (is_small[lane] != 0) continue;
+      for (std::size_t i = 0; i < K; ++i) {
         sine[i].reals_[lane] = std::sin(angle[i][lane]);
         cosine[i].reals_[lane] = std::cos(angle[i][lane]);
       }

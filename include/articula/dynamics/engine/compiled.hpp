@@ -4,6 +4,7 @@
 
 #include "articula/dynamics/engine/configuration.hpp"
 #include "articula/dynamics/engine/gravity_efforts.hpp"
+#include "articula/dynamics/engine/input_numbers.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/symbolic/assembler.hpp"
 #include "articula/symbolic/run_program.hpp"
@@ -75,8 +76,28 @@ consteval std::size_t input_arrays() {
   }
 }
 
+/// The numbers of a robot's bodies as symbols: constants, or inputs where they are inputs.
+/// @param next  the number of the next input
+template <DescribedRobot R>
+[[nodiscard]] constexpr auto symbolic_numbers(symbolic::Graph& graph, int next) {
+  using symbolic::Symbol;
+  JointArray<BodyNumbers<Symbol>, ModelOf<R>::body_count> numbers;
+  std::size_t place = 0;
+  for (int i = 0; i < ModelOf<R>::body_count; ++i) {
+    numbers[i] = numbers_of<Symbol>(model_of(R{}).canonical.bodies[i]);
+    if constexpr (articula::detail::has_input_numbers<R>) {
+      constexpr auto is_input = articula::detail::input_mask<R>();
+      for_each_number(numbers[i], [&](Symbol& number) {
+        if (is_input[place++]) number = Symbol(graph, graph.input(next++));
+      });
+    }
+  }
+  return numbers;
+}
+
 /// Runs an algorithm on symbols and assembles a program from the resulting graph. Inputs are
-/// numbered through the positions, then through the algorithm's other arrays, see Concatenated.
+/// numbered through the positions, then through the algorithm's other arrays, see Concatenated, then
+/// through the numbers of the bodies that are inputs.
 /// @tparam Capacity  the largest program
 template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSize Capacity>
 [[nodiscard]] constexpr symbolic::Program<Capacity> trace() {
@@ -94,7 +115,16 @@ template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSiz
       return Algorithm::template evaluate<frames, Symbol>(model_of(R{}), inputs[0]);
     } else {
       const auto& mechanism = mechanism_for<Algorithm>(R{});
-      const auto configuration = configuration_of<Symbol, n, b, frames>(mechanism, inputs[0]);
+      const auto configuration = [&] {
+        if constexpr (articula::detail::has_input_numbers<R>) {
+          static_assert(!needs_own_frames<Algorithm>);
+          const auto numbers = symbolic_numbers<R>(graph, next);
+          return configuration_of<Symbol, n, b, frames>(mechanism, inputs[0],
+                                                        [&](int i) { return numbers[i]; });
+        } else {
+          return configuration_of<Symbol, n, b, frames>(mechanism, inputs[0]);
+        }
+      }();
       return Algorithm::template evaluate<Symbol, n, b>(mechanism, configuration, inputs[1 + I]...);
     }
   }(std::make_index_sequence<arrays>{});
@@ -189,6 +219,18 @@ struct Concatenated {
   }
 };
 
+/// The same with the numbers of the bodies after the arrays.
+template <class Array, class Number, std::size_t N, std::size_t Arrays>
+struct ConcatenatedWithNumbers {
+  Concatenated<Array, N, Arrays> arrays;
+  const Number* numbers;
+
+  [[gnu::always_inline]] auto operator[](std::size_t i) const noexcept {
+    using S = std::remove_cvref_t<decltype(arrays[i])>;
+    return i < N * Arrays ? arrays[i] : S(numbers[i - N * Arrays]);
+  }
+};
+
 /// The result type of an algorithm for the scalar S.
 template <class Algorithm, DescribedRobot R, class S, class... Inputs>
 struct Result {
@@ -202,6 +244,16 @@ struct Result<Algorithm, R, S> {
   using Type = decltype(Algorithm::template evaluate<Frames::moving, S>(
       model_of(R{}), std::declval<JointArray<S, ModelOf<R>::joint_count>>()));
 };
+
+/// The results of a program in the shape of the algorithm's result.
+template <class Algorithm, DescribedRobot R, class S, class... Inputs, std::size_t Count>
+[[nodiscard, gnu::always_inline]] inline auto shaped(const std::array<S, Count>& output) noexcept {
+  typename Result<Algorithm, R, S, Inputs...>::Type result;
+  std::size_t next = 0;
+  symbolic::for_each_scalar<S>(
+      result, [&](S& value) __attribute__((always_inline)) { value = output[next++]; });
+  return result;
+}
 
 }  // namespace detail
 
@@ -226,13 +278,24 @@ template <class Algorithm, DescribedRobot R, class Input, std::same_as<Input>...
     static_assert(std::tuple_size_v<Input> == n, "articula: there are as many numbers as joints");
   }
   const detail::Concatenated<Input, std::size_t{n}, 1 + sizeof...(Inputs)> input{{&q, &inputs...}};
-  const auto output = symbolic::run_program<program<Algorithm, R>>(input);
+  return detail::shaped<Algorithm, R, S, Inputs...>(
+      symbolic::run_program<program<Algorithm, R>>(input));
+}
 
-  typename detail::Result<Algorithm, R, S, Inputs...>::Type result;
-  std::size_t next = 0;
-  symbolic::for_each_scalar<S>(
-      result, [&](S& value) __attribute__((always_inline)) { value = output[next++]; });
-  return result;
+/// The same for a robot of the kind of R whose bodies have other numbers.
+/// @param numbers  those that are inputs, in the order of `for_each_number`: doubles, or as q
+/// Real-time: yes.
+template <class Algorithm, DescribedRobot R, class Number, class Input,
+          std::same_as<Input>... Inputs>
+[[nodiscard, gnu::always_inline]] inline auto run_with(const Number* numbers, const Input& q,
+                                                       const Inputs&... inputs) noexcept {
+  using S = std::remove_cvref_t<decltype(q[0])>;
+  using Kind = WithInputNumbers<R>;
+  constexpr auto n = std::size_t{detail::ModelOf<R>::joint_count};
+  const detail::ConcatenatedWithNumbers<Input, Number, n, 1 + sizeof...(Inputs)> input{
+      {{&q, &inputs...}}, numbers};
+  return detail::shaped<Algorithm, R, S, Inputs...>(
+      symbolic::run_program<program<Algorithm, Kind>>(input));
 }
 
 }  // namespace articula::compiled

@@ -2,7 +2,7 @@
 /// @file The placements and masses of a mechanism's bodies at given joint positions.
 #pragma once
 
-#include "articula/dynamics/engine/axial_turn.hpp"
+#include "articula/dynamics/engine/body_numbers.hpp"
 #include "articula/dynamics/engine/coupling.hpp"
 #include "articula/model/mechanism.hpp"
 #include "articula/symbolic/sine_cosine.hpp"
@@ -23,6 +23,7 @@ struct JointPlacement {
   AxialTurn<S> turn;       ///< the separate turn Rz(q), else unused
   Vector3<S> translation;  ///< origin of this body in the parent's frame [m], 3 x 1
   MassMoments<S> moments;  ///< of the body, in its frame
+  S reflected_inertia;     ///< of the joint's drive [kg m^2 or kg]
 
   /// Adds the joint's turn to the fixed rotation, once.
   constexpr void add_turn(const AxialTurn<S>& joint) noexcept {
@@ -118,18 +119,21 @@ template <class S, int B>
 /// @tparam frames    see Frames
 /// @param mechanism  the robot's bodies; for resting frames in canonical form
 /// @param q          joint positions [rad or m]
+/// @param numbers    callable with the index of a body -> BodyNumbers<S>, in place of its own
 /// Real-time: yes. O(N) for moving frames.
-template <class S, int N, int B, Frames frames = Frames::moving>
+template <class S, int N, int B, Frames frames = Frames::moving, class Numbers>
 [[nodiscard]] constexpr Configuration<S, B> configuration_of(const Mechanism<N, B>& mechanism,
-                                                             const JointArray<S, N>& q) noexcept {
+                                                             const JointArray<S, N>& q,
+                                                             const Numbers& numbers) noexcept {
   const JointArray<S, B> position = body_positions<S, N, B>(mechanism, q);
   Configuration<S, B> configuration;
   const auto place_at_zero = [&](int i) __attribute__((always_inline)) {
-    const Body& body = mechanism.bodies[i];
-    configuration[i] = {constant<S>(body.placement.rotation),
+    const BodyNumbers<S> own = numbers(i);
+    configuration[i] = {constant<S>(mechanism.bodies[i].placement.rotation),
                         {},
-                        constant<S>(body.placement.translation),
-                        moments_of<S>(body.inertia)};
+                        own.translation,
+                        own.moments,
+                        own.reflected_inertia};
   };
   const auto slide = [&](int i) __attribute__((always_inline)) {
     JointPlacement<S>& joint = configuration[i];
@@ -179,6 +183,15 @@ template <class S, int N, int B, Frames frames = Frames::moving>
     }
   }
   return configuration;
+}
+
+/// The configuration with the mechanism's own numbers. Real-time: yes.
+template <class S, int N, int B, Frames frames = Frames::moving>
+[[nodiscard]] constexpr Configuration<S, B> configuration_of(const Mechanism<N, B>& mechanism,
+                                                             const JointArray<S, N>& q) noexcept {
+  return configuration_of<S, N, B, frames>(mechanism, q, [&](int i) __attribute__((always_inline)) {
+    return numbers_of<S>(mechanism.bodies[i]);
+  });
 }
 
 }  // namespace articula

@@ -43,19 +43,19 @@ template <class S, int N>
   return for_each_joint<N, S>([&](int j) __attribute__((always_inline)) { return array[j]; });
 }
 
-template <int N>
-[[nodiscard]] JointRows<double, N> to_rows(const JointMatrix<N>& matrix) noexcept {
-  JointRows<double, N> rows;
+template <int N, class S>
+[[nodiscard]] JointRows<S, N> to_rows(const JointMatrix<N, S>& matrix) noexcept {
+  JointRows<S, N> rows;
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j) rows[i][j] = matrix(i, j);
   }
   return rows;
 }
 
-template <int N>
-[[nodiscard, gnu::always_inline]] inline JointMatrix<N> to_matrix(
-    const JointRows<double, N>& rows) noexcept {
-  JointMatrix<N> matrix;
+template <class S, int N>
+[[nodiscard, gnu::always_inline]] inline JointMatrix<N, S> to_matrix(
+    const JointRows<S, N>& rows) noexcept {
+  JointMatrix<N, S> matrix;
   // Row by row: clang refuses folds over more than 256 elements.
   [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
     const auto copy_row = [&](int i) __attribute__((always_inline)) {
@@ -76,8 +76,15 @@ inline constexpr bool has_alternative_for_numbers = [] {
   }
 }();
 
+/// A robot of the kind of a described one, with other numbers: it runs that robot's programs.
+template <class R>
+concept HasNumbers = requires(const R& robot) {
+  typename R::Nominal;
+  robot.numbers().data();
+};
+
 /// Runs an algorithm on a robot at positions q. A described robot runs the program which the
-/// compiler has made of `Algorithm::evaluate`. A model runs this function itself, with the
+/// compiler has made of `Algorithm::evaluate`, a varied robot that with its numbers as inputs. A model runs this function itself, with the
 /// mechanism, the configuration at q and the other inputs as arrays, or that of the algorithm's
 /// alternative where it is faster.
 /// @param inputs  input[i] is a number, or a pack with the numbers of several robots
@@ -86,6 +93,8 @@ template <class Algorithm, Robot R, class Input, class... Inputs>
                                                                const Inputs&... inputs) noexcept {
   if constexpr (DescribedRobot<R>) {
     return compiled::run<Algorithm, R>(q, inputs...);
+  } else if constexpr (HasNumbers<R> && !compiled::needs_own_frames<Algorithm>) {
+    return compiled::run_with<Algorithm, typename R::Nominal>(robot.numbers().data(), q, inputs...);
   } else {
     compiled::check_masses<Algorithm, R>();
     using S = std::remove_cvref_t<decltype(q[0])>;

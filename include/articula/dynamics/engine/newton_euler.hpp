@@ -117,7 +117,7 @@ template <class S, int N, int B>
   for (int i = 0; i < B; ++i) {
     const Body& body = mechanism.bodies[i];
     if (body.reflected_inertia != 0) {
-      effort[i] = effort[i] + S(body.reflected_inertia) * acceleration[i];
+      effort[i] = effort[i] + configuration[i].reflected_inertia * acceleration[i];
     }
     if (body.sharing_body < 0) continue;
     const int other = body.sharing_body;
