@@ -15,6 +15,26 @@ if(TARGET TBB::tbb AND ARTICULA_SOBOL_INCLUDE_DIR)
     target_link_libraries(articula::sweep INTERFACE articula::articula TBB::tbb)
     target_include_directories(articula::sweep SYSTEM INTERFACE ${ARTICULA_SOBOL_INCLUDE_DIR})
   endif()
+
+  # Libraries of C: found without enabling the language C.
+  find_package(PkgConfig QUIET)
+  function(articula_add_sweep_part name package)
+    if(NOT PkgConfig_FOUND OR TARGET articula::sweep_${name})
+      return()
+    endif()
+    pkg_check_modules(articula_${name} QUIET IMPORTED_TARGET GLOBAL ${package})
+    if(TARGET PkgConfig::articula_${name})
+      add_library(articula::sweep_${name} INTERFACE IMPORTED GLOBAL)
+      target_link_libraries(articula::sweep_${name} INTERFACE articula::sweep
+                                                              PkgConfig::articula_${name})
+    endif()
+  endfunction()
+  articula_add_sweep_part(hdf5 hdf5)
+  articula_add_sweep_part(mpi ompi-c)
+  if(TARGET articula::sweep_mpi) # without the C++ interface, which MPI 3 has dropped
+    target_compile_definitions(articula::sweep_mpi INTERFACE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  endif()
+  articula_add_sweep_part(search nlopt)
 else()
   set(articula_sweep_FOUND FALSE)
   set(articula_NOT_FOUND_MESSAGE
