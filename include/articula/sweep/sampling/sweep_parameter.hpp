@@ -33,6 +33,16 @@ struct SweepParameter {
     if (spacing == Spacing::linear) return std::clamp(std::lerp(low, high, share), low, high);
     return std::clamp(std::exp(std::lerp(std::log(low), std::log(high), share)), low, high);
   }
+
+  /// The share of the range that has a value; 0 in a range without width.
+  /// @param x  within low .. high
+  /// Real-time: yes.
+  [[nodiscard]] double share(double x) const noexcept {
+    if (low == high) return 0;
+    const double share = spacing == Spacing::linear ? (x - low) / (high - low)
+                                                    : std::log(x / low) / std::log(high / low);
+    return std::clamp(share, 0.0, 1.0);
+  }
 };
 
 /// Refuses a parameter without a range.
