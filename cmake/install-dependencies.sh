@@ -14,7 +14,7 @@ packages=(
   liburdfdom-dev     # robots from URDF files
   nlohmann-json3-dev # recordings as JSON
   libyaml-cpp-dev    # configuration files
-  libtbb-dev libhdf5-dev libopenmpi-dev openmpi-bin libnlopt-cxx-dev # sweeps
+  libtbb-dev libhdf5-dev libopenmpi-dev openmpi-bin libnlopt-dev # sweeps
   catch2             # tests
   libxsimd-dev       # another library's packs, for tests of programs over them
   binutils           # nm, for the check of the object code

@@ -138,6 +138,18 @@ TEST_CASE("a heavier and a damped arm are slower; a payload is felt as its inert
         Approx(0.75 * (0.267 * 0.267 + 0.343 * 0.343 + 2 * 0.267 * 0.343 * std::cos(0.9))));
 }
 
+TEST_CASE("a light, strongly damped arm takes shorter steps") {
+  const auto experiment =
+      experiment_of({{VariedQuantity::mass, {}, 0.05, 1}, {VariedQuantity::damping, {}, 1, 10}});
+  CHECK(experiment.loop({0, 1, std::vector{1.0, 1.0}}).simulation.substeps == 1);
+  CHECK(experiment.loop({0, 1, std::vector{0.05, 10.0}}).simulation.substeps > 20);
+  const Samples samples(experiment.parameters(),
+                        {.method = SamplingMethod::latin_hypercube, .runs = 4});
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    CHECK(run_once(experiment, samples, k, experiment.metrics().size()).end == FutureEnd::stable);
+  }
+}
+
 TEST_CASE("an unstable loop is a result") {
   const auto experiment =
       experiment_of({{VariedQuantity::proportional, {}, 1, 1e6, Spacing::logarithmic, 5},

@@ -153,6 +153,13 @@ template <DynamicRobot R>
                      traits_of(variations[k].variation.quantity).subject == VariedSubject::link;
   }
   if (changes_bodies) loop.model.canonical = canonical_form(loop.model.mechanism).mechanism;
+  // Light bodies and strong damping need shorter steps; more than a hundred of them are refused.
+  SimulatorOptions<joint_count<R>>& simulation = loop.simulation;
+  const double longest = longest_step(loop.model, *simulation.initial_position);
+  const double needed = std::ceil(simulation.period / longest);
+  if (needed <= 100.0 * simulation.substeps) {
+    simulation.substeps = std::max(simulation.substeps, static_cast<int>(needed));
+  }
   return loop;
 }
 
