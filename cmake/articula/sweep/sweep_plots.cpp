@@ -5,6 +5,7 @@
 
 #include <articula/text/numbers.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -28,6 +29,12 @@ std::string is_within(const SweepPlan& plan) {
   return condition + ")";
 }
 
+bool is_logarithmic(const SweepPlan& plan, const std::string& name) {
+  return std::ranges::any_of(plan.vary, [&](const articula::Variation& each) {
+    return each.spacing == articula::Spacing::logarithmic && each.parameter().name == name;
+  });
+}
+
 std::string script_of(const SweepPlan& plan, const SweepPlot& plot, const std::string& name) {
   std::string text = "# Draws " + name + ".svg in this folder: gnuplot " + name +
                      ".gp\nset terminal svg size 800,560 font 'Helvetica,15' background rgb 'white'"
@@ -35,10 +42,14 @@ std::string script_of(const SweepPlan& plan, const SweepPlot& plot, const std::s
                      name + ".svg'\nset datafile separator ','\nset grid\n";
   text += "set xlabel '" + plot.columns[0] + "' noenhanced\n";
   if (plot.columns.size() > 1) text += "set ylabel '" + plot.columns[1] + "' noenhanced\n";
+  for (std::size_t k = 0; k < plot.columns.size(); ++k) {
+    if (is_logarithmic(plan, plot.columns[k]))
+      text += k == 0 ? "set logscale x\n" : "set logscale y\n";
+  }
   const std::string x = column(plot.columns[0]);
   switch (plot.kind) {
     case SweepPlot::Kind::histogram:
-      return text + "set ylabel 'runs'\nset style fill solid 0.6\nset boxwidth 0.9 relative\n" +
+      return text + "set ylabel 'runs'\nset style fill solid 0.6\n" +
              "set yrange [0:*]\nplot 'rows.csv' using (" + x +
              ") bins=50 with boxes linecolor rgb '#2060a0' notitle\n";
     case SweepPlot::Kind::scatter:
@@ -47,15 +58,16 @@ std::string script_of(const SweepPlan& plan, const SweepPlot& plot, const std::s
     case SweepPlot::Kind::map:
       break;
   }
-  const std::string points = " with points pointtype 5 pointsize 0.6 linecolor rgb ";
+  const std::string points = " with points pointtype 5 pointsize 0.9 linecolor rgb ";
   const std::string y = "(" + column(plot.columns[1]) + ")";
   const auto drawn = [&](const std::string& condition, const char* color, const char* title) {
     return "'rows.csv' using (" + condition + " ? " + x + " : NaN):" + y + points + "'" + color +
            "' title '" + title + "'";
   };
-  return text + "set key outside center top horizontal\nplot " +
+  return text +
+         "set key outside center top horizontal\nset autoscale xfix\nset autoscale yfix\nplot " +
          drawn(is_within(plan), "#30a050", "within specifications") + ", \\\n  " +
-         drawn("!" + is_within(plan), "#c04040", "not") + "\n";
+         drawn("!" + is_within(plan), "#c04040", "outside") + "\n";
 }
 
 }  // namespace
