@@ -46,7 +46,7 @@ void continue_sweep(const E& experiment, const SweepOptions& options, SweepResul
   }
   tbb::task_arena arena(options.threads == 0 ? tbb::task_arena::automatic : options.threads);
   arena.initialize();
-  const auto under_way = static_cast<std::size_t>(4 * arena.max_concurrency());
+  const auto under_way = 4 * static_cast<std::size_t>(arena.max_concurrency());
   std::uint64_t next = result.runs();
   std::atomic<bool> goes_on = true;
   using Rows = std::vector<SweepRow>;

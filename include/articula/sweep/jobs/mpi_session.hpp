@@ -3,6 +3,8 @@
 /// target articula::sweep_mpi.
 #pragma once
 
+#include "articula/sweep/jobs/mpi_names.hpp"
+
 #include <mpi.h>
 
 #include <algorithm>
@@ -19,8 +21,8 @@ class MpiSession {
     if (!is_active_) return;
     int granted = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &granted);
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
-    MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
+    MPI_Comm_rank(detail::mpi_world(), &rank_);
+    MPI_Comm_size(detail::mpi_world(), &ranks_);
   }
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
@@ -34,13 +36,13 @@ class MpiSession {
 
   /// Ends the program in all ranks, for example after an exception in one of them.
   void abort(int status) const {
-    if (is_active_) MPI_Abort(MPI_COMM_WORLD, status);
+    if (is_active_) MPI_Abort(detail::mpi_world(), status);
   }
 
  private:
   [[nodiscard]] static bool is_launched() {
     constexpr auto variables =
-        std::to_array<const char*>({"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"});
+        std::to_array<const char*>({"Odetail::mpi_world()_SIZE", "PMIX_RANK", "PMI_RANK"});
     return std::any_of(variables.begin(), variables.end(),
                        [](const char* name) { return std::getenv(name) != nullptr; });
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
+#include "articula/sweep/jobs/mpi_names.hpp"
 #include "articula/sweep/run_chunk.hpp"
 #include "articula/sweep/sweep.hpp"
 
@@ -69,9 +70,9 @@ void work_for_mpi(const E& experiment, const Samples& samples, const RowPacking&
   std::vector<double> numbers;  // of the last chunk; none at first
   int tag = tag_rows;
   for (;;) {
-    MPI_Send(numbers.data(), static_cast<int>(numbers.size()), MPI_DOUBLE, 0, tag, all);
+    MPI_Send(numbers.data(), static_cast<int>(numbers.size()), detail::mpi_double(), 0, tag, all);
     std::uint64_t chunk[2] = {};
-    MPI_Recv(chunk, 2, MPI_UINT64_T, 0, tag_chunk, all, MPI_STATUS_IGNORE);
+    MPI_Recv(chunk, 2, detail::mpi_uint64(), 0, tag_chunk, all, MPI_STATUS_IGNORE);
     if (chunk[1] == 0) return;
     try {
       numbers = packing.pack(chunk[0], run_chunk(experiment, samples, {chunk[0], chunk[1]}));
@@ -97,7 +98,7 @@ void work_for_mpi(const E& experiment, const Samples& samples, const RowPacking&
 /// Real-time: no (allocates, throws, waits).
 template <SweepExperiment E>
 void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, SweepResult& result,
-                             const SweepHooks& hooks = {}, MPI_Comm all = MPI_COMM_WORLD) {
+                             const SweepHooks& hooks = {}, MPI_Comm all = detail::mpi_world()) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(all, &rank);
   MPI_Comm_size(all, &ranks);
@@ -122,7 +123,7 @@ void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, S
     while (!idle.empty() && (!goes_on || next < result.runs() + ahead)) {
       std::uint64_t chunk[2] = {next, goes_on ? std::min(options.chunk, samples.runs() - next) : 0};
       next += chunk[1];
-      MPI_Send(chunk, 2, MPI_UINT64_T, idle.front(), detail::tag_chunk, all);
+      MPI_Send(chunk, 2, detail::mpi_uint64(), idle.front(), detail::tag_chunk, all);
       idle.pop_front();
       if (chunk[1] == 0) --working;
     }
@@ -135,9 +136,9 @@ void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, S
       continue;
     }
     int size = 0;
-    MPI_Get_count(&status, MPI_DOUBLE, &size);
+    MPI_Get_count(&status, detail::mpi_double(), &size);
     std::vector<double> numbers(static_cast<std::size_t>(size));
-    MPI_Recv(numbers.data(), size, MPI_DOUBLE, status.MPI_SOURCE, status.MPI_TAG, all,
+    MPI_Recv(numbers.data(), size, detail::mpi_double(), status.MPI_SOURCE, status.MPI_TAG, all,
              MPI_STATUS_IGNORE);
     idle.push_back(status.MPI_SOURCE);
     if (status.MPI_TAG == detail::tag_error) {
