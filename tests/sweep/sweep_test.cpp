@@ -138,6 +138,20 @@ TEST_CASE("a heavier and a damped arm are slower; a payload is felt as its inert
         Approx(0.75 * (0.267 * 0.267 + 0.343 * 0.343 + 2 * 0.267 * 0.343 * std::cos(0.9))));
 }
 
+TEST_CASE("the worst runs replay by their numbers, to the last bit") {
+  const auto experiment = arms();
+  const SweepOptions options{.sampling = {.method = SamplingMethod::sobol, .runs = 40, .seed = 3},
+                             .worst_metric = "elbow_active_joint.overshoot",
+                             .worst = 4};
+  const SweepResult result = sweep(experiment, options);
+  REQUIRE(result.worst().size() == 4);
+  const Samples samples(experiment.parameters(), options.sampling);
+  for (const SweepRow& row : result.worst()) {
+    CHECK(bits_of({row}) ==
+          bits_of({run_once(experiment, samples, row.number, row.metrics.size())}));
+  }
+}
+
 TEST_CASE("a light, strongly damped arm takes shorter steps") {
   const auto experiment =
       experiment_of({{VariedQuantity::mass, {}, 0.05, 1}, {VariedQuantity::damping, {}, 1, 10}});
