@@ -32,6 +32,9 @@ install(DIRECTORY cmake/urdf_to_robot DESTINATION ${articula_package_dir})
 # The component socketcan.
 install(FILES cmake/articula-socketcan.cmake DESTINATION ${articula_package_dir})
 
+# The component sweep.
+install(FILES cmake/articula-sweep.cmake DESTINATION ${articula_package_dir})
+
 # The component recording.
 install(FILES cmake/articula-recording.cmake DESTINATION ${articula_package_dir})
 

@@ -67,6 +67,9 @@ int run(int count, char** words) {
   add_record_command(app, program);
   add_joints_command(app, program);
   add_run_command(app, program);
+#ifdef ARTICULA_PROGRAM_HAS_SWEEP
+  add_sweep_command(app, program);
+#endif
   add_new_command(app, program);
   add_completion_command(app, program);
   // Known before the command line is parsed, whose faults are told as JSON, too.

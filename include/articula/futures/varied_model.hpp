@@ -12,6 +12,21 @@
 
 namespace articula {
 
+namespace detail {
+
+/// A body of the same shape with another density.
+[[nodiscard]] constexpr Inertia<double> scaled(Inertia<double> inertia, double factor) noexcept {
+  inertia.mass *= factor;
+  inertia.first_moment = factor * inertia.first_moment;
+  Symmetric3<double>& moment = inertia.moment;
+  for (double* element : {&moment.xx, &moment.xy, &moment.xz, &moment.yy, &moment.yz, &moment.zz}) {
+    *element *= factor;
+  }
+  return inertia;
+}
+
+}  // namespace detail
+
 /// The model of a robot with other masses and friction. Each body's mass, first moment and inertia
 /// have one common factor, so the body stays possible. Inertias of drives stay as they are.
 /// @param robot   as described
@@ -23,15 +38,7 @@ template <DynamicRobot R>
   auto model = model_of(robot);
   std::uint64_t number = 0;
   for (Body& body : model.mechanism.bodies) {
-    const double factor = detail::random_factor(key, number++, spread.mass);
-    Inertia<double>& inertia = body.inertia;
-    inertia.mass *= factor;
-    inertia.first_moment = factor * inertia.first_moment;
-    Symmetric3<double>& moment = inertia.moment;
-    for (double* element :
-         {&moment.xx, &moment.xy, &moment.xz, &moment.yy, &moment.yz, &moment.zz}) {
-      *element *= factor;
-    }
+    body.inertia = detail::scaled(body.inertia, detail::random_factor(key, number++, spread.mass));
   }
   for (JointProperties& joint : model.joints) {
     joint.damping *= detail::random_factor(key, number++, spread.friction);

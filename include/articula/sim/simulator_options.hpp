@@ -70,6 +70,39 @@ template <Robot R>
   });
 }
 
+/// The longest step of the simulation at a position, by the joints' damping: infinite without
+/// damping, 0 if it decays too fast for a number. Damped joints decay with the eigenvalues of
+/// M^-1 D. Power iteration computes the largest one. The Runge-Kutta method is stable on the negative
+/// real axis up to 2.785 per step [Hairer, Wanner 1996, section IV.2]. Half of it is the limit here:
+/// M changes with the position, and the iteration may underestimate.
+/// @param q  joint positions [rad or m], N x 1
+/// @return   [s]
+/// Real-time: no (set-up).
+template <Robot R>
+[[nodiscard]] double longest_step(const R& robot, const JointVector<joint_count<R>>& q) {
+  constexpr int n = joint_count<R>;
+  const JointArray<int, n> parents = elimination_tree(model_of(robot).mechanism);
+  const auto factors = factorise<double, n>(parents, detail::to_rows(mass_matrix(robot, q)));
+  const JointVector<n> damping =
+      joint_values(robot, [](const JointProperties& joint) { return joint.damping; });
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  JointArray<double, n> mode;  // a start without the symmetries of robots
+  for (int j = 0; j < n; ++j) mode[j] = 1 / (1.0 + j);
+  double rate = 0;
+  for (int k = 0; k < 100; ++k) {
+    for (int j = 0; j < n; ++j) mode[j] *= damping[j];
+    mode = solve<double, n>(parents, factors, mode);
+    const double last_rate = rate;
+    rate = 0;  // the largest number: a sum of squares may overflow
+    for (const double x : mode) rate = std::fmax(rate, is_finite(x) ? std::abs(x) : infinity);
+    if (rate == 0) return infinity;
+    if (!is_finite(rate)) return 0;
+    for (double& x : mode) x /= rate;
+    if (std::abs(rate - last_rate) <= 1e-9 * rate) break;
+  }
+  return 2.785 / 2 / rate;
+}
+
 /// Refuses options that cannot be simulated: periods, steps, bandwidths, resolutions or deviations
 /// out of range, drives of no kind, a start outside the joint limits, a mass matrix that is
 /// singular at the start, damping too strong for the step.
@@ -139,28 +172,8 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     }
   }
 
-  // Damped joints decay with the eigenvalues of M^-1 D. Power iteration computes the largest one.
-  // The Runge-Kutta method is stable on the negative real axis up to 2.785 per step [Hairer, Wanner
-  // 1996, section IV.2]. Half of it is the limit here: M changes with the position, and the
-  // iteration may underestimate.
-  const JointVector<n> damping =
-      joint_values(robot, [](const JointProperties& joint) { return joint.damping; });
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  JointArray<double, n> mode;  // a start without the symmetries of robots
-  for (int j = 0; j < n; ++j) mode[j] = 1 / (1.0 + j);
-  double rate = 0;
-  for (int k = 0; k < 100; ++k) {
-    for (int j = 0; j < n; ++j) mode[j] *= damping[j];
-    mode = solve<double, n>(parents, factors, mode);
-    const double last_rate = rate;
-    rate = 0;  // the largest number: a sum of squares may overflow
-    for (const double x : mode) rate = std::fmax(rate, is_finite(x) ? std::abs(x) : infinity);
-    if (rate == 0) return;
-    if (!is_finite(rate)) refuse({"joint damping decays too fast for a number"});
-    for (double& x : mode) x /= rate;
-    if (std::abs(rate - last_rate) <= 1e-9 * rate) break;
-  }
-  const double most = 2.785 / 2 / rate;
+  const double most = longest_step(robot, q);
+  if (most == 0) refuse({"joint damping decays too fast for a number"});
   if (options.period / options.substeps > most) {
     std::string advice;
     const double needed = std::ceil(options.period / most);
@@ -168,7 +181,7 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
       advice = detail::message_of({": ask for at least ", static_cast<int>(needed),
                                    " substeps instead of ", options.substeps});
     }
-    refuse({"joint damping decays with ", rate,
+    refuse({"joint damping decays with ", 2.785 / 2 / most,
             " 1/s at the initial position, which needs steps of at most ", most, " s", advice});
   }
 }

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file sweep: many closed loops that a file describes, in threads or in the processes of mpirun.
+#include "../program.hpp"
+#include "../table.hpp"
+#include "../within.hpp"
+#include "sweep_plan.hpp"
+
+#include <articula/loop/realtime/stop_on_signal.hpp>
+#include <articula/sweep/jobs/resumable_sweep.hpp>
+#include <articula/text/similar_word.hpp>
+#ifdef ARTICULA_PROGRAM_HAS_HDF5
+#include <articula/sweep/jobs/sweep_hdf5.hpp>
+#endif
+#ifdef ARTICULA_PROGRAM_HAS_MPI
+#include <articula/sweep/jobs/mpi_session.hpp>
+#include <articula/sweep/jobs/mpi_sweep.hpp>
+#endif
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace terminal {
+
+namespace {
+
+using articula::FutureEnd;
+using articula::SweepResult;
+namespace fs = std::filesystem;
+
+struct SweepCall {
+  std::string file{}, output{};
+  int threads = 0, chunk = 64;
+  bool starts_again = false;
+};
+
+template <int... Joints>
+AnyExperiment experiment_of(const SweepPlan& plan, std::integer_sequence<int, Joints...>) {
+  const int joints = articula::model_size((*plan.robot)->joints).joints;
+  AnyExperiment experiment;
+  static_cast<void>(
+      ((joints == Joints && (experiment = make_experiment<Joints>(plan), true)) || ...));
+  return experiment;
+}
+
+/// Refuses metrics and columns that there are not, with their place in the file.
+void check_names(const SweepPlan& plan, const AnyExperiment& experiment) {
+  std::vector<std::string> metrics, columns;
+  for (const auto& metric : experiment.metrics()) metrics.push_back(metric.name);
+  columns = metrics;
+  for (const auto& parameter : experiment.parameters()) columns.push_back(parameter.name);
+  const auto check = [&](const std::string& name, const std::vector<std::string>& all,
+                         const char* what) {
+    if (name.empty() || std::ranges::find(all, name) != all.end()) return;
+    throw articula::FileError(plan.names.at(name),
+                              "there is no " + std::string(what) + " '" + name + "'",
+                              articula::detail::one_of_words(name, all));
+  };
+  for (const auto& each : plan.options.specifications) check(each.metric, metrics, "metric");
+  check(plan.options.worst_metric, metrics, "metric");
+  for (const SweepPlot& plot : plan.plots) {
+    for (const std::string& column : plot.columns) check(column, columns, "column");
+  }
+}
+
+/// A line on standard error, a few times a second, after the first second.
+class SweepProgress {
+ public:
+  SweepProgress(std::uint64_t all, std::uint64_t first) : all_(all), first_(first) {}
+  SweepProgress(const SweepProgress&) = delete;
+  SweepProgress& operator=(const SweepProgress&) = delete;
+  ~SweepProgress() {
+    if (is_shown_) std::fprintf(stderr, "\n");
+  }
+  void show(std::uint64_t done) {
+    const auto now = Clock::now();
+    if (now < next_) return;
+    next_ = now + std::chrono::milliseconds(500);
+    is_shown_ = true;
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const double rate = static_cast<double>(done - first_) / seconds;
+    std::fprintf(stderr, "\r%llu of %llu runs, %.0f a second, %.0f s left    ",
+                 static_cast<unsigned long long>(done), static_cast<unsigned long long>(all_), rate,
+                 static_cast<double>(all_ - done) / std::fmax(rate, 1e-9));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::uint64_t all_, first_;
+  Clock::time_point start_ = Clock::now(), next_ = start_ + std::chrono::seconds(1);
+  bool is_shown_ = false;
+};
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+std::string cell(double x) { return std::isfinite(x) ? shown(x) : "-"; }
+
+/// The result as a table and as JSON; both end with the worst runs.
+void report(const Program& program, const SweepPlan& plan, const AnyExperiment& experiment,
+            const SweepResult& result, const std::string& drawn) {
+  Json metrics = Json::array();
+  Row head{"metric", "unit", "mean"};
+  for (const double share : plan.quantiles) head.push_back(shown(100 * share) + " %");
+  head.insert(head.end(), {"highest", "undefined"});
+  std::vector<Row> rows{head};
+  for (std::size_t k = 0; k < result.metrics().size(); ++k) {
+    const articula::MetricSummary& summary = result.summaries()[k];
+    const auto& [name, unit] = result.metrics()[k];
+    Row row{name, unit, cell(summary.mean())};
+    Json quantiles = Json::object();
+    for (const double share : plan.quantiles) {
+      row.push_back(cell(summary.quantile(share)));
+      quantiles[articula::detail::number_text(share)] = number(summary.quantile(share));
+    }
+    row.push_back(cell(summary.highest));
+    row.push_back(std::to_string(summary.undefined));
+    rows.push_back(row);
+    metrics.push_back({{"name", name},
+                       {"unit", unit},
+                       {"mean", number(summary.mean())},
+                       {"quantiles", quantiles},
+                       {"lowest", number(summary.lowest)},
+                       {"highest", number(summary.highest)},
+                       {"undefined", summary.undefined}});
+  }
+  Json worst = Json::array();
+  Row worst_head{"worst runs"};
+  const std::string by =
+      plan.options.worst_metric.empty() ? result.metrics()[0].name : plan.options.worst_metric;
+  worst_head.push_back(by);
+  for (const auto& parameter : experiment.parameters()) worst_head.push_back(parameter.name);
+  std::vector<Row> worst_rows{worst_head};
+  const std::size_t metric = articula::detail::metric_index(result.metrics(), by);
+  for (const articula::SweepRow& each : result.worst()) {
+    Row row{std::to_string(each.number), cell(each.metrics[metric])};
+    Json parameters = Json::object();
+    for (std::size_t p = 0; p < each.parameters.size(); ++p) {
+      row.push_back(shown(each.parameters[p]));
+      parameters[experiment.parameters()[p].name] = each.parameters[p];
+    }
+    worst_rows.push_back(row);
+    worst.push_back({{"run", each.number},
+                     {"seed", each.seed},
+                     {"end", articula::to_string(each.end)},
+                     {by, number(each.metrics[metric])},
+                     {"parameters", parameters}});
+  }
+  const auto count = [&](FutureEnd end) { return result.runs_with(end); };
+  std::string text = std::to_string(result.runs()) +
+                     " runs: " + std::to_string(count(FutureEnd::stable)) + " stable, " +
+                     std::to_string(count(FutureEnd::unstable)) + " unstable, " +
+                     std::to_string(count(FutureEnd::non_finite)) + " not finite";
+  if (!plan.options.specifications.empty()) {
+    text += "; " + std::to_string(result.runs_within()) + " within all specifications";
+  }
+  text += "\n" + table(rows) + "\n" + table(worst_rows) + "\nrows and plots: " + plan.output;
+  if (!drawn.empty()) text += "\n" + drawn;
+  program.print({{"runs", result.runs()},
+                 {"stable", count(FutureEnd::stable)},
+                 {"unstable", count(FutureEnd::unstable)},
+                 {"non_finite", count(FutureEnd::non_finite)},
+                 {"within", result.runs_within()},
+                 {"metrics", metrics},
+                 {"worst", worst},
+                 {"output", plan.output}},
+                text);
+}
+
+/// The sweep in this process and those of mpirun.
+void run_sweep(const Program& program, const SweepCall& call, bool is_first,
+               const auto& continues) {
+  SweepPlan plan = read_sweep(call.file);
+  if (!call.output.empty()) plan.output = call.output;
+  plan.options.threads = call.threads;
+  plan.options.chunk = static_cast<std::uint64_t>(call.chunk);
+  const AnyExperiment experiment =
+      experiment_of(plan, std::integer_sequence<int, ARTICULA_SWEPT_JOINTS>{});
+  check_names(plan, experiment);
+  if (!is_first) {
+    SweepResult none(experiment.metrics(), plan.options);
+    return continues(experiment, plan.options, none, articula::SweepHooks{});
+  }
+  for (const std::string& note : plan.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  fs::create_directories(plan.output);
+  const fs::path folder = plan.output;
+  if (call.starts_again) fs::remove(folder / "checkpoint");
+  const articula::Samples samples(experiment.parameters(), plan.options.sampling);
+  articula::StopFlag stop;
+  const articula::StopOnSignal on_signal(stop);
+  std::unique_ptr<SweepProgress> progress;
+  articula::SweepHooks hooks;
+  hooks.progress = [&](const SweepResult& so_far) {
+    if (!progress) progress = std::make_unique<SweepProgress>(samples.runs(), so_far.runs());
+    progress->show(so_far.runs());
+    return !stop.requested();
+  };
+  const SweepResult result = articula::resumable_sweep_by(
+      experiment, plan.options, {folder / "rows.csv", folder / "checkpoint", 1, plan.text}, hooks,
+      [&](const auto& options, auto& so_far, const auto& own) {
+        continues(experiment, options, so_far, own);
+      });
+  progress.reset();
+  if (result.runs() < samples.runs()) {
+    throw Refusal("stopped after " + std::to_string(result.runs()) + " of " +
+                  std::to_string(samples.runs()) + " runs; the same command goes on");
+  }
+#ifdef ARTICULA_PROGRAM_HAS_HDF5
+  articula::write_hdf5(folder / "rows.h5", folder / "rows.csv", experiment.parameters(),
+                       experiment.metrics());
+#endif
+  report(program, plan, experiment, result, draw_sweep(plan, plan.output));
+}
+
+void sweep(const Program& program, const SweepCall& call) {
+#ifdef ARTICULA_PROGRAM_HAS_MPI
+  const articula::MpiSession mpi;
+  if (mpi.is_active()) {
+    try {
+      return run_sweep(program, call, mpi.rank() == 0,
+                       [](auto&&... all) { articula::continue_sweep_with_mpi(all...); });
+    } catch (const std::exception& error) {  // the other ranks would wait forever
+      if (mpi.rank() == 0) std::fprintf(stderr, "articula: %s\n", error.what());
+      mpi.abort(refused);
+    }
+  }
+#endif
+  run_sweep(program, call, true, [](auto&&... all) { articula::continue_sweep(all...); });
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, Program& program) {
+  const auto call = std::make_shared<SweepCall>();
+  CLI::App* command = add_command(
+      app, program, "sweep", "Runs a closed loop many times with other parameters, or goes on.",
+      [&program, call] { sweep(program, *call); });
+  command->add_option("file", call->file, "YAML of the sweep, see docs/sweeps.md")->required();
+  command->add_option("--output", call->output, "folder of rows, checkpoint and plots")
+      ->default_str("that of the file");
+  command->add_option("--threads", call->threads, "0: one for each processor")
+      ->check(within(0, 1024))
+      ->capture_default_str();
+  command->add_option("--chunk", call->chunk, "runs that a thread or process takes at once")
+      ->check(within(1, 1'000'000))
+      ->capture_default_str();
+  command->add_flag("--fresh", call->starts_again, "start again in place of going on");
+}
+
+}  // namespace terminal

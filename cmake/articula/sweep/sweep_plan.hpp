@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file What a sweep from a file is made of.
+#pragma once
+
+#include "../controllers_file.hpp"
+
+#include <articula/config/yaml/source.hpp>
+#include <articula/reference/joint_signals.hpp>
+#include <articula/sweep/sweep_experiment.hpp>
+#include <articula/sweep/sweep_options.hpp>
+#include <articula/sweep/variation.hpp>
+#include <articula/text/file_error.hpp>
+#include <articula/urdf/description.hpp>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace terminal {
+
+/// A plot of the rows.
+struct SweepPlot {
+  enum class Kind : unsigned char { histogram, scatter, map };
+  Kind kind{};
+  std::vector<std::string> columns{};  ///< one, or two: abscissa and ordinate
+};
+
+/// What a sweep from a file is made of.
+struct SweepPlan {
+  std::optional<articula::UrdfDescription> robot{};  ///< always there after read_sweep
+  ControllersPlan controllers{};                     ///< the first one is swept
+  double duration = 1;                               ///< [s]
+  int substeps = 1;
+  std::map<std::string, double> start{}, target{};  ///< by joint [rad or m]
+  std::vector<articula::JointSignal> disturbances{};
+  std::vector<articula::Variation> vary{};
+  articula::SweepOptions options{};
+  std::vector<double> quantiles{0.05, 0.5, 0.95};
+  std::vector<SweepPlot> plots{};
+  std::string output{};                                ///< folder
+  std::string text{};                                  ///< of all files, for the checkpoint
+  std::map<std::string, articula::FilePlace> names{};  ///< places of metrics and columns
+  std::vector<std::string> notes{};
+};
+
+/// Reads a file and those that it names, which are beside it.
+/// @throws articula::FileError with file, line, key and what was expected; Refusal
+[[nodiscard]] SweepPlan read_sweep(const std::string& file);
+
+/// An experiment whose robot's number of joints is not part of its type.
+struct AnyExperiment {
+  std::vector<articula::SweepParameter> all_parameters{};
+  std::vector<articula::SweepMetric> all_metrics{};
+  std::function<articula::FutureEnd(const articula::SweepRun&, std::span<double>)> run_one{};
+
+  [[nodiscard]] const std::vector<articula::SweepParameter>& parameters() const {
+    return all_parameters;
+  }
+  [[nodiscard]] const std::vector<articula::SweepMetric>& metrics() const { return all_metrics; }
+  [[nodiscard]] articula::FutureEnd run(const articula::SweepRun& run,
+                                        std::span<double> metrics) const {
+    return run_one(run, metrics);
+  }
+};
+
+/// The experiment of a robot with N joints.
+/// @throws articula::FileError, std::invalid_argument
+template <int N>
+AnyExperiment make_experiment(const SweepPlan& plan);
+
+/// The N for which there is make_experiment.
+inline constexpr auto swept_joints = std::to_array<int>({ARTICULA_SWEPT_JOINTS});
+
+/// Writes gnuplot scripts beside the rows, and runs gnuplot where it is installed.
+/// @return a line for people: what was drawn, or why not
+/// @throws Refusal if a script cannot be written
+[[nodiscard]] std::string draw_sweep(const SweepPlan& plan, const std::string& folder);
+
+}  // namespace terminal

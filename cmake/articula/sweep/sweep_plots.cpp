@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Plots of a sweep's rows by gnuplot: histograms, scatter plots, and maps of two parameters.
+#include "../program.hpp"
+#include "sweep_plan.hpp"
+
+#include <articula/text/numbers.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace terminal {
+
+namespace {
+
+/// A column by its name. Names are those of joints and links, without quotation marks.
+std::string column(const std::string& name) { return "column(\"" + name + "\")"; }
+
+/// gnuplot's condition that a row meets all specifications.
+std::string is_within(const SweepPlan& plan) {
+  std::string condition = "(strcol(\"end\") eq \"stable\"";
+  for (const articula::SweepSpecification& each : plan.options.specifications) {
+    condition +=
+        " && " + column(each.metric) + " <= " + articula::detail::number_text(each.highest);
+  }
+  return condition + ")";
+}
+
+bool is_logarithmic(const SweepPlan& plan, const std::string& name) {
+  return std::ranges::any_of(plan.vary, [&](const articula::Variation& each) {
+    return each.spacing == articula::Spacing::logarithmic && each.parameter().name == name;
+  });
+}
+
+std::string script_of(const SweepPlan& plan, const SweepPlot& plot, const std::string& name) {
+  std::string text = "# Draws " + name + ".svg in this folder: gnuplot " + name +
+                     ".gp\nset terminal svg size 800,560 font 'Helvetica,15' background rgb 'white'"
+                     "\nset output '" +
+                     name + ".svg'\nset datafile separator ','\nset grid\n";
+  text += "set xlabel '" + plot.columns[0] + "' noenhanced\n";
+  if (plot.columns.size() > 1) text += "set ylabel '" + plot.columns[1] + "' noenhanced\n";
+  for (std::size_t k = 0; k < plot.columns.size(); ++k) {
+    if (is_logarithmic(plan, plot.columns[k]))
+      text += k == 0 ? "set logscale x\n" : "set logscale y\n";
+  }
+  const std::string x = column(plot.columns[0]);
+  switch (plot.kind) {
+    case SweepPlot::Kind::histogram:
+      return text + "set ylabel 'runs'\nset style fill solid 0.6\n" +
+             "set yrange [0:*]\nplot 'rows.csv' using (" + x +
+             ") bins=50 with boxes linecolor rgb '#2060a0' notitle\n";
+    case SweepPlot::Kind::scatter:
+      return text + "plot 'rows.csv' using (" + x + "):(" + column(plot.columns[1]) +
+             ") with points pointtype 7 pointsize 0.3 linecolor rgb '#2060a0' notitle\n";
+    case SweepPlot::Kind::map:
+      break;
+  }
+  const std::string points = " with points pointtype 5 pointsize 0.9 linecolor rgb ";
+  const std::string y = "(" + column(plot.columns[1]) + ")";
+  const auto drawn = [&](const std::string& condition, const char* color, const char* title) {
+    return "'rows.csv' using (" + condition + " ? " + x + " : NaN):" + y + points + "'" + color +
+           "' title '" + title + "'";
+  };
+  return text +
+         "set key outside center top horizontal\nset autoscale xfix\nset autoscale yfix\nplot " +
+         drawn(is_within(plan), "#30a050", "within specifications") + ", \\\n  " +
+         drawn("!" + is_within(plan), "#c04040", "outside") + "\n";
+}
+
+}  // namespace
+
+std::string draw_sweep(const SweepPlan& plan, const std::string& folder) {
+  if (plan.plots.empty()) return "";
+  const bool can_draw = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
+  std::size_t number = 0;
+  const std::filesystem::path here = std::filesystem::current_path();
+  std::string failed;
+  for (const SweepPlot& plot : plan.plots) {
+    const std::string name = "plot_" + std::to_string(++number);
+    const std::filesystem::path path = std::filesystem::path(folder) / (name + ".gp");
+    std::ofstream script(path);
+    script << script_of(plan, plot, name);
+    script.close();
+    if (!script) throw Refusal("cannot write " + path.string());
+    if (!can_draw) continue;
+    std::filesystem::current_path(folder);  // so that no shell has to read the folder's name
+    const int status = std::system(("gnuplot " + name + ".gp 2>" + name + ".log").c_str());
+    std::filesystem::current_path(here);
+    if (status != 0) failed += " " + name + ".gp";
+  }
+  if (!can_draw) return "no plots: gnuplot is not installed; the scripts are in " + folder;
+  if (!failed.empty()) return "gnuplot could not draw" + failed + "; its logs are in " + folder;
+  return std::to_string(number) + " plots in " + folder;
+}
+
+}  // namespace terminal

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file MPI's predefined names, whose macros contain casts of C. Needs the CMake target
+/// articula::sweep_mpi.
+#pragma once
+
+#include <mpi.h>
+
+namespace articula::detail {
+
+// NOLINTBEGIN(bugprone-casting-through-void)
+/// All ranks.
+[[nodiscard]] inline MPI_Comm mpi_world() noexcept { return MPI_COMM_WORLD; }
+[[nodiscard]] inline MPI_Datatype mpi_double() noexcept { return MPI_DOUBLE; }
+[[nodiscard]] inline MPI_Datatype mpi_uint64() noexcept { return MPI_UINT64_T; }
+// NOLINTEND(bugprone-casting-through-void)
+
+}  // namespace articula::detail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Consecutive runs of a sweep, one after the other.
+#pragma once
+
+#include "articula/core/refuse.hpp"
+#include "articula/sweep/sampling/samples.hpp"
+#include "articula/sweep/sweep_experiment.hpp"
+#include "articula/sweep/sweep_result.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace articula {
+
+/// Runs of consecutive numbers.
+struct SweepChunk {
+  std::uint64_t first = 0;
+  std::uint64_t count = 0;
+};
+
+/// One run of a sweep, for example to replay one of the worst.
+/// @throws std::runtime_error naming the run and its parameters, if it cannot be set up
+/// Real-time: no (allocates).
+template <SweepExperiment E>
+[[nodiscard]] SweepRow run_once(const E& experiment, const Samples& samples, std::uint64_t number,
+                                std::size_t metrics) {
+  SweepRow row{.number = number,
+               .seed = samples.seed(number),
+               .parameters = std::vector<double>(samples.parameters().size()),
+               .metrics = std::vector<double>(metrics, std::nan(""))};
+  samples.values(number, row.parameters);
+  try {
+    row.end = experiment.run({number, row.seed, row.parameters}, row.metrics);
+  } catch (const std::exception& error) {
+    std::string values;
+    for (std::size_t p = 0; p < row.parameters.size(); ++p) {
+      values += detail::message_of(
+          {p == 0 ? "" : ", ", samples.parameters()[p].name, " ", row.parameters[p]});
+    }
+    throw std::runtime_error(
+        detail::message_of({"sweep: run ", number, " (", values, "): ", error.what()}));
+  }
+  return row;
+}
+
+/// The runs of a chunk, one after the other. What simulates several runs at once belongs here.
+/// @throws std::runtime_error as above
+/// Real-time: no (allocates).
+template <SweepExperiment E>
+[[nodiscard]] std::vector<SweepRow> run_chunk(const E& experiment, const Samples& samples,
+                                              const SweepChunk& chunk) {
+  const std::size_t metrics = experiment.metrics().size();
+  std::vector<SweepRow> rows;
+  rows.reserve(chunk.count);
+  for (std::uint64_t k = 0; k < chunk.count; ++k) {
+    rows.push_back(run_once(experiment, samples, chunk.first + k, metrics));
+  }
+  return rows;
+}
+
+}  // namespace articula

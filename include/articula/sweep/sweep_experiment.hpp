@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The interface of what a sweep runs many times.
+#pragma once
+
+#include "articula/futures/future_end.hpp"
+#include "articula/sweep/sampling/sweep_parameter.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace articula {
+
+/// A number that each run measures. Larger is worse.
+struct SweepMetric {
+  std::string name{};
+  std::string unit{};  ///< "1" if it has none
+};
+
+/// One run of a sweep.
+struct SweepRun {
+  std::uint64_t number = 0;              ///< from 0
+  std::uint64_t seed = 0;                ///< of all in it that is random
+  std::span<const double> parameters{};  ///< a value for each parameter
+};
+
+/// Something that a sweep runs many times:
+///
+/// - `parameters()` are the numbers that vary, `metrics()` what each run measures.
+/// - `run(run, metrics)` runs once, fills in the metrics, and returns how the run has ended. Metrics
+///   that are not finite are undefined in this run. Several threads call it at the same time. The
+///   result depends on the run alone.
+///
+/// ClosedLoopExperiment is a robot under a controller.
+template <class E>
+concept SweepExperiment =
+    requires(const E& experiment, const SweepRun& run, std::span<double> metrics) {
+      { experiment.parameters() } -> std::convertible_to<std::vector<SweepParameter>>;
+      { experiment.metrics() } -> std::convertible_to<std::vector<SweepMetric>>;
+      { experiment.run(run, metrics) } -> std::same_as<FutureEnd>;
+    };
+
+}  // namespace articula

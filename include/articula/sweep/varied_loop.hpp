@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A robot, gains and simulation that differ from the nominal ones by given numbers.
+#pragma once
+
+#include "articula/control/laws/pid_gains.hpp"
+#include "articula/core/refuse.hpp"
+#include "articula/futures/varied_model.hpp"
+#include "articula/model/canonical_mechanism.hpp"
+#include "articula/model/robot.hpp"
+#include "articula/sim/simulator_options.hpp"
+#include "articula/sweep/variation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace articula {
+
+/// Everything about one run that varies: it replays the run in a loop of one's own.
+/// @tparam R  the robot as described
+template <DynamicRobot R>
+struct VariedLoop {
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Model = std::remove_cvref_t<decltype(model_of(std::declval<const R&>()))>;
+
+  Model model{};                               ///< the robot of this run
+  JointPidGains<joint_count> gains{};          ///< of its controller
+  SimulatorOptions<joint_count> simulation{};  ///< with noise and the seed of this run
+  int delay = 0;                               ///< of the commands [periods]
+};
+
+namespace detail {
+
+/// A variation and the indices of what it varies: bodies or joints.
+struct PlacedVariation {
+  Variation variation{};
+  std::vector<int> places{};
+  Vector3<double> point{};  ///< of a payload, in the frame of its body [m]
+};
+
+/// Finds what a variation varies.
+/// @throws std::invalid_argument naming the link or joint, if there is none or it does not move
+template <DynamicRobot R>
+[[nodiscard]] PlacedVariation placed(const R& robot, const Variation& variation) {
+  validate(variation);
+  const auto& model = model_of(robot);
+  PlacedVariation result{.variation = variation};
+  const VariedSubject subject = traits_of(variation.quantity).subject;
+  if (subject == VariedSubject::loop) return result;
+  if (variation.where.empty()) {
+    const auto size =
+        subject == VariedSubject::link ? model.mechanism.bodies.size() : model.joints.size();
+    for (int k = 0; k < static_cast<int>(size); ++k) result.places.push_back(k);
+    return result;
+  }
+  if (subject == VariedSubject::joint) {
+    result.places.push_back(joint_index(robot, variation.where));
+    return result;
+  }
+  const auto link = std::find_if(model.links.begin(), model.links.end(), [&](const auto& each) {
+    return each.name.view() == variation.where.view();
+  });
+  if (link == model.links.end()) no_such_link(model, variation.where.view());
+  if (link->body < 0) {
+    refuse({"sweep: link '", variation.where.view(), "' of robot '", model.name.view(),
+            "' does not move"});
+  }
+  result.places.push_back(link->body);
+  result.point = link->placement.translation;
+  return result;
+}
+
+/// Applies one variation.
+template <class Loop>
+void vary(Loop& loop, const PlacedVariation& placed, double value) {
+  using enum VariedQuantity;
+  auto& bodies = loop.model.mechanism.bodies;
+  auto& simulation = loop.simulation;
+  switch (placed.variation.quantity) {
+    case mass:
+      for (const int b : placed.places) bodies[b].inertia = scaled(bodies[b].inertia, value);
+      return;
+    case payload:
+      for (const int b : placed.places) {
+        const Vector3<double> moment = value * placed.point;
+        bodies[b].inertia =
+            bodies[b].inertia +
+            Inertia<double>{value, moment, parallel_axis(0.5 * moment, placed.point)};
+      }
+      return;
+    case delay:
+      loop.delay = static_cast<int>(std::lround(value / simulation.period));
+      return;
+    default:
+      break;
+  }
+  for (const int j : placed.places) {
+    const auto place = static_cast<std::size_t>(j);
+    switch (placed.variation.quantity) {
+      case damping:
+        loop.model.joints[j].damping *= value;
+        break;
+      case friction:
+        loop.model.joints[j].friction *= value;
+        break;
+      case added_friction:
+        loop.model.joints[j].friction += value;
+        break;
+      case position_noise:
+        simulation.position_noise[j] = value;
+        break;
+      case velocity_noise:
+        simulation.velocity_noise[j] = value;
+        break;
+      case encoder_resolution:
+        simulation.encoder_resolution[j] = value;
+        break;
+      case initial_position:
+        (*simulation.initial_position)[j] += value;
+        break;
+      case proportional:
+        loop.gains[place].proportional *= value;
+        break;
+      case integral:
+        loop.gains[place].integral *= value;
+        break;
+      case derivative:
+        loop.gains[place].derivative *= value;
+        break;
+      default:
+        break;
+    }
+  }
+}
+
+/// The nominal loop with all variations.
+/// @param values  one for each variation
+/// Real-time: no (allocates).
+template <DynamicRobot R>
+[[nodiscard]] VariedLoop<R> varied_loop(const VariedLoop<R>& nominal,
+                                        std::span<const PlacedVariation> variations,
+                                        std::span<const double> values, std::uint64_t seed) {
+  VariedLoop<R> loop = nominal;
+  loop.simulation.seed = seed;
+  bool changes_bodies = false;
+  for (std::size_t k = 0; k < variations.size(); ++k) {
+    vary(loop, variations[k], values[k]);
+    changes_bodies = changes_bodies ||
+                     traits_of(variations[k].variation.quantity).subject == VariedSubject::link;
+  }
+  if (changes_bodies) loop.model.canonical = canonical_form(loop.model.mechanism).mechanism;
+  // Light bodies and strong damping need shorter steps; more than a hundred of them are refused.
+  SimulatorOptions<joint_count<R>>& simulation = loop.simulation;
+  const double longest = longest_step(loop.model, *simulation.initial_position);
+  const double needed = std::ceil(simulation.period / longest);
+  if (needed <= 100.0 * simulation.substeps) {
+    simulation.substeps = std::max(simulation.substeps, static_cast<int>(needed));
+  }
+  return loop;
+}
+
+}  // namespace detail
+
+}  // namespace articula

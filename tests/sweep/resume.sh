@@ -1,0 +1,42 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# resume.sh SWEEPER FOLDER [MPIRUN...]
+#
+# A sweep that SIGKILL ends goes on when it is started again, and has the same bits as one without
+# interruption. With MPIRUN, ranks compute it, and one of them is killed.
+set -eu
+
+sweeper=$1 folder=$2
+shift 2
+fail() { echo "$*" >&2; exit 1; }
+rm -rf "$folder"
+mkdir -p "$folder/whole" "$folder/other" "$folder/killed" "$folder/failed"
+
+"$sweeper" "$folder/whole" 1
+[ "$(wc -l <"$folder/whole/rows.csv")" -eq 3001 ] || fail "3000 runs do not have 3000 lines"
+"$@" "$sweeper" "$folder/other" 3
+cmp "$folder/whole/rows.csv" "$folder/other/rows.csv"
+cmp "$folder/whole/checkpoint" "$folder/other/checkpoint"
+
+if "$@" "$sweeper" "$folder/killed" 2 --kill 1500 2>"$folder/log"; then fail "it was not killed"; fi
+[ -e "$folder/killed/killed" ] || fail "no process has killed itself"
+cmp -s "$folder/whole/checkpoint" "$folder/killed/checkpoint" && fail "it was complete"
+begun=$(sed -n 1p "$folder/killed/checkpoint" | awk '{ print $4 + $5 + $6 }')
+[ "$begun" -ge 500 ] && [ "$begun" -le 1500 ] || fail "the checkpoint has $begun runs"
+# What a crash may leave of a line.
+printf '99,12' >>"$folder/killed/rows.csv"
+"$@" "$sweeper" "$folder/killed" 2 --kill 1500
+cmp "$folder/whole/rows.csv" "$folder/killed/rows.csv"
+cmp "$folder/whole/checkpoint" "$folder/killed/checkpoint"
+
+# A run that throws ends the sweep with one line that names it.
+if "$@" "$sweeper" "$folder/failed" 2 --fail 2>"$folder/log"; then fail "the failure was lost"; fi
+grep -q 'run 990 (rate .*): it fails' "$folder/log" || fail "no reason: $(cat "$folder/log")"
+
+# Another sweep does not go on from this one's checkpoint.
+sed 's/checkpoint-1 [0-9]*/checkpoint-1 7/' "$folder/whole/checkpoint" >"$folder/other/checkpoint"
+if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "another sweep's checkpoint was used"; fi
+grep -q 'belongs to another sweep' "$folder/log"
+head -n 3 "$folder/whole/checkpoint" >"$folder/other/checkpoint"
+if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "half a checkpoint was used"; fi
+grep -q 'not complete' "$folder/log"

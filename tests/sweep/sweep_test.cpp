@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <articula/articula.hpp>
+#include <articula/robots/q2d.hpp>
+#include <articula/sweep/closed_loop_experiment.hpp>
+#include <articula/sweep/sweep.hpp>
+
+#include "catch.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+using namespace articula;
+
+namespace {
+
+constexpr auto make = [](const JointPidGains<2>& gains) { return PidPlusGravity<Q2d>(gains); };
+
+ClosedLoopOptions<2> options_of(std::vector<Variation> vary) {
+  ClosedLoopOptions<2> options;
+  options.duration = 0.2;
+  options.target = JointVector<2>(0.3, -0.2);
+  options.vary = std::move(vary);
+  return options;
+}
+auto experiment_of(std::vector<Variation> vary) {
+  return ClosedLoopExperiment(Q2d(), Q2d::pid_gains, make, options_of(std::move(vary)));
+}
+auto arms() {
+  return experiment_of({{VariedQuantity::mass, "elbow_passive_link", 0.5, 3},
+                        {VariedQuantity::payload, "tool_link", 0, 0.5},
+                        {VariedQuantity::damping, {}, 0.5, 2},
+                        {VariedQuantity::added_friction, "elbow_active_joint", 0, 0.1},
+                        {VariedQuantity::delay, {}, 0, 0.003},
+                        {VariedQuantity::position_noise, {}, 0, 1e-4},
+                        {VariedQuantity::encoder_resolution, "shoulder_active_joint", 0, 1e-3},
+                        {VariedQuantity::proportional, "elbow_active_joint", 0.5, 2}});
+}
+
+/// All bits of all rows.
+std::vector<std::uint64_t> bits_of(const std::vector<SweepRow>& rows) {
+  std::vector<std::uint64_t> bits;
+  for (const SweepRow& row : rows) {
+    bits.insert(bits.end(), {row.number, row.seed, static_cast<std::uint64_t>(row.end)});
+    for (const double x : row.parameters) bits.push_back(std::bit_cast<std::uint64_t>(x));
+    for (const double x : row.metrics) bits.push_back(std::bit_cast<std::uint64_t>(x));
+  }
+  return bits;
+}
+/// All bits of a sweep: its rows, its worst runs and its summaries.
+std::vector<std::uint64_t> bits_of_sweep(const auto& experiment, const SweepOptions& options) {
+  std::vector<SweepRow> rows;
+  const SweepResult result = sweep(experiment, options, {[&](const SweepRow& row) {
+                                     REQUIRE(row.number == rows.size());
+                                     rows.push_back(row);
+                                   }});
+  REQUIRE(result.runs() == rows.size());
+  std::vector<std::uint64_t> bits = bits_of(rows);
+  const auto worst = bits_of(result.worst());
+  bits.insert(bits.end(), worst.begin(), worst.end());
+  for (const MetricSummary& summary : result.summaries()) {
+    for (const double x : {summary.mean(), summary.quantile(0.1), summary.quantile(0.9)}) {
+      bits.push_back(std::bit_cast<std::uint64_t>(x));
+    }
+  }
+  return bits;
+}
+
+}  // namespace
+
+TEST_CASE("a sweep has the same bits for any number of threads and any chunk") {
+  const auto experiment = arms();
+  SweepOptions options{.sampling = {.method = SamplingMethod::latin_hypercube, .runs = 60}};
+  options.worst_metric = "elbow_active_joint.settling_time";
+  options.threads = 1;
+  options.chunk = 60;
+  const auto expected = bits_of_sweep(experiment, options);
+  REQUIRE(expected.size() > 60 * 20);
+  for (const auto& [threads, chunk] : {std::pair{1, 1}, {2, 7}, {4, 1}, {3, 64}}) {
+    options.threads = threads;
+    options.chunk = static_cast<std::uint64_t>(chunk);
+    CHECK(bits_of_sweep(experiment, options) == expected);
+  }
+  options.sampling.seed = 2;
+  CHECK(bits_of_sweep(experiment, options) != expected);
+}
+
+TEST_CASE("a run is a loop of one's own, to the last bit") {
+  const auto experiment = arms();
+  const Samples samples(experiment.parameters(), {.runs = 20, .seed = 9});
+  for (const std::uint64_t number : {std::uint64_t{3}, std::uint64_t{17}}) {
+    const SweepRow row = run_once(experiment, samples, number, experiment.metrics().size());
+    const auto own = experiment.loop({number, row.seed, row.parameters});
+    using Model = std::remove_cvref_t<decltype(own.model)>;
+    ControlLoop loop(DelayedCommands<Simulator<Model>, EffortCommand<2>>(
+                         Simulator<Model>(own.model, own.simulation), own.delay),
+                     PidPlusGravity<Q2d>(own.gains));
+    StepMetrics elbow(0, -0.2);
+    double effort = 0;
+    for (int k = 0; k <= 200; ++k) {
+      const JointState<2>& state = loop.hardware().simulator().true_state();
+      elbow.add(k * 1e-3, state.position[1]);
+      effort = std::max(effort, std::abs(state.effort[1]));
+      loop.reference().position << 0.3, -0.2;
+      if (k < 200) REQUIRE(loop.update() == Status::ok);
+    }
+    const auto metric = [&](const char* name) {
+      return row.metrics[detail::metric_index(experiment.metrics(), name)];
+    };
+    CHECK(metric("elbow_active_joint.overshoot") == elbow.overshoot().value());
+    CHECK(metric("elbow_active_joint.steady_error") == std::abs(elbow.steady_error().value()));
+    CHECK(metric("elbow_active_joint.effort_peak") == effort);
+  }
+}
+
+TEST_CASE("a heavier and a damped arm are slower; a payload is felt as its inertia") {
+  const auto rise = [](const Variation& variation) {
+    const auto experiment = experiment_of({variation});
+    const Samples samples(experiment.parameters(), {.runs = 1});
+    const SweepRow row = run_once(experiment, samples, 0, experiment.metrics().size());
+    return row.metrics[detail::metric_index(experiment.metrics(), "elbow_active_joint.rise_time")];
+  };
+  const double nominal = rise({VariedQuantity::mass, {}, 1, 1});
+  CHECK(rise({VariedQuantity::mass, {}, 3, 3}) > 1.01 * nominal);
+  CHECK(rise({VariedQuantity::damping, {}, 1.5, 1.5}) > 1.01 * nominal);
+  const auto loop_of = [](const Variation& variation, double value) {
+    const auto experiment = experiment_of({variation});
+    return experiment.loop({0, 1, std::vector{value}});
+  };
+  const auto with = loop_of({VariedQuantity::payload, "tool_link", 0, 1}, 0.75);
+  const JointVector<2> q(0.4, 0.9);
+  const JointMatrix<2> added = mass_matrix(with.model, q) - mass_matrix(Q2d(), q);
+  CHECK(added(1, 1) == Approx(0.75 * 0.267 * 0.267));
+  CHECK(added(0, 0) ==
+        Approx(0.75 * (0.267 * 0.267 + 0.343 * 0.343 + 2 * 0.267 * 0.343 * std::cos(0.9))));
+}
+
+TEST_CASE("the worst runs replay by their numbers, to the last bit") {
+  const auto experiment = arms();
+  const SweepOptions options{.sampling = {.method = SamplingMethod::sobol, .runs = 40, .seed = 3},
+                             .worst_metric = "elbow_active_joint.overshoot",
+                             .worst = 4};
+  const SweepResult result = sweep(experiment, options);
+  REQUIRE(result.worst().size() == 4);
+  const Samples samples(experiment.parameters(), options.sampling);
+  for (const SweepRow& row : result.worst()) {
+    CHECK(bits_of({row}) ==
+          bits_of({run_once(experiment, samples, row.number, row.metrics.size())}));
+  }
+}
+
+TEST_CASE("a light, strongly damped arm takes shorter steps") {
+  const auto experiment =
+      experiment_of({{VariedQuantity::mass, {}, 0.05, 1}, {VariedQuantity::damping, {}, 1, 10}});
+  CHECK(experiment.loop({0, 1, std::vector{1.0, 1.0}}).simulation.substeps == 1);
+  CHECK(experiment.loop({0, 1, std::vector{0.05, 10.0}}).simulation.substeps > 20);
+  const Samples samples(experiment.parameters(),
+                        {.method = SamplingMethod::latin_hypercube, .runs = 4});
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    CHECK(run_once(experiment, samples, k, experiment.metrics().size()).end == FutureEnd::stable);
+  }
+}
+
+TEST_CASE("an unstable loop is a result") {
+  const auto experiment =
+      experiment_of({{VariedQuantity::proportional, {}, 1, 1e6, Spacing::logarithmic, 5},
+                     {VariedQuantity::delay, {}, 0, 0.02, Spacing::linear, 3}});
+  const SweepResult result =
+      sweep(experiment, {.sampling = {.method = SamplingMethod::grid},
+                         .specifications = {{"elbow_active_joint.tracking_rms", 0.15}},
+                         .worst_metric = "elbow_active_joint.effort_rms",
+                         .worst = 3});
+  CHECK(result.runs() == 15);
+  CHECK(result.runs_with(FutureEnd::unstable) >= 4);
+  CHECK(result.runs_with(FutureEnd::stable) >= 3);
+  CHECK(result.runs_within() >= 1);
+  CHECK(result.runs_within() <= result.runs_with(FutureEnd::stable));
+  REQUIRE(result.worst().size() == 3);
+  CHECK(result.worst()[0].end == FutureEnd::unstable);
+  const std::size_t effort =
+      detail::metric_index(experiment.metrics(), "elbow_active_joint.effort_rms");
+  CHECK(result.worst()[0].metrics[effort] >= result.worst()[1].metrics[effort]);
+  CHECK(result.worst()[0].metrics[effort] == result.summaries()[effort].highest);
+}
+
+TEST_CASE("set-up refuses what cannot be swept, and says why") {
+  const auto message = [](const auto& function) -> std::string {
+    try {
+      function();
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto refused = [&](const Variation& variation) {
+    return message([&] { static_cast<void>(experiment_of({variation})); });
+  };
+  CHECK_THAT(refused({VariedQuantity::mass, "no_link", 1, 2}), Catch::Contains("no_link"));
+  CHECK_THAT(refused({VariedQuantity::mass, "base_link", 1, 2}), Catch::Contains("does not move"));
+  CHECK_THAT(refused({VariedQuantity::mass, {}, -1, 2}), Catch::Contains("-1 .. 2"));
+  CHECK_THAT(refused({VariedQuantity::mass, {}, 2, 1}), Catch::Contains("above its high end"));
+  CHECK_THAT(refused({VariedQuantity::mass, {}, 1, NAN}), Catch::Contains("not finite"));
+  CHECK_THAT(refused({VariedQuantity::payload, {}, 0, 1}), Catch::Contains("needs the name"));
+  CHECK_THAT(refused({VariedQuantity::delay, "elbow_active_joint", 0, 1}),
+             Catch::Contains("whole loop"));
+  CHECK_THAT(refused({VariedQuantity::damping, {}, 0, 1e6}), Catch::Contains("high ends"));
+  const auto experiment = arms();
+  CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.worst_metric = "speed"})); }),
+             Catch::Contains("'speed'") && Catch::Contains("elbow_active_joint.overshoot"));
+  CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.sampling = {.runs = 0}})); }),
+             Catch::Contains("runs 0"));
+  CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.chunk = 0})); }),
+             Catch::Contains("chunk 0"));
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A sweep for tests of resumption and MPI: sweeper <folder> <threads> [--kill <run>]
+///
+/// Writes rows.csv and checkpoint. With --kill, the process that computes this run kills itself,
+/// unless <folder>/killed exists.
+#include <articula/sweep/jobs/resumable_sweep.hpp>
+#ifdef ARTICULA_TEST_MPI
+#include <articula/sweep/jobs/mpi_session.hpp>
+#include <articula/sweep/jobs/mpi_sweep.hpp>
+#endif
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace articula;
+
+namespace {
+
+constexpr std::uint64_t never = ~std::uint64_t{0}, failing = 990;
+
+struct Chaos {
+  std::filesystem::path folder{};
+  std::uint64_t kill = never;
+  bool fails = false;
+
+  [[nodiscard]] std::vector<SweepParameter> parameters() const {
+    return {{"rate", "1", 3.6, 4}, {"start", "1", 0.1, 0.9}};
+  }
+  [[nodiscard]] std::vector<SweepMetric> metrics() const { return {{"last", "1"}, {"log", "1"}}; }
+  [[nodiscard]] FutureEnd run(const SweepRun& run, std::span<double> metrics) const {
+    if (run.number == kill && !std::filesystem::exists(folder / "killed")) {
+      std::ofstream(folder / "killed").close();
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the others get ahead
+      std::raise(SIGKILL);
+    }
+    if (fails && run.number == failing) throw std::runtime_error("it fails");
+    double x = run.parameters[1], sum = 0;
+    for (int k = 0; k < 2000; ++k) {
+      x = run.parameters[0] * x * (1 - x);
+      sum += std::log(x);
+    }
+    metrics[0] = x;
+    metrics[1] = run.number % 50 == 0 ? std::nan("") : sum;
+    return x > 0.9 ? FutureEnd::unstable : FutureEnd::stable;
+  }
+};
+
+}  // namespace
+
+int main(int count, char** words) try {
+  const std::vector<std::string> arguments(words, words + count);
+  Chaos chaos{arguments.at(1)};
+  SweepOptions options{.sampling = {.method = SamplingMethod::sobol, .runs = 3000, .seed = 4}};
+  options.threads = std::stoi(arguments.at(2));
+  options.chunk = 20;
+  options.worst_metric = "log";
+  if (count > 4 && arguments[3] == "--kill") chaos.kill = std::stoull(arguments[4]);
+  chaos.fails = count > 3 && arguments[3] == "--fail";
+  const SweepFiles files{chaos.folder / "rows.csv", chaos.folder / "checkpoint", 0.001, "chaos"};
+#ifdef ARTICULA_TEST_MPI
+  const MpiSession mpi;
+  if (mpi.rank() > 0) {
+    SweepResult none(chaos.metrics(), options);
+    continue_sweep_with_mpi(chaos, options, none);
+    return 0;
+  }
+  const SweepResult result = resumable_sweep_by(
+      chaos, options, files, {},
+      [&](const SweepOptions& all, SweepResult& so_far, const SweepHooks& hooks) {
+        mpi.is_active() ? continue_sweep_with_mpi(chaos, all, so_far, hooks)
+                        : continue_sweep(chaos, all, so_far, hooks);
+      });
+#else
+  const SweepResult result = resumable_sweep(chaos, options, files);
+#endif
+  std::printf("%llu runs\n", static_cast<unsigned long long>(result.runs()));
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "sweeper: %s\n", error.what());
+  return 1;
+}
