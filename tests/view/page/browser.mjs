@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the scenarios share: the server as a child process, the browser, and ways to wait.
 import {spawn} from 'node:child_process';
-import {existsSync, mkdirSync} from 'node:fs';
+import {existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
+import {tmpdir} from 'node:os';
 import path from 'node:path';
 import {createInterface} from 'node:readline';
 import {pathToFileURL} from 'node:url';
@@ -131,6 +132,30 @@ export async function openPage(
   await robot.until('cycles arrive', () => articula.session.samples?.end > 10);
   await robot.until('the loop is active', () => articula.session.situation?.mode === 'active');
   return robot;
+}
+
+/** Clicks, and hands the file that the page saves to a function. */
+export async function withDownload(robot, selector, use) {
+  const folder = mkdtempSync(path.join(tmpdir(), 'articula-page-'));
+  try {
+    const client = await robot.page.createCDPSession();
+    await client.send('Browser.setDownloadBehavior', {
+      behavior: 'allow',
+      downloadPath: folder,
+      eventsEnabled: true,
+      browserContextId: robot.page.browserContext().id,
+    });
+    const saved = new Promise((resolve) =>
+      client.on('Browser.downloadProgress', ({state}) => {
+        if (state === 'completed') resolve();
+      }),
+    );
+    await robot.click(selector);
+    await saved;
+    await use(path.join(folder, readdirSync(folder)[0]));
+  } finally {
+    rmSync(folder, {recursive: true});
+  }
 }
 
 export function check(holds, what) {
