@@ -23,7 +23,12 @@ export function missing() {
  * @param folder  of a URDF and its meshes, in an array
  */
 export async function startServer(port = 0, folder = []) {
-  const child = spawn(SERVER, [String(port), ...folder], {stdio: ['ignore', 'pipe', 'inherit']});
+  const isMock = SERVER.endsWith('.mjs');
+  const command = isMock ? [process.execPath, SERVER] : [SERVER];
+  const parameters = [String(port), ...(isMock ? [PAGE] : folder)];
+  const child = spawn(command[0], [...command.slice(1), ...parameters], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const first = await new Promise((resolve, reject) => {
     createInterface({input: child.stdout}).once('line', resolve);
@@ -31,6 +36,7 @@ export async function startServer(port = 0, folder = []) {
   });
   return {
     url: first,
+    pid: child.pid,
     signal: (name) => child.kill(name),
     stop: async (name = 'SIGTERM') => {
       // SIGKILL: as if the machine had lost its power

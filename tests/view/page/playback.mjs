@@ -97,7 +97,9 @@ export async function playback(browser, url) {
   const start = await row();
   await robot.click('.timeline button::-p-text(Play)');
   await robot.until('it plays', (row) => articula.playback.past.row > row + 20, start);
-  await robot.click('.timeline button::-p-text(Play)');
+  await robot.page.focus(slider);
+  await robot.page.keyboard.press('ArrowLeft');
+  check(!(await robot.page.evaluate(() => articula.playback.isPlaying)), 'the slider stops it');
   await checkShown(robot);
 
   // The file replays to the last bit.
@@ -115,4 +117,101 @@ export async function playback(browser, url) {
     'the present is shown again',
     () => document.querySelector('.past').hidden && articula.playback.shown.row > 0,
   );
+}
+
+export async function what_if(browser, url) {
+  const robot = await openPage(browser, url);
+  await record(robot);
+  await robot.tab('gains');
+  const field = 'input[aria-label^="pid_plus_gravity.shoulder_active_joint.p "]';
+  // The middle of the motion.
+  await robot.page.evaluate(() => {
+    articula.playback.hold();
+    const {samples} = articula.playback;
+    let row = samples.end - 1;
+    while (samples.value('position/0', row) > 0.2) --row;
+    articula.playback.seek(row);
+  });
+  /** Waits for futures from the recorded cycle; the distance of their median from the recording [rad]. */
+  const distance = async (value, text) => {
+    await robot.page.$eval(
+      field,
+      (input, value) => {
+        articula.session.showFutures(null);
+        input.value = value; // at once: while a user types, the fan is that of the first digits
+        input.dispatchEvent(new Event('input'));
+      },
+      value,
+    );
+    await robot.until(
+      `futures from the recorded cycle with ${text}`,
+      (text) => {
+        const {past} = articula.playback;
+        const {futures} = articula.session;
+        const line = document.querySelector('.fan').textContent;
+        return futures?.time === past.samples.time(past.row) && line.includes(text);
+      },
+      text,
+    );
+    return robot.page.evaluate(() => {
+      const {samples, row} = articula.playback.past;
+      const {time, horizon, samples: count, joints} = articula.session.futures;
+      const last = samples.lastTime;
+      return Math.max(
+        ...joints[0].quantiles[2].map((q, k) => {
+          const t = time + (k * horizon) / count;
+          const recorded = samples.value('position/0', samples.rowAt(t - 1e-6));
+          return t <= last ? Math.abs(q - recorded) : 0;
+        }),
+      );
+    });
+  };
+  const almost = await distance(2001, 'no drive swings');
+  check(almost < 0.02, `almost the same gains make almost the same motion, ${almost} rad away`);
+  const other = await distance(200, 'simulated robots');
+  check(other > 0.03, `other gains make another motion, not one ${other} rad away`);
+  await robot.picture('what_if');
+
+  // An arm that rests shows its gains by a step, which only the simulation makes.
+  await robot.click('button::-p-text(Revert)');
+  await robot.click('.timeline button::-p-text(Live)');
+  await robot.page.select('select[aria-label="Joint of the test step"]', 'shoulder_active_joint');
+  await robot.until('the median makes the step', () => {
+    const {futures, samples} = articula.session;
+    const median = futures?.joints[0].quantiles[2] ?? [NaN];
+    return Math.abs(median.at(-1) - samples.latest('position')[0] - 0.1) < 0.01;
+  });
+  await robot.picture('test_step');
+  await robot.type('input[aria-label="Height of the test step"]', 5);
+  await robot.until('a step beyond the limit is refused', () =>
+    document.querySelector('.fan').textContent.includes('not within its limits'),
+  );
+  await robot.page.select('select[aria-label="Joint of the test step"]', '');
+  await robot.until('no step, no futures', () => articula.session.futures === null);
+}
+
+/** The server of the page's developers, which has what the page asks for. */
+export async function mock(browser, url) {
+  const robot = await openPage(browser, url);
+  await robot.tab('gains');
+  const shows = (text) =>
+    robot.until(
+      `the text ${text}`,
+      (text) => document.querySelector('.fan').textContent.includes(text),
+      text,
+    );
+  await robot.page.select('select[aria-label="Joint of the test step"]', 'shoulder_active_joint');
+  await shows('100 simulated robots with these gains: no drive swings between its limits');
+  await robot.until('the margins are shown', () =>
+    [...document.querySelectorAll('.margins')].some((line) => /phase/.test(line.textContent)),
+  );
+  await robot.until(
+    'the median makes the step',
+    () => Math.abs(articula.session.futures.joints[0].quantiles[2].at(-1) - 0.1) < 0.02,
+  );
+  await robot.type('input[aria-label^="pid_plus_gravity.shoulder_active_joint.d "]', 1000);
+  await shows('unstable');
+  await robot.page.evaluate(() => articula.playback.seek(articula.session.samples.end - 100));
+  await shows('s on');
+  await robot.picture('mock');
 }

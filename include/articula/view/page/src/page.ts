@@ -45,7 +45,7 @@ export function startPage(open: () => Socket, before: (now: number) => void = ()
   addTabs(at('side'), [
     ['Move', move],
     ['Controllers', new ControllersPanel(session).box],
-    ['Gains', new GainsPanel(session).box],
+    ['Gains', new GainsPanel(session, playback).box],
     ['Experiments', new ExperimentsPanel(session).box],
     ['Log', new LogPanel(session).box],
   ]);

@@ -71,7 +71,10 @@ export class PlotPanel implements PaneOwner {
     this.list.append(this.histogram.box);
     box.append(bar, this.list, this.metrics);
     session.on('robot', (sheet) => this.load(sheet));
-    session.on('futures', () => (this.lastDrawn = 0));
+    session.on('futures', (futures) => {
+      this.lastDrawn = 0;
+      if (futures && playback.past) this.include(futures.time + futures.horizon);
+    });
     playback.on('changed', () => this.follow());
     onTheme(() => {
       if (session.sheet)
@@ -179,10 +182,14 @@ export class PlotPanel implements PaneOwner {
       this.marked = [null, null];
       return;
     }
-    const [from, to] = (this.held ??= this.range());
+    this.held ??= this.range();
     const {past} = this.playback;
-    if (!past) return;
-    const time = past.samples.time(past.row);
+    if (past) this.include(past.samples.time(past.row));
+  }
+
+  private include(time: number): void {
+    if (!this.held) return;
+    const [from, to] = this.held;
     const shift = Math.min(0, time - from) + Math.max(0, time - to);
     this.held = [from + shift, to + shift];
   }

@@ -18,7 +18,11 @@ export function addTimeline(
     step: 1, // a cycle
     'aria-label': 'Time of the recording',
     title: 'Show a recorded cycle. Arrow keys go from cycle to cycle',
-    input: () => playback.seek(slider.valueAsNumber),
+    input: () => {
+      const row = slider.valueAsNumber;
+      playback.play(false);
+      playback.seek(row);
+    },
   });
   const play = toggle('Play', false, (on) => playback.play(on), {title: 'Play the recording'});
   const live = button('Live', () => playback.live(), {title: 'Show the present'});
