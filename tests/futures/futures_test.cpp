@@ -59,6 +59,29 @@ TEST_CASE("without a spread, futures are what the loop does, to the last bit") {
   }
 }
 
+TEST_CASE("futures follow references as the loop does, to the last bit, and hold the last one") {
+  Arm arm;
+  move(arm);
+  Start start = start_of(arm);
+  for (int k = 0; k < 100; ++k) {
+    start.references.push_back(arm.reference());
+    start.references.back().position[0] -= 1e-3 * k;
+    start.references.back().velocity[0] = -1;
+  }
+  const FutureOptions options{.spread = no_spread, .count = 1, .horizon = 0.3, .samples = 300};
+  const auto fan = futures(Q2d(), arm.controller(), start, arm.hardware().options(), options);
+  for (std::size_t k = 0; k <= 300; ++k) {
+    const JointVector<2>& simulated = fan[0].positions[k];
+    const JointVector<2>& real = arm.hardware().true_state().position;
+    REQUIRE((simulated[0] == real[0] && simulated[1] == real[1]));
+    arm.reference() = start.references[std::min<std::size_t>(k, 99)];
+    REQUIRE(arm.update() == Status::ok);
+  }
+  start.references[7].position[1] = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_AS(futures(Q2d(), arm.controller(), start, arm.hardware().options(), options),
+                  std::invalid_argument);
+}
+
 TEST_CASE("a future depends on seed and number alone, in whatever order they are computed") {
   Arm arm;
   move(arm);

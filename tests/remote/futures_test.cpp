@@ -4,10 +4,15 @@
 #include "catch.hpp"
 #include "remote_arm.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 using namespace articula;
 using namespace articula::remote;
@@ -33,6 +38,45 @@ double value_of(Port& port, const std::string& name) {
     if (parameter.name == name) return parameter.value;
   }
   return -1;
+}
+
+constexpr FutureSpread no_spread{
+    .mass = 0, .friction = 0, .delay = 0, .position_noise = 0, .velocity_noise = 0};
+
+/// A question for the recorded cycle `first`, with the references of the cycles from there on.
+FuturesQuestion from_recorded(const std::vector<Cycle>& cycles, std::size_t first, int count) {
+  FuturesQuestion question{
+      .options = {.spread = no_spread, .count = 1, .horizon = 1e-3 * count, .samples = count}};
+  const Cycle& at = cycles[first];
+  question.start = {at.time, at.position, at.velocity, at.effort};
+  // Back to a cycle in which no drive is at its limit.
+  const auto effort = effort_limits(Q2d());
+  std::size_t before = first - 1;
+  while (std::abs(cycles[before].command[0][0]) >= effort[0]) --before;
+  for (; before < first; ++before) {
+    const Cycle& own = cycles[before];
+    question.history.push_back({{own.time, own.position, own.velocity, own.effort},
+                                {own.reference_position, own.reference_velocity,
+                                 own.reference_acceleration, own.reference_effort},
+                                own.command});
+  }
+  for (std::size_t k = first; k < first + static_cast<std::size_t>(count); ++k) {
+    const Cycle& own = cycles[k];
+    question.references.push_back({own.reference_position, own.reference_velocity,
+                                   own.reference_acceleration, own.reference_effort});
+  }
+  return question;
+}
+/// The largest distance of a future from what was recorded [rad].
+double distance(const FuturesAnswer& answer, const std::vector<Cycle>& cycles, std::size_t first) {
+  double most = 0;
+  for (std::size_t j = 0; j < 2; ++j) {
+    const std::vector<double>& own = answer.futures.at(0).positions.at(j);
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      most = std::max(most, std::abs(own[k] - cycles.at(first + k).position[j]));
+    }
+  }
+  return most;
 }
 
 template <class R>
@@ -132,6 +176,74 @@ TEST_CASE("futures of a loop that switches are those of the controller that is a
   arm.cycles(10);
   CHECK(end() == FutureEnd::unstable);
   CHECK(margins() == first);
+}
+
+TEST_CASE(
+    "futures from a recorded cycle are the recorded motion, or another one with other gains") {
+  SupervisedArm arm;
+  REQUIRE(arm.ask(Activate{}).verdict == remote::Verdict::done);
+  REQUIRE(arm.ask(Go{{{support::shoulder, 0.4}, {support::elbow, -0.3}}}).verdict ==
+          remote::Verdict::done);
+  arm.cycles(600);
+  std::vector<Cycle> cycles;
+  for (Cycle cycle; arm.session->next(cycle);) cycles.push_back(cycle);
+  const std::size_t first = cycles.size() - 500;
+  REQUIRE(std::abs(cycles[first].position[0] - cycles.back().position[0]) > 0.1);
+  FuturesQuestion question = from_recorded(cycles, first, 400);
+  REQUIRE(arm.ask(Deactivate{}).verdict == remote::Verdict::done);  // needs no active loop
+  const auto same = arm.remote.futures(question);
+  CHECK(same.time == cycles[first].time);
+  CHECK(distance(same, cycles, first) < 1e-5);
+  question.gains = {{"pid_plus_gravity.shoulder_active_joint.p", 200}};
+  CHECK(distance(arm.remote.futures(question), cycles, first) > 0.01);
+  // Every tenth reference says as much of a smooth motion.
+  FuturesQuestion coarse = from_recorded(cycles, first, 400);
+  coarse.reference_step = 0.01;
+  for (std::size_t k = 0; k < 40; ++k) coarse.references[k] = coarse.references[10 * k];
+  coarse.references.resize(40);
+  CHECK(distance(arm.remote.futures(coarse), cycles, first) < 2e-3);
+}
+
+TEST_CASE("a test step moves the futures of an arm that rests") {
+  SupervisedArm arm;
+  REQUIRE(arm.ask(Activate{}).verdict == remote::Verdict::done);
+  arm.cycles(2);
+  FuturesQuestion question{.options = {.spread = no_spread, .count = 1}};
+  const auto end = [&](std::size_t joint) {
+    return arm.remote.futures(question).futures[0].positions[joint].back();
+  };
+  CHECK(end(0) == Approx(0).margin(1e-6));
+  question.steps = {{support::shoulder, 0.1}};
+  CHECK(end(0) == Approx(0.1).margin(0.01));
+  CHECK(end(1) == Approx(0).margin(0.01));
+  question.steps = {{support::elbow, 2}};
+  CHECK(refusal(arm.remote, question).find("to 2, which is not within its limits") !=
+        std::string::npos);
+  question.steps = {{"wrist", 0.1}};
+  CHECK(refusal(arm.remote, question).find("wrist") != std::string::npos);
+}
+
+TEST_CASE("starts and references that do not fit are refused with what was expected") {
+  PlainArm arm;
+  arm.cycles(6);
+  std::vector<Cycle> cycles;
+  for (Cycle cycle; arm.session->next(cycle);) cycles.push_back(cycle);
+  const FuturesQuestion good = from_recorded(cycles, 1, 2);
+  CHECK(refusal(arm.remote, good).empty());
+  const auto with = [&](auto&& change) {
+    FuturesQuestion question = good;
+    change(question);
+    return refusal(arm.remote, question);
+  };
+  CHECK(with([](auto& x) { x.start->velocity.pop_back(); }) ==
+        "futures: start: velocity has 1 numbers; expected one for each of 2 joints");
+  CHECK(with([](auto& x) { x.start->position[0] = std::numeric_limits<double>::quiet_NaN(); }) ==
+        "futures: start: position is not finite");
+  CHECK(with([](auto& x) { x.history[0].command.clear(); }).find("command has 0") !=
+        std::string::npos);
+  CHECK(with([](auto& x) { x.references[1].position.clear(); }).find("a reference's position") !=
+        std::string::npos);
+  CHECK(with([](auto& x) { x.reference_step = 1e-9; }).find("reference_step") != std::string::npos);
 }
 
 TEST_CASE("futures are computed beside a running loop") {

@@ -142,6 +142,50 @@ TEST_CASE("futures that cannot be simulated are refused with the reason") {
   CHECK(watcher.call("/futures")["success"] == false);
 }
 
+TEST_CASE("futures begin where the question says, and follow its references and steps") {
+  FakePort port;
+  Talk talk(port);
+  (void)talk.sent();
+  talk.send_call("/futures", R"({"count":1,"reference_step":0.01,"steps":{"elbow":0.1},
+      "start":{"time":7.5,"position":[1,2],"velocity":[3,4],"effort":[5,6]},
+      "history":[{"position":[1,2],"velocity":[3,4],"effort":[5,6],"command":[[7,8]],
+          "reference_position":[9,10],"reference_velocity":[11,12]}],
+      "references":[{"position":[1,2],"velocity":[0,1]},{"position":[2,3],"effort":[4,5]}]})");
+  talk.tick();
+  const Json answer = Json::parse(talk.sent().at(0).head.substr(1 + 12 + 4));
+  CHECK(answer["time"] == 7.5);
+  using Numbers = std::vector<double>;
+  const articula::remote::FuturesQuestion& question = port.last_question;
+  REQUIRE(question.start);
+  CHECK(question.start->position == Numbers{1, 2});
+  CHECK(question.start->velocity == Numbers{3, 4});
+  CHECK(question.start->effort == Numbers{5, 6});
+  REQUIRE(question.history.size() == 1);
+  CHECK(question.history[0].state.position == Numbers{1, 2});
+  CHECK(question.history[0].state.effort == Numbers{5, 6});
+  CHECK(question.history[0].reference.position == Numbers{9, 10});
+  CHECK(question.history[0].reference.velocity == Numbers{11, 12});
+  CHECK(question.history[0].command == std::vector<Numbers>{{7, 8}});
+  REQUIRE(question.references.size() == 2);
+  CHECK(question.references[0].velocity == Numbers{0, 1});
+  CHECK(question.references[0].effort.empty());
+  CHECK(question.references[1].effort == Numbers{4, 5});
+  CHECK(question.reference_step == 0.01);
+  REQUIRE(question.steps.size() == 1);
+  CHECK(question.steps[0].joint == "elbow");
+  CHECK(question.steps[0].height == 0.1);
+  const auto refusal = [&](const char* call) {
+    return talk.call("/futures", call)["message"].get<std::string>();
+  };
+  CHECK(refusal(R"({"start":{"time":1}})") ==
+        "/futures: start.position: missing; expected an array of numbers");
+  CHECK(
+      refusal(R"({"references":[{"position":[1]},{"places":[1]}]})").find("references[1].places") !=
+      std::string::npos);
+  CHECK(refusal(R"({"history":[{"command":[1]}]})")
+            .find("history[0].command: expected an array of arrays") != std::string::npos);
+}
+
 TEST_CASE("of several questions for futures the newest one is answered") {
   FakePort port;
   Talk talk(port);

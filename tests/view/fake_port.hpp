@@ -72,6 +72,7 @@ class FakePort final : public remote::Port {
   [[nodiscard]] remote::Statistics statistics() override { return {.cycles = cycles_now()}; }
   std::atomic<int> questions = 0;        ///< that were begun
   std::vector<double> answered_gains{};  ///< in their order
+  remote::FuturesQuestion last_question{};
   /// Future k of the elbow goes from 0 to its proposed gain times k + 1, and the last one of several
   /// is unstable. A question of more than 5 s goes on until it is stopped.
   [[nodiscard]] remote::FuturesAnswer futures(const remote::FuturesQuestion& question) override {
@@ -87,7 +88,10 @@ class FakePort final : public remote::Port {
       gain = value.value;
     }
     answered_gains.push_back(gain);
-    remote::FuturesAnswer answer{.time = 1, .horizon = question.options.horizon, .samples = 1};
+    last_question = question;
+    remote::FuturesAnswer answer{.time = question.start ? question.start->time : 1,
+                                 .horizon = question.options.horizon,
+                                 .samples = 1};
     for (int k = 0; k < std::clamp(question.options.count, 0, 100); ++k) {
       answer.futures.push_back({articula::FutureEnd::stable, {{0, 0}, {0, gain * (k + 1)}}});
     }

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -36,6 +37,16 @@ struct FutureStart {
   JointState<Command::joint_count> state{};
   JointReference<Command::joint_count> reference{};  ///< held for the whole horizon
   Command command{};                                 ///< the last one
+  /// Followed in place of `reference`, one in each cycle; the last one is held. Empty: none.
+  std::vector<JointReference<Command::joint_count>> references{};
+  /// What the controller knows of its last commands. Empty: that the last one carries the load.
+  std::optional<CommandHistory<Command>> history{};
+
+  /// The reference of a cycle of the future, from 0. Real-time: yes.
+  [[nodiscard]] const JointReference<Command::joint_count>& reference_at(int cycle) const noexcept {
+    if (references.empty()) return reference;
+    return references[std::min(static_cast<std::size_t>(cycle), references.size() - 1)];
+  }
 };
 
 namespace detail {
@@ -95,6 +106,7 @@ template <Robot SimulatedRobot, class C, class Command>
   CommandHistory<Command> history;
   history.start_with(start.command, start.state, Held::load);
   history.begin();
+  if (start.history) history = *start.history;
   // The command of a cycle reaches the drives `delay` cycles later.
   std::vector<Command> sent(static_cast<std::size_t>(delay) + 1, start.command);
   LimitSwings<n> swings(effort_limits(robot));
@@ -112,8 +124,8 @@ template <Robot SimulatedRobot, class C, class Command>
     }
     Outcome<Command> outcome;
     if (read == Status::ok) {
-      outcome =
-          update_controller(controller, history.input(state, start.reference, simulator.period()));
+      outcome = update_controller(
+          controller, history.input(state, start.reference_at(cycle), simulator.period()));
     }
     const bool controls = outcome.verdict != Verdict::failed;
     const Command command = controls ? within_effort_limits(robot, outcome.command) : Command{};
@@ -186,7 +198,9 @@ template <DynamicRobot R, class C, class Command, class GoesOn = detail::ToTheEn
     const SimulatorOptions<joint_count<R>>& simulation, const FutureOptions& options = {},
     const GoesOn& goes_on = {}) {
   validate(options, simulation.period);
-  if (!is_finite(start.state) || !is_finite(start.reference) || !is_finite(start.command)) {
+  const auto finite = [](const auto& reference) { return is_finite(reference); };
+  if (!is_finite(start.state) || !is_finite(start.reference) || !is_finite(start.command) ||
+      !std::all_of(start.references.begin(), start.references.end(), finite)) {
     detail::refuse({"futures: the present state, reference or command is not finite"});
   }
   std::vector<Future<Command::joint_count>> all;

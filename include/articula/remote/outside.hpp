@@ -6,7 +6,7 @@
 #include "articula/remote/clients.hpp"
 #include "articula/remote/engine/loop_side.hpp"
 #include "articula/remote/engine/mutex.hpp"
-#include "articula/remote/forecast.hpp"
+#include "articula/remote/forecast/forecast.hpp"
 #include "articula/remote/gains/gain_parameters.hpp"
 #include "articula/remote/in_flight.hpp"
 #include "articula/remote/published.hpp"
@@ -91,10 +91,11 @@ class Outside {
 
   [[nodiscard]] FuturesAnswer futures(const FuturesQuestion& question) {
     const std::lock_guard forecast_lock(forecast_mutex_);  // they take one core, not all
-    const auto now = [this] {
+    const auto now = [&] {
       const std::lock_guard lock(mutex_);
       pump();
-      if (published_.condition().mode != LoopMode::active || published_.last_cycle().cycle == 0) {
+      if (!question.start &&
+          (published_.condition().mode != LoopMode::active || published_.last_cycle().cycle == 0)) {
         articula::detail::refuse({"futures: the loop is not active"});
       }
       return std::tuple(published_.last_cycle(), parameters_.list(), published_.controllers());

@@ -5,7 +5,7 @@
 #include "articula/control/switching/switch_request.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/remote/cycle.hpp"
-#include "articula/remote/futures_question.hpp"
+#include "articula/remote/forecast/futures_question.hpp"
 #include "articula/remote/gains/parameter.hpp"
 #include "articula/remote/request.hpp"
 #include "articula/remote/robot_sheet.hpp"

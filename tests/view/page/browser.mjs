@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the scenarios share: the server as a child process, the browser, and ways to wait.
 import {spawn} from 'node:child_process';
-import {existsSync, mkdirSync} from 'node:fs';
+import {existsSync, mkdirSync, mkdtempSync, readdirSync, rmSync} from 'node:fs';
 import {createRequire} from 'node:module';
+import {tmpdir} from 'node:os';
 import path from 'node:path';
 import {createInterface} from 'node:readline';
 import {pathToFileURL} from 'node:url';
@@ -22,7 +23,12 @@ export function missing() {
  * @param folder  of a URDF and its meshes, in an array
  */
 export async function startServer(port = 0, folder = []) {
-  const child = spawn(SERVER, [String(port), ...folder], {stdio: ['ignore', 'pipe', 'inherit']});
+  const isMock = SERVER.endsWith('.mjs');
+  const command = isMock ? [process.execPath, SERVER] : [SERVER];
+  const parameters = [String(port), ...(isMock ? [PAGE] : folder)];
+  const child = spawn(command[0], [...command.slice(1), ...parameters], {
+    stdio: ['ignore', 'pipe', 'inherit'],
+  });
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const first = await new Promise((resolve, reject) => {
     createInterface({input: child.stdout}).once('line', resolve);
@@ -30,6 +36,7 @@ export async function startServer(port = 0, folder = []) {
   });
   return {
     url: first,
+    pid: child.pid,
     signal: (name) => child.kill(name),
     stop: async (name = 'SIGTERM') => {
       // SIGKILL: as if the machine had lost its power
@@ -131,6 +138,30 @@ export async function openPage(
   await robot.until('cycles arrive', () => articula.session.samples?.end > 10);
   await robot.until('the loop is active', () => articula.session.situation?.mode === 'active');
   return robot;
+}
+
+/** Clicks, and hands the file that the page saves to a function. */
+export async function withDownload(robot, selector, use) {
+  const folder = mkdtempSync(path.join(tmpdir(), 'articula-page-'));
+  try {
+    const client = await robot.page.createCDPSession();
+    await client.send('Browser.setDownloadBehavior', {
+      behavior: 'allow',
+      downloadPath: folder,
+      eventsEnabled: true,
+      browserContextId: robot.page.browserContext().id,
+    });
+    const saved = new Promise((resolve) =>
+      client.on('Browser.downloadProgress', ({state}) => {
+        if (state === 'completed') resolve();
+      }),
+    );
+    await robot.click(selector);
+    await saved;
+    await use(path.join(folder, readdirSync(folder)[0]));
+  } finally {
+    rmSync(folder, {recursive: true});
+  }
 }
 
 export function check(holds, what) {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenarios in which the arm moves.
-import {readFileSync, readdirSync, mkdtempSync, rmSync} from 'node:fs';
-import {tmpdir} from 'node:os';
-import path from 'node:path';
-import {check, openPage} from './browser.mjs';
+import {readFileSync} from 'node:fs';
+import {check, openPage, withDownload} from './browser.mjs';
 
 const shoulder = 'input[aria-label="shoulder_active_joint [rad]"]';
 const goal = 'input[aria-label="Goal of shoulder_active_joint [rad]"]';
@@ -159,33 +157,14 @@ export async function plots(browser, url) {
   );
   await robot.picture('plots_zoomed');
   // The file has what is shown: some columns, one row for each cycle.
-  const folder = mkdtempSync(path.join(tmpdir(), 'articula-page-'));
-  try {
-    const client = await robot.page.createCDPSession();
-    await client.send('Browser.setDownloadBehavior', {
-      behavior: 'allow',
-      downloadPath: folder,
-      eventsEnabled: true,
-      browserContextId: robot.page.browserContext().id,
-    });
-    const saved = new Promise((resolve) =>
-      client.on('Browser.downloadProgress', ({state}) => {
-        if (state === 'completed') resolve();
-      }),
-    );
-    await robot.click('button::-p-text(CSV)');
-    await saved;
-    const lines = readFileSync(path.join(folder, readdirSync(folder)[0]), 'utf8')
-      .trim()
-      .split('\n');
+  await withDownload(robot, 'button::-p-text(CSV)', (file) => {
+    const lines = readFileSync(file, 'utf8').trim().split('\n');
     check(lines[0].includes('"shoulder_active_joint position [rad]"'), `a header in ${lines[0]}`);
     const times = lines.slice(1).map((line) => Number(line.split(',')[0]));
     check(times.length > 500, `a row for each cycle, not ${times.length} rows`);
     check(lines[1].split(',').length === lines[0].split(',').length, 'a number in each column');
     check(Math.abs(times[1] - times[0] - 1e-3) < 1e-9, 'rows that are a period apart');
-  } finally {
-    rmSync(folder, {recursive: true});
-  }
+  });
 }
 
 export async function poses(browser, url) {

@@ -4,8 +4,9 @@ import {missing, pictureAll, startBrowser, startServer} from './browser.mjs';
 import * as look from './look.mjs';
 import * as motion from './motion.mjs';
 import * as operation from './operation.mjs';
+import * as playback from './playback.mjs';
 
-const scenarios = {...look, ...motion, ...operation};
+const scenarios = {...look, ...motion, ...operation, ...playback};
 const name = process.argv[2];
 const reason = missing();
 if (reason) {

@@ -3,10 +3,13 @@
 // It prints the address and runs until SIGTERM. SIGUSR1 breaks the sensors until SIGUSR2 mends them.
 //
 //   simulated_q2d [port [folder]]   a folder has robot.urdf, which looks in package q2d for its meshes
+//   simulated_q2d --replay <file>   computes the commands of an MCAP file once more and compares them
 #include <articula/articula.hpp>
 #include <articula/loop/realtime/monotonic_clock.hpp>
 #include <articula/loop/realtime/stop_on_signal.hpp>
+#include <articula/recording/mcap_record_reader.hpp>
 #include <articula/remote/remote.hpp>
+#include <articula/replay/replay.hpp>
 #include <articula/robots/q2d.hpp>
 #include <articula/view/view.hpp>
 
@@ -14,9 +17,11 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 
 using namespace articula;
 
@@ -36,13 +41,31 @@ class FragileQ2d : public Q2dSim {
 
 template <class R>
 using Controllers = Switch<R, PidPlusGravity<R>, ComputedTorque<R>>;
+using ArmLoop = SupervisedLoop<FragileQ2d, Controllers>;
+
+// A browser that draws without a graphics processor may make the loop late.
+constexpr SupervisionOptions supervision{.overruns = 1000000};
+
+/// Whether the program commands the same as in a file, to the last bit.
+int replay(const char* file) try {
+  const auto recording = read_mcap_recording<ArmLoop::Command>(Q2d(), file);
+  Replay<ArmLoop> replay(recording, {.supervision = supervision});
+  const auto difference = replay.run();
+  std::printf("%zu cycles, %zu changes: %s\n", recording.cycles.size(), recording.changes.size(),
+              difference ? to_string(*difference).c_str() : "the same bits");
+  return difference ? 1 : 0;
+} catch (const std::exception& error) {
+  std::printf("%s\n", error.what());
+  return 1;
+}
 
 }  // namespace
 
 int main(int count, char** arguments) {
+  if (count > 2 && std::string_view(arguments[1]) == "--replay") return replay(arguments[2]);
   std::signal(SIGUSR1, [](int) { broken = 1; });
   std::signal(SIGUSR2, [](int) { broken = 0; });
-  SupervisedLoop<FragileQ2d, Controllers> arm(SupervisionOptions{.overruns = 1000000});
+  ArmLoop arm(supervision);
   // A browser that draws without a graphics processor may be silent for a while.
   const std::string folder = count > 2 ? arguments[2] : "";
   std::ifstream urdf(folder + "/robot.urdf");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace articula::view {
@@ -41,6 +43,63 @@ Json quantiles(const remote::FuturesAnswer& answer, std::size_t joint) {
   }
 }
 
+constexpr std::array start_members{
+    Member{"time", Kind::number, true}, Member{"position", Kind::numbers, true},
+    Member{"velocity", Kind::numbers, true}, Member{"effort", Kind::numbers, true}};
+constexpr std::array cycle_members{Member{"position", Kind::numbers, true},
+                                   Member{"velocity", Kind::numbers, true},
+                                   Member{"effort", Kind::numbers, true},
+                                   Member{"command", Kind::number_lists, true},
+                                   Member{"reference_position", Kind::numbers, true},
+                                   Member{"reference_velocity", Kind::numbers},
+                                   Member{"reference_acceleration", Kind::numbers},
+                                   Member{"reference_effort", Kind::numbers}};
+constexpr std::array reference_members{
+    Member{"position", Kind::numbers, true}, Member{"velocity", Kind::numbers},
+    Member{"acceleration", Kind::numbers}, Member{"effort", Kind::numbers}};
+
+std::vector<double> numbers(const Json& object, const char* member) {
+  return object.value(member, std::vector<double>{});
+}
+
+/// Reads where the futures begin and what they follow.
+/// @return empty if all is well, else what is wrong
+std::string read_course(const Json& call, remote::FuturesQuestion& question) {
+  if (const auto start = call.find("start"); start != call.end()) {
+    if (std::string fault = fault_of(*start, start_members, "start."); !fault.empty()) return fault;
+    question.start = {start->at("time").get<double>(), numbers(*start, "position"),
+                      numbers(*start, "velocity"), numbers(*start, "effort")};
+  }
+  if (const auto history = call.find("history"); history != call.end()) {
+    std::size_t index = 0;
+    for (const Json& own : *history) {
+      const std::string place = "history[" + std::to_string(index++) + "].";
+      if (std::string fault = fault_of(own, cycle_members, place); !fault.empty()) return fault;
+      question.history.push_back(
+          {{0, numbers(own, "position"), numbers(own, "velocity"), numbers(own, "effort")},
+           {numbers(own, "reference_position"), numbers(own, "reference_velocity"),
+            numbers(own, "reference_acceleration"), numbers(own, "reference_effort")},
+           own.at("command").get<std::vector<std::vector<double>>>()});
+    }
+  }
+  if (const auto references = call.find("references"); references != call.end()) {
+    std::size_t index = 0;
+    for (const Json& own : *references) {
+      const std::string place = "references[" + std::to_string(index++) + "].";
+      if (std::string fault = fault_of(own, reference_members, place); !fault.empty()) return fault;
+      question.references.push_back({numbers(own, "position"), numbers(own, "velocity"),
+                                     numbers(own, "acceleration"), numbers(own, "effort")});
+    }
+  }
+  question.reference_step = call.value("reference_step", question.reference_step);
+  if (const auto steps = call.find("steps"); steps != call.end()) {
+    for (const auto& [joint, height] : steps->items()) {
+      question.steps.push_back({joint, height.get<double>()});
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Asked read_futures(const Json& call) {
@@ -61,6 +120,8 @@ Asked read_futures(const Json& call) {
   spread.delay = call.value("delay", spread.delay);
   spread.position_noise = call.value("position_noise", spread.position_noise);
   spread.velocity_noise = call.value("velocity_noise", spread.velocity_noise);
+  if (std::string fault = read_course(call, question); !fault.empty())
+    return Refusal{std::move(fault)};
   return question;
 }
 

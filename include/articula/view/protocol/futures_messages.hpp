@@ -2,7 +2,7 @@
 /// @file Questions for futures from clients, and the answers to them.
 #pragma once
 
-#include "articula/remote/futures_question.hpp"
+#include "articula/remote/forecast/futures_question.hpp"
 #include "articula/remote/robot_sheet.hpp"
 #include "articula/view/protocol/requests.hpp"
 
@@ -16,9 +16,13 @@ inline constexpr std::array futures_members{
     Member{"horizon", Kind::number},        Member{"samples", Kind::integer},
     Member{"seed", Kind::integer},          Member{"mass", Kind::number},
     Member{"friction", Kind::number},       Member{"delay", Kind::integer},
-    Member{"position_noise", Kind::number}, Member{"velocity_noise", Kind::number}};
+    Member{"position_noise", Kind::number}, Member{"velocity_noise", Kind::number},
+    Member{"start", Kind::object},          Member{"history", Kind::objects},
+    Member{"references", Kind::objects},    Member{"reference_step", Kind::number},
+    Member{"steps", Kind::number_by_name}};
 
-/// Reads a question whose members were checked. The port checks their ranges.
+/// Reads a question whose members were checked, and checks those of its start and its references.
+/// The port checks their ranges.
 [[nodiscard]] Asked read_futures(const Json& call);
 
 /// The answer of the service /futures. Of each joint it has the quantiles of all futures at each

@@ -58,10 +58,15 @@ bool is_of(Kind kind, const Json& x) {
       return x.is_object() && has_short_names(x) && all_are(x, is_number);
     case Kind::numbers:
       return x.is_array() && all_are(x, is_number);
+    case Kind::number_lists:
+      return x.is_array() &&
+             all_are(x, [](const Json& y) { return y.is_array() && all_are(y, is_number); });
     case Kind::three_numbers:
       return x.is_array() && x.size() == 3 && all_are(x, is_number);
     case Kind::texts:
       return x.is_array() && all_are(x, is_text);
+    case Kind::object:
+      return x.is_object();
     case Kind::objects:
       return x.is_array() && all_are(x, [](const Json& y) { return y.is_object(); });
     case Kind::duration:
@@ -86,10 +91,14 @@ std::string_view words_for(Kind kind) {
       return "an object of numbers, as {\"shoulder\": 0.5}";
     case Kind::numbers:
       return "an array of numbers";
+    case Kind::number_lists:
+      return "an array of arrays of numbers";
     case Kind::three_numbers:
       return "an array of three numbers";
     case Kind::texts:
       return "an array of texts of at most 256 bytes";
+    case Kind::object:
+      return "an object";
     case Kind::objects:
       return "an array of objects";
     case Kind::duration:
@@ -126,10 +135,14 @@ Json schema_of_kind(Kind kind) {
       return {{"type", "object"}, {"additionalProperties", number}};
     case Kind::numbers:
       return {{"type", "array"}, {"items", number}};
+    case Kind::number_lists:
+      return {{"type", "array"}, {"items", schema_of_kind(Kind::numbers)}};
     case Kind::three_numbers:
       return {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};
     case Kind::texts:
       return {{"type", "array"}, {"items", {{"type", "string"}}}};
+    case Kind::object:
+      return {{"type", "object"}};
     case Kind::objects:
       return {{"type", "array"}, {"items", {{"type", "object"}}}};
     case Kind::anything:

@@ -18,8 +18,10 @@ enum class Kind : unsigned char {
   text,            ///< at most 256 bytes
   number_by_name,  ///< object of numbers, as {"shoulder": 0.5}
   numbers,         ///< array of numbers
+  number_lists,    ///< array of arrays of numbers
   three_numbers,   ///< array of three numbers
   texts,           ///< array of texts
+  object,          ///< whose members its reader checks
   objects,         ///< array of objects
   duration,        ///< seconds, or {"sec": .., "nanosec": ..}
   anything,        ///< accepted and not used

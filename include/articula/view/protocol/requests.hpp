@@ -2,7 +2,7 @@
 /// @file Requests to the loop, read from JSON. Pure: texts in, requests or refusals out.
 #pragma once
 
-#include "articula/remote/futures_question.hpp"
+#include "articula/remote/forecast/futures_question.hpp"
 #include "articula/remote/request.hpp"
 #include "articula/view/protocol/json.hpp"
 #include "articula/view/protocol/members.hpp"

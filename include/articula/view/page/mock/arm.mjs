@@ -3,7 +3,7 @@
 // independent; the real simulator is articula's.
 
 const period = 1e-3;
-const joints = [
+export const joints = [
   {
     name: 'shoulder_active_joint',
     lower: -1.5708,
@@ -87,6 +87,7 @@ export class Arm {
   pull = null; // {link, point, force}
   source = null; // time -> [positions, velocities, done]
   gains = {p: [2310, 339], i: [4640, 851], d: [0.299, 0.351]};
+  mass = 1; // of the links, relative to the described ones
 
   /** One cycle: reference, control, motion. */
   step() {
@@ -104,7 +105,7 @@ export class Arm {
       this.integral[j] = clamp(this.integral[j] + i[j] * error * period, joint.effort);
       const asked = this.mode === 'active' ? p[j] * error + this.integral[j] + d[j] * rate : 0;
       this.effort[j] = clamp(asked, joint.effort);
-      const decay = Math.exp((-joint.damping / joint.inertia) * period); // exact for a constant torque
+      const decay = Math.exp((-joint.damping / (this.mass * joint.inertia)) * period); // exact for a constant torque
       const end = (this.effort[j] + torque[j]) / joint.damping;
       this.velocity[j] = end + (this.velocity[j] - end) * decay;
       this.position[j] += this.velocity[j] * period;

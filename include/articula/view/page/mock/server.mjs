@@ -27,6 +27,7 @@ const http = createServer(async (request, response) => {
 http.listen(port, '127.0.0.1', () => console.log(`http://127.0.0.1:${http.address().port}`));
 
 const arm = new Arm();
+const inputs = ['read', 'write', 'request', 'change', 'posted', 'overruns', 'missed'];
 const topics = ['/situation', '/cycles', '/statistics', '/log'];
 const readOnly = {
   robot: () => sheet,
@@ -158,14 +159,18 @@ setInterval(() => {
     time: [],
     status: [],
     latency: [],
+    period: [],
     update: [],
     position: columns(),
     velocity: columns(),
     effort: columns(),
     reference_position: columns(),
     reference_velocity: columns(),
+    reference_acceleration: columns(),
     reference_effort: columns(),
     command: {effort: columns()},
+    input: Object.fromEntries(inputs.map((name) => [name, []])),
+    changes: [],
     dropped: 0,
   };
   let count = Math.min(1000, Math.floor(simulated / sheet.period));
@@ -178,6 +183,8 @@ setInterval(() => {
     cycles.time.push(arm.time);
     cycles.status.push(arm.mode === 'active' ? 0 : 9);
     cycles.latency.push(2e-6 * Math.exp(1.2 * (Math.random() + Math.random() + Math.random())));
+    cycles.period.push(sheet.period);
+    for (const name of inputs) cycles.input[name].push(name === 'posted' ? 1 : 0);
     cycles.update.push(4e-7 * (1 + Math.random()));
     sheet.joints.forEach((_, j) => {
       cycles.position[j].push(arm.position[j]);
@@ -185,6 +192,7 @@ setInterval(() => {
       cycles.effort[j].push(arm.effort[j]);
       cycles.reference_position[j].push(arm.reference[j]);
       cycles.reference_velocity[j].push(arm.referenceVelocity[j]);
+      cycles.reference_acceleration[j].push(0);
       cycles.reference_effort[j].push(0);
       cycles.command.effort[j].push(arm.effort[j]);
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The services of the mock server: what each does to the arm.
 import {sheet} from './arm.mjs';
+import {futures} from './futures.mjs';
 import {go, signals, trajectory} from './motions.mjs';
 
 const names = sheet.joints.map(({name}) => name);
@@ -116,6 +117,11 @@ export const services = {
     return done;
   },
   set_parameters: (arm, {values}) => setParameters(arm, values),
+  futures: (arm, question) => {
+    const proposed = {gains: structuredClone(arm.gains)};
+    const answer = setParameters(proposed, question.gains ?? {});
+    return answer.success ? futures(arm, proposed.gains, question) : answer;
+  },
   pause: (arm, {paused}) => {
     arm.paused = paused;
     return done;

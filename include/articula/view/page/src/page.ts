@@ -13,7 +13,9 @@ import {PosesPanel} from './panels/poses_panel';
 import {addSimulationBar} from './panels/simulation_bar';
 import {addTabs} from './panels/tabs';
 import {addTopBar} from './panels/top_bar';
+import {Playback} from './playback';
 import {PlotPanel} from './plots/plot_panel';
+import {addTimeline} from './plots/timeline';
 import {RobotView} from './robot/robot_view';
 import {Session} from './session';
 import type {Socket} from './socket';
@@ -32,30 +34,34 @@ export function startPage(open: () => Socket, before: (now: number) => void = ()
   addDivider(at('divider'), document.querySelector('main') as HTMLElement);
   addNotices(at('notices'), session);
   addTopBar(at('top'), at('fault'), session);
-  const view = new RobotView(at('view'), session);
+  const playback = new Playback(session);
+  const view = new RobotView(at('view'), session, playback);
   const simulation = addSimulationBar(at('view'), session);
-  const plots = new PlotPanel(at('plots'), session);
-  const joints = new JointsPanel(session);
+  const plots = new PlotPanel(at('plots'), session, playback);
+  const timeline = addTimeline(at('plots'), session, playback);
+  const joints = new JointsPanel(session, playback);
   const poses = new PosesPanel(session, joints);
   const move = element('div', {}, joints.box, poses.box);
   addTabs(at('side'), [
     ['Move', move],
     ['Controllers', new ControllersPanel(session).box],
-    ['Gains', new GainsPanel(session).box],
+    ['Gains', new GainsPanel(session, playback).box],
     ['Experiments', new ExperimentsPanel(session).box],
     ['Log', new LogPanel(session).box],
   ]);
 
   function frame(now: number): void {
     before(now);
+    playback.advance(now);
     view.draw(now);
     simulation.draw();
     joints.draw(now);
+    timeline.draw(now);
     plots.draw(now);
     requestAnimationFrame(frame);
   }
   requestAnimationFrame(frame);
 
   // For the browser's console and for tests.
-  Object.assign(window, {articula: {session, view, plots}});
+  Object.assign(window, {articula: {session, view, plots, playback}});
 }

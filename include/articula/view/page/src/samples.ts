@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {Cycles, RobotSheet} from './wire';
+import {type Cycles, inputs, type LoopChange, type RobotSheet} from './wire';
 
 const longest = 60; // s of history
 const largest = 128e6; // bytes of all columns: a robot with many joints gets a shorter history
@@ -10,19 +10,26 @@ const jointQuantities = [
   'effort',
   'reference_position',
   'reference_velocity',
+  'reference_acceleration',
   'reference_effort',
 ] as const;
+
+const loopQuantities = ['number', 'latency', 'period', 'update', 'status'] as const;
 
 /** The name of a column: "position/0", "command.effort/1", "latency". */
 export function columnName(quantity: string, joint?: number): string {
   return joint === undefined ? quantity : `${quantity}/${joint}`;
 }
 
-/** The last cycles in columns, each a ring. A row is named by its index since the start. */
+/**
+ * The last cycles in columns, each a ring, with the bits of the loop. A row is named by its index since
+ * the start.
+ */
 export class Samples {
   readonly capacity: number;
   private readonly times: Float64Array;
-  private readonly columns = new Map<string, Float32Array>();
+  private readonly columns = new Map<string, Float64Array>();
+  private changes: LoopChange[] = [];
   first = 0; // the oldest row that is still there
   end = 0; // one after the newest
 
@@ -31,10 +38,21 @@ export class Samples {
     const names = quantities.flatMap((name) =>
       sheet.joints.map((_, joint) => columnName(name, joint)),
     );
-    names.push('latency', 'update', 'status');
-    this.capacity = Math.ceil(Math.min(longest / sheet.period, largest / (4 * names.length)));
+    names.push(...loopQuantities, ...inputs.map((name) => `input.${name}`));
+    this.capacity = Math.ceil(Math.min(longest / sheet.period, largest / (8 * names.length)));
     this.times = new Float64Array(this.capacity);
-    for (const name of names) this.columns.set(name, new Float32Array(this.capacity));
+    for (const name of names) this.columns.set(name, new Float64Array(this.capacity));
+  }
+
+  /** The rows as they are now. */
+  copy(): Samples {
+    const copy = new Samples(this.sheet);
+    copy.times.set(this.times);
+    for (const [name, values] of this.columns) copy.columns.get(name)?.set(values);
+    copy.changes = [...this.changes];
+    copy.first = this.first;
+    copy.end = this.end;
+    return copy;
   }
 
   append(cycles: Cycles): void {
@@ -51,11 +69,12 @@ export class Samples {
     for (const [name, joints] of Object.entries(cycles.command)) {
       joints.forEach((values, joint) => this.put(columnName(`command.${name}`, joint), values));
     }
-    this.put('latency', cycles.latency);
-    this.put('update', cycles.update);
-    this.put('status', cycles.status);
+    for (const name of loopQuantities) this.put(name, cycles[name]);
+    for (const name of inputs) this.put(`input.${name}`, cycles.input[name]);
     this.end += count;
     this.first = Math.max(this.first, this.end - this.capacity);
+    const oldest = this.value('number', this.first);
+    this.changes = [...this.changes.filter(({cycle}) => cycle >= oldest), ...cycles.changes];
   }
 
   get lastTime(): number {
@@ -78,11 +97,20 @@ export class Samples {
     return values ? (row) => values[row % capacity] : () => NaN;
   }
 
+  /** A value of each joint. */
+  at(quantity: string, row: number): number[] {
+    return this.sheet.joints.map((_, joint) => this.value(columnName(quantity, joint), row));
+  }
+
   /** The newest value of each joint. */
   latest(quantity: string): number[] {
-    return this.sheet.joints.map((_, joint) =>
-      this.value(columnName(quantity, joint), this.end - 1),
-    );
+    return this.at(quantity, this.end - 1);
+  }
+
+  /** The changes before a row that the row before it did not have. */
+  changesAt(row: number): object[] {
+    const cycle = this.value('number', row);
+    return this.changes.filter((own) => own.cycle === cycle).map(({change}) => change);
   }
 
   /** The first row at or after a time. */

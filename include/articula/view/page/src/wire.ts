@@ -51,16 +51,51 @@ export interface Cycles {
   time: number[];
   status: number[];
   latency: number[];
+  period: number[];
   update: number[];
   position: number[][];
   velocity: number[][];
   effort: number[][];
   reference_position: number[][];
   reference_velocity: number[][];
+  reference_acceleration: number[][];
   reference_effort: number[][];
   command: Record<string, number[][]>;
+  input: Record<(typeof inputs)[number], number[]>; // what else the commands depend on
+  changes: LoopChange[]; // of the controllers
   dropped: number;
 }
+
+/** The inputs of a cycle, as C++'s CycleInput has them. */
+export const inputs = [
+  'read',
+  'write',
+  'request',
+  'change',
+  'posted',
+  'overruns',
+  'missed',
+] as const;
+
+/** New gains, or a request to switch, before a cycle. */
+export interface LoopChange {
+  cycle: number;
+  change: object;
+}
+
+/** The statuses of a cycle by number, as C++'s Status has them. */
+export const statuses = [
+  'ok',
+  'non-finite state',
+  'non-finite reference',
+  'non-finite command',
+  'hardware fault',
+  'stale state',
+  'stale reference',
+  'limit exceeded',
+  'overrun',
+  'inactive',
+];
 
 export interface Parameter {
   name: string; // <controller>.<joint>.<gain>

@@ -11,7 +11,7 @@ export function addDivider(divider: HTMLElement, area: HTMLElement): void {
     localStorage.setItem(key, String(bounded));
   };
   const now = () => Number(divider.getAttribute('aria-valuenow')) / 100;
-  set(Number(localStorage.getItem(key) ?? 0.44));
+  set(Number(localStorage.getItem(key) ?? 0.47));
   divider.addEventListener('pointerdown', ({pointerId}) => divider.setPointerCapture(pointerId));
   divider.addEventListener('pointermove', ({pointerId, clientY}) => {
     if (!divider.hasPointerCapture(pointerId)) return;

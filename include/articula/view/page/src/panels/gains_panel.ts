@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import {button, element} from '../dom';
+import type {Playback} from '../playback';
 import type {Session} from '../session';
 import type {Futures, Parameter} from '../wire';
 import {GainField} from './gain_field';
 import {GainFutures} from './gain_futures';
 import {marginText} from './margin_text';
+import {StepField} from './step_field';
 
 /** Gains by controller and joint. All changed ones are applied together, or none of them. */
 export class GainsPanel {
@@ -19,6 +21,7 @@ export class GainsPanel {
   private refusedInFan = new Set<GainField>();
   private margins = new Map<string, HTMLElement>(); // by controller and joint
   private readonly futures: GainFutures;
+  private readonly step: StepField;
   private readonly fan = element('p', {class: 'hint fan', role: 'status'});
   private readonly list = element('div', {});
   private readonly applyButton = element(
@@ -33,14 +36,21 @@ export class GainsPanel {
   });
   private readonly outcome = element('p', {class: 'hint', role: 'status'});
 
-  constructor(private readonly session: Session) {
+  constructor(
+    private readonly session: Session,
+    private readonly playback: Playback,
+  ) {
+    this.step = new StepField(session, () => this.propose());
     this.box.append(
       this.list,
       element('div', {class: 'row'}, this.applyButton, this.revert),
       this.outcome,
+      this.step.box,
       this.fan,
     );
-    this.futures = new GainFutures(session, (futures, refusal) => this.tell(futures, refusal));
+    this.futures = new GainFutures(session, playback, (futures, refusal) =>
+      this.tell(futures, refusal),
+    );
     this.box.noValidate = true; // the loop decides what is valid
     session.on('parameters', (parameters) => this.load(parameters));
     session.on('values', (values) => this.update(values));
@@ -131,9 +141,11 @@ export class GainsPanel {
     this.enable();
     const changed = this.fields.filter((field) => field.isChanged);
     const complete = changed.every((field) => !Number.isNaN(field.value));
-    const asks = changed.length > 0 && complete && this.session.mayOperate;
+    const {steps} = this.step;
+    const differs = changed.length > 0 || Object.keys(steps).length > 0;
+    const asks = differs && complete && this.session.mayOperate;
     const entries = changed.map((field) => [field.parameter.name, field.value]);
-    this.futures.propose(asks ? Object.fromEntries(entries) : null);
+    this.futures.propose(asks ? {gains: Object.fromEntries(entries), steps} : null);
   }
 
   private tell(futures: Futures | null, refusal: string): void {
@@ -144,12 +156,16 @@ export class GainsPanel {
     }
     const bad = futures ? futures.unstable + futures.non_finite : 0;
     this.fan.textContent = futures
-      ? `${futures.count} simulated robots with these gains: ${bad === 0 ? 'no drive swings between its limits' : `${bad} unstable`}.`
+      ? `${futures.count} simulated robots with these gains${this.from(futures)}: ${bad === 0 ? 'no drive swings between its limits' : `${bad} unstable`}.`
       : refusal;
     this.fan.classList.toggle('bad', bad > 0 || refusal !== '');
     for (const field of this.refusedInFan) field.refuse('');
     this.refusedInFan = new Set(this.fields.filter((field) => refusal.includes(field.parameter.name)));
     for (const field of this.refusedInFan) field.refuse(refusal);
+  }
+
+  private from({time}: Futures): string {
+    return this.playback.past ? `, from ${time.toFixed(3)} s on` : '';
   }
 
   private enable(): void {

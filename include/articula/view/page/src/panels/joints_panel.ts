@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {button, element, toggle} from '../dom';
+import type {Playback} from '../playback';
 import type {Session} from '../session';
 import type {RobotSheet} from '../wire';
 import {JointRow} from './joint_row';
@@ -32,7 +33,10 @@ export class JointsPanel {
   });
   private readonly others: HTMLButtonElement[];
 
-  constructor(private readonly session: Session) {
+  constructor(
+    private readonly session: Session,
+    private readonly playback: Playback,
+  ) {
     const zero = button('To zero', () => this.all((row) => row.setGoal(0)), {
       title: 'Set all sliders to 0',
     });
@@ -107,11 +111,13 @@ export class JointsPanel {
     const elapsed = Math.min(0.1, (now - this.lastTime) * 1e-3);
     this.lastTime = now;
     const reference = samples.latest('reference_position');
-    const measured = samples.latest('position');
     if (now - this.lastShown > interval && this.box.offsetParent !== null) {
       // else it is hidden
       this.lastShown = now;
-      this.rows.forEach((row, joint) => row.show(measured[joint], reference[joint]));
+      const {past} = this.playback;
+      const measured = past ? past.samples.at('position', past.row) : samples.latest('position');
+      const shadow = past ? past.samples.at('reference_position', past.row) : reference;
+      this.rows.forEach((row, joint) => row.show(measured[joint], shadow[joint]));
     }
     if (this.isLive) this.follow(reference, elapsed);
   }

@@ -15,16 +15,16 @@ export function csvText(samples: Samples, signals: Signal[], first: number, end:
     lines.push(
       [
         samples.time(row).toFixed(6),
-        ...values.map((value) => String(Number(value.toPrecision(8)))),
+        ...values.map((value) => String(value)),
       ].join(','),
     );
   }
   return lines.join('\n') + '\n';
 }
 
-/** Hands a text to the user as a file. */
-export function saveFile(name: string, text: string): void {
-  const address = URL.createObjectURL(new Blob([text], {type: 'text/csv'}));
+/** Hands a file to the user. */
+export function saveFile(name: string, parts: BlobPart[], type: string): void {
+  const address = URL.createObjectURL(new Blob(parts, {type}));
   element('a', {href: address, download: name}).click();
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import uPlot from 'uplot';
 import {button, element, format} from '../dom';
+import type {Shown} from '../playback';
 import type {Samples} from '../samples';
 import {withPlainCanvas} from '../graphics';
 import {colour, jointColour} from '../theme';
@@ -17,6 +18,7 @@ export interface PaneOwner {
   live(): void;
   mark(time: number, second: boolean): void; // sets one of the two cursors
   markers(): (number | null)[];
+  shown(): Shown | null; // a cycle of the past
   futures(): Futures | null; // to be drawn over the positions
   changed(pane: PlotPane): void; // other quantities
   remove(pane: PlotPane): void;
@@ -124,7 +126,11 @@ export class PlotPane {
             hooks: {
               setSelect: [(plot) => this.selected(plot)],
               setCursor: [() => this.showValues()],
-              draw: [(plot) => this.drawFutures(plot), (plot) => this.drawMarkers(plot)],
+              draw: [
+                (plot) => this.drawFutures(plot),
+                (plot) => this.drawMarkers(plot),
+                (plot) => this.drawShown(plot),
+              ],
             },
           },
           [[]],
@@ -168,17 +174,20 @@ export class PlotPane {
     plot.setSelect({left: 0, top: 0, width: 0, height: 0}, false);
   }
 
-  // Values under the mouse, else the newest ones.
+  // Values under the mouse, else those of the cycle that is shown, else the newest ones.
   private showValues(): void {
     if (!this.plot) return;
     const last = this.plot.data[0].length - 1;
-    const row = this.plot.cursor.idx ?? last;
+    const {idx} = this.plot.cursor;
+    const past = typeof idx === 'number' ? null : this.owner.shown();
     const shown = this.signals.slice(0, 8);
     while (this.readout.children.length > shown.length) this.readout.lastChild?.remove();
     shown.forEach(({quantity, joint, label, unit}, k) => {
       const item = (this.readout.children[k] ??
         this.readout.appendChild(element('span'))) as HTMLElement;
-      const value = this.plot?.data[k + 1]?.[row];
+      const value = past
+        ? quantity.reader(past.samples, joint)(past.row)
+        : this.plot?.data[k + 1]?.[idx ?? last];
       const text = `${format(value as number | undefined, 4)} ${unit}`;
       if (item.textContent !== text) item.textContent = text;
       item.title = label;
@@ -219,6 +228,16 @@ export class PlotPane {
       ctx.fillText('AB'[k], x + 4 * devicePixelRatio, bbox.top + 12 * devicePixelRatio);
       ctx.restore();
     });
+  }
+
+  private drawShown(plot: uPlot): void {
+    const past = this.owner.shown();
+    if (!past) return;
+    const {ctx, bbox} = plot;
+    const x = plot.valToPos(past.samples.time(past.row), 'x', true);
+    if (x < bbox.left || x > bbox.left + bbox.width) return;
+    ctx.fillStyle = colour('--accent');
+    ctx.fillRect(x - devicePixelRatio / 2, bbox.top, devicePixelRatio, bbox.height);
   }
 
   private resize(): void {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 import {button, element, select, setPressed, toggle} from '../dom';
+import type {Playback, Shown} from '../playback';
 import type {Session} from '../session';
 import {jointColour, onTheme} from '../theme';
 import type {Futures, RobotSheet} from '../wire';
 import {csvText, saveFile} from './csv';
 import {LatencyHistogram} from './histogram';
+import {mcapFile} from './mcap';
 import {cursorLine, stepLines} from './metrics_line';
 import {PlotPane, type PaneOwner} from './plot_pane';
 
@@ -29,13 +31,14 @@ export class PlotPanel implements PaneOwner {
   });
   private readonly list = element('div', {class: 'panes'});
   private readonly metrics = element('div', {class: 'metrics', 'aria-live': 'off'});
-  private readonly pauseButton = toggle('Pause', false, (on) => (on ? this.hold() : this.live()), {
+  private readonly pauseButton = toggle('Pause', false, (on) => (on ? this.playback.hold() : this.live()), {
     title: 'Stop the plots; the loop goes on',
   });
 
   constructor(
     box: HTMLElement,
     private readonly session: Session,
+    private readonly playback: Playback,
   ) {
     const windows: [string, string][] = [1, 2, 5, 10, 30, 60].map((s) => [String(s), `${s} s`]);
     const span = select('Time shown', windows, (value) => {
@@ -61,11 +64,18 @@ export class PlotPanel implements PaneOwner {
       ),
       button('Add plot', () => this.add(['velocity'])),
       button('CSV', () => this.save(), {title: 'Save what the plots show as a CSV file'}),
+      button('MCAP', () => void this.saveMcap(), {
+        title: 'Save all quantities of the time shown as an MCAP file, to replay it',
+      }),
     );
     this.list.append(this.histogram.box);
     box.append(bar, this.list, this.metrics);
     session.on('robot', (sheet) => this.load(sheet));
-    session.on('futures', () => (this.lastDrawn = 0));
+    session.on('futures', (futures) => {
+      this.lastDrawn = 0;
+      if (futures && playback.past) this.include(futures.time + futures.horizon);
+    });
+    playback.on('changed', () => this.follow());
     onTheme(() => {
       if (session.sheet)
         this.load(
@@ -76,7 +86,8 @@ export class PlotPanel implements PaneOwner {
   }
 
   draw(now: number): void {
-    const {samples, statistics} = this.session;
+    const {statistics} = this.session;
+    const {samples} = this.playback;
     if (!samples || now - this.lastDrawn < Math.max(interval, this.cost / share)) return;
     if (this.held && this.lastDrawn > 0) return;
     this.lastDrawn = now = performance.now();
@@ -89,25 +100,25 @@ export class PlotPanel implements PaneOwner {
 
   zoom(from: number, to: number): void {
     this.held = [from, to];
-    setPressed(this.pauseButton, true);
-    this.lastDrawn = 0;
+    this.playback.hold();
   }
 
   live(): void {
-    this.held = null;
-    this.marked = [null, null];
-    setPressed(this.pauseButton, false);
-    this.lastDrawn = 0;
+    this.playback.live();
   }
 
   mark(time: number, second: boolean): void {
     this.marked[second ? 1 : 0] = time;
-    if (!this.held) this.hold(); // a moving plot would carry the cursor away
+    this.playback.hold(); // a moving plot would carry the cursor away
     this.lastDrawn = 0;
   }
 
   markers(): (number | null)[] {
     return this.marked;
+  }
+
+  shown(): Shown | null {
+    return this.playback.past;
   }
 
   futures(): Futures | null {
@@ -162,14 +173,30 @@ export class PlotPanel implements PaneOwner {
     for (const pane of this.panes) this.changed(pane);
   }
 
-  private hold(): void {
-    this.held = this.range();
-    setPressed(this.pauseButton, true);
+  // The playback is held or goes on, or it shows another time, which the plots have to contain.
+  private follow(): void {
+    this.lastDrawn = 0;
+    setPressed(this.pauseButton, this.playback.isHeld);
+    if (!this.playback.isHeld) {
+      this.held = null;
+      this.marked = [null, null];
+      return;
+    }
+    this.held ??= this.range();
+    const {past} = this.playback;
+    if (past) this.include(past.samples.time(past.row));
+  }
+
+  private include(time: number): void {
+    if (!this.held) return;
+    const [from, to] = this.held;
+    const shift = Math.min(0, time - from) + Math.max(0, time - to);
+    this.held = [from + shift, to + shift];
   }
 
   private range(): [number, number] {
     if (this.held) return this.held;
-    const now = this.session.samples?.lastTime ?? 0;
+    const now = this.playback.samples?.lastTime ?? 0;
     const {futures} = this.session;
     const last = futures ? Math.max(now, futures.time + futures.horizon) : now;
     // Before the window is full, the lines grow from its left end.
@@ -177,7 +204,8 @@ export class PlotPanel implements PaneOwner {
   }
 
   private showMetrics(now: number): void {
-    const {samples, sheet} = this.session;
+    const {sheet} = this.session;
+    const {samples} = this.playback;
     if (!samples || !sheet) return;
     this.lastMetrics = now;
     const [from, to] = this.range();
@@ -189,13 +217,28 @@ export class PlotPanel implements PaneOwner {
   }
 
   private save(): void {
-    const {samples, sheet} = this.session;
+    const {sheet} = this.session;
+    const {samples} = this.playback;
     if (!samples || !sheet) return;
     const [from, to] = this.range();
     const signals = this.panes.flatMap((pane) => pane.signals);
     saveFile(
       `${sheet.name}_${to.toFixed(1)}s.csv`,
-      csvText(samples, signals, samples.rowAt(from), samples.rowAt(to)),
+      [csvText(samples, signals, samples.rowAt(from), samples.rowAt(to))],
+      'text/csv',
+    );
+  }
+
+  private async saveMcap(): Promise<void> {
+    const {sheet} = this.session;
+    const {samples} = this.playback;
+    if (!samples || !sheet) return;
+    const [from, to] = this.range();
+    const rows = samples.copy(); // the ring goes on while the file is made
+    saveFile(
+      `${sheet.name}_${to.toFixed(1)}s.mcap`,
+      await mcapFile(rows, sheet, rows.rowAt(from), rows.rowAt(to + sheet.period / 2)),
+      'application/octet-stream',
     );
   }
 }

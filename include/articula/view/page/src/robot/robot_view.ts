@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import {AxesHelper, Box3, Color, type Object3D} from 'three';
 import {element, format, select, toggle} from '../dom';
+import type {Playback} from '../playback';
 import type {Session} from '../session';
 import {colour, onTheme} from '../theme';
 import type {RobotSheet} from '../wire';
@@ -18,6 +19,7 @@ export class RobotView {
   model: RobotModel | null = null;
   private readonly trail = new Trail();
   private readonly force = element('output', {class: 'force', hidden: true});
+  private readonly past = element('output', {class: 'past', hidden: true});
   private readonly tool = select('Link of the trail', [], () => this.restartTrail());
   private readonly shown = {frames: false, axes: false, inertia: false};
   private extras: Record<keyof RobotView['shown'], Object3D[]> = {
@@ -27,10 +29,12 @@ export class RobotView {
   };
   private radius = 1;
   private drawnRow = -1;
+  private wasPast = false;
 
   constructor(
     box: HTMLElement,
     private readonly session: Session,
+    private readonly playback: Playback,
   ) {
     this.stage = new Stage(box);
     this.stage.scene.add(this.trail.line);
@@ -39,9 +43,10 @@ export class RobotView {
       (request) => void session.askQuietly('/pull', request),
       (newtons) => this.showForce(newtons),
     );
-    box.append(this.toolbar(), this.force);
+    box.append(this.toolbar(), this.force, this.past);
     session.on('robot', (sheet) => this.load(sheet));
     session.on('situation', () => this.situationChanged());
+    playback.on('changed', () => this.playbackChanged());
     session.on('connection', (connected) => {
       if (!connected) this.pull.release();
     });
@@ -51,16 +56,33 @@ export class RobotView {
 
   /** To be called once per frame of the display. */
   draw(now: number): void {
-    const samples = this.session.samples;
-    if (this.model && samples && samples.end !== this.drawnRow && samples.end > samples.first) {
-      this.drawnRow = samples.end;
-      if (!this.model.place(samples.latest('position'), samples.latest('reference_position')))
+    const shown = this.playback.shown;
+    if (this.model && shown && shown.row !== this.drawnRow) {
+      const {samples, row} = shown;
+      this.drawnRow = row;
+      if (!this.model.place(samples.at('position', row), samples.at('reference_position', row)))
         return this.finish(now);
       const link = this.model.measured.links[this.tool.value];
-      if (link && this.trail.line.visible) this.trail.add(link, this.radius * 2e-3);
+      if (link && this.trail.line.visible && !this.wasPast)
+        this.trail.add(link, this.radius * 2e-3);
       this.stage.invalidate();
     }
     this.finish(now);
+  }
+
+  // A recorded robot is not pulled at, and its user must not take it for the real one.
+  private playbackChanged(): void {
+    const {past} = this.playback;
+    this.past.hidden = !past;
+    if (past) {
+      const time = past.samples.time(past.row).toFixed(3);
+      this.past.textContent = `Recorded at ${time} s. The robot itself may be elsewhere.`;
+    }
+    if (this.wasPast === (past !== null)) return;
+    this.wasPast = past !== null;
+    if (this.wasPast) this.pull.release();
+    else this.restartTrail();
+    this.situationChanged();
   }
 
   private finish(now: number): void {
@@ -191,7 +213,7 @@ export class RobotView {
 
   private situationChanged(): void {
     const simulated = this.session.sheet?.is_simulated ?? false;
-    this.pull.enabled = simulated && this.session.mayOperate;
+    this.pull.enabled = simulated && this.session.mayOperate && !this.playback.past;
     this.stage.canvas.title = this.pull.enabled
       ? 'Drag the robot to pull at it, with Shift four times as hard. Drag beside it to turn it.'
       : '';

@@ -2,17 +2,16 @@
 /// @file The futures of a loop with other gains, computed beside it.
 #pragma once
 
-#include "articula/control/laws/part_scope.hpp"
-#include "articula/control/laws/sampled_feedback.hpp"
 #include "articula/control/switching/switch_board.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/futures/futures.hpp"
 #include "articula/loop/command_history.hpp"
 #include "articula/recording/cycle_record.hpp"
 #include "articula/remote/engine/loop_traits.hpp"
-#include "articula/remote/futures_question.hpp"
+#include "articula/remote/forecast/future_start.hpp"
+#include "articula/remote/forecast/futures_question.hpp"
+#include "articula/remote/forecast/joint_margins.hpp"
 #include "articula/remote/gains/gain_parameters.hpp"
-#include "articula/tuning/stability_margins.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -56,9 +55,8 @@ class Forecast {
     simulation_.period = loop.period();
   }
 
-  /// Simulates. The reference stays where it is now, with velocity 0, and the controller starts with
-  /// the load that its last command carries.
-  /// @param now       the last cycle of the loop
+  /// Simulates. The controller starts with the load that the last command carries.
+  /// @param now       the last cycle of the loop; used if the question has no start
   /// @param gains     all gains of the loop
   /// @param controllers  all controllers of the loop
   /// @param question  for what
@@ -86,18 +84,23 @@ class Forecast {
         articula::detail::refuse({"futures: ", positions, " positions in the answer are more than ",
                                   FuturesQuestion::most_positions});
       }
-      ControllerType controller = with_gains(gains, question.gains);
-      FutureStart<Command> start{now.state, {}, now.command};
-      start.reference.position = now.reference.position;
-      start.reference.effort = now.reference.effort;
-      CommandHistory<Command> history;
-      history.start_with(start.command, start.state, Held::load);
-      const auto input = history.input(start.state, start.reference, simulation_.period);
+      FutureStart<Command> start = future_start(robot_, now, question, simulation_.period);
+      ControllerType controller = controller_;
+      set_gains(controller, gains);
       activate(controller, controllers);
-      start_controller(controller, input);  // a Switch makes them active
-      start_controller(controller, input);  // and starts them here as those that were active before
-      FuturesAnswer answer{
-          .time = now.time, .horizon = options.horizon, .samples = options.samples};
+      if (question.start) {
+        start.history = relive<Command>(controller, question.history, simulation_.period);
+      } else {
+        CommandHistory<Command> history;
+        history.start_with(start.command, start.state, Held::load);
+        const auto input = history.input(start.state, start.reference_at(0), simulation_.period);
+        start_controller(controller, input);  // a Switch makes them active
+        start_controller(controller, input);  // and starts them as those that were active before
+      }
+      set_gains(controller, question.gains);  // as a running loop gets them
+      FuturesAnswer answer{.time = question.start ? question.start->time : now.time,
+                           .horizon = options.horizon,
+                           .samples = options.samples};
       const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                           std::chrono::duration<double>(question.most_time));
       const auto goes_on = [&] {
@@ -111,8 +114,7 @@ class Forecast {
                                   " s; ask for a shorter horizon"});
       }
       if constexpr (requires { start.command.effort; }) {
-        add_margins(controller, {}, own_name<ControllerType>(0), start.state.position,
-                    answer.margins);
+        answer.margins = margins_of(robot_, controller, start.state.position, simulation_.period);
       }
       return answer;
     }
@@ -130,17 +132,14 @@ class Forecast {
     }
   }
 
-  [[nodiscard]] ControllerType with_gains(const std::vector<Parameter>& gains,
-                                          const std::vector<ParameterValue>& others) const {
-    ControllerType controller = controller_;
+  template <class Gains>
+  void set_gains(ControllerType& controller, const Gains& gains) const {
+    if (gains.empty()) return;
     std::vector<ParameterValue> values;
-    for (const Parameter& gain : gains) values.push_back({gain.name, gain.value});
-    values.insert(values.end(), others.begin(), others.end());
-    if (values.empty()) return controller;
+    for (const auto& gain : gains) values.push_back({gain.name, gain.value});
     const GainParameters<R> parameters(robot_, controller);
     typename GainParameters<R>::Changes changes;
     for (const auto& change : parameters.change(values, changes)) change->apply();
-    return controller;
   }
 
   /// Requests the controllers that are active in the loop.
@@ -166,11 +165,6 @@ class Forecast {
     }
   }
 
-  template <class Part>
-  [[nodiscard]] static std::string own_name(std::size_t place) {
-    return std::string(articula::detail::own_name<Part>(place).view());
-  }
-
   [[nodiscard]] static FutureTrajectory in_columns(const Future<joint_count>& future) {
     FutureTrajectory trajectory{.end = future.end};
     for (int j = 0; j < joint_count; ++j) {
@@ -178,48 +172,6 @@ class Forecast {
       for (const auto& position : future.positions) column.push_back(position[j]);
     }
     return trajectory;
-  }
-
-  /// Adds the margins of a part of a controller, and of the parts that it consists of.
-  template <class Part>
-  void add_margins(const Part& part, const PartScope<joint_count>& scope,
-                   const std::string& controller, const JointVector<joint_count>& q,
-                   std::vector<JointMargins>& margins) const {
-    if constexpr (requires { part.sampled_feedback(std::size_t{}); }) {
-      for (int j = 0; j < joint_count; ++j) {
-        const SampledFeedback law = part.sampled_feedback(static_cast<std::size_t>(j));
-        if (scope.joints[j] == 0 || law.of_velocity) continue;
-        try {
-          const JointPlant plant =
-              scope.asks_acceleration ? JointPlant{} : joint_plant(robot_, q, j, OtherJoints::free);
-          const StabilityMargins own =
-              stability_margins(plant,
-                                {.proportional = law.proportional,
-                                 .integral = law.integral,
-                                 .derivative = law.derivative,
-                                 .derivative_filter_time = law.filter_time},
-                                scope.divisor * simulation_.period / 2);
-          margins.push_back({controller, std::string(model_of(robot_).joints[j].name.view()),
-                             own.stable, own.gain_margin, own.phase_margin, own.delay_margin});
-        } catch (const std::invalid_argument&) {
-          continue;  // gains that are all 0 make no loop
-        }
-      }
-    } else if constexpr (requires { part.for_each_part([](const auto&...) {}); }) {
-      std::size_t place = 0;
-      part.for_each_part([&](const auto& own, const PartScope<joint_count>& inner = {}) {
-        using Own = std::remove_cvref_t<decltype(own)>;
-        const std::size_t number = place++;
-        std::string name = controller;
-        if constexpr (requires { part.name_of(number); }) {
-          if (part.list()[number].status != ControllerStatus::active) return;
-          name = part.name_of(number).view();
-        } else if constexpr (requires { Part::group_count; }) {
-          name = own_name<Own>(number);
-        }
-        this->add_margins(own, scope.of(inner), name, q, margins);
-      });
-    }
   }
 
   R robot_;
