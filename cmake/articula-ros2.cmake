@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The component ros2: the target articula::ros2, a library with the transport over Fast DDS. The
-# build of articula includes this file, and find_package(articula) includes the installed one; the
+# The component ros2: the target articula::ros2, a library with the bridge to ROS 2 and its transport
+# over Fast DDS. The build of articula includes this file, and find_package(articula) includes the installed one; the
 # library is compiled where it is used. The target exists only if Fast DDS 2 is found.
 
 find_package(OpenSSL QUIET) # which the package of Fast DDS requires
@@ -16,10 +16,14 @@ if(TARGET fastrtps AND TARGET Threads::Threads)
     if(NOT EXISTS ${articula_ros2_folder}/dds/fast_dds_transport.cpp)
       set(articula_ros2_folder ${CMAKE_CURRENT_LIST_DIR}/ros2)
     endif()
-    file(GLOB articula_ros2_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/dds/*.cpp)
-    add_library(articula_ros2 STATIC EXCLUDE_FROM_ALL ${articula_ros2_sources})
+    file(GLOB articula_ros2_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/node/*.cpp
+         ${articula_ros2_folder}/bridge/*.cpp)
+    file(GLOB articula_ros2_dds_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/dds/*.cpp)
+    add_library(articula_ros2 STATIC EXCLUDE_FROM_ALL ${articula_ros2_sources}
+                                                      ${articula_ros2_dds_sources})
     # Reading the headers of Fast DDS takes most of the time.
     set_target_properties(articula_ros2 PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    set_source_files_properties(${articula_ros2_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     add_library(articula::ros2 ALIAS articula_ros2)
     target_link_libraries(articula_ros2 PUBLIC articula::articula fastrtps Threads::Threads)
   endif()

@@ -46,10 +46,10 @@ install(
   FILES_MATCHING
   PATTERN "*.cpp")
 
-# The component ros2, with the source of its transport.
+# The component ros2, with its sources.
 install(FILES cmake/articula-ros2.cmake DESTINATION ${articula_package_dir})
 install(
-  DIRECTORY include/articula/ros2/dds
+  DIRECTORY include/articula/ros2/node include/articula/ros2/bridge include/articula/ros2/dds
   DESTINATION ${articula_package_dir}/ros2
   FILES_MATCHING
   PATTERN "*.cpp")

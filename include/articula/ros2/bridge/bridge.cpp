@@ -1,108 +1,73 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/bridge/bridge.hpp"
 
-#include "articula/ros2/bridge/bridge_core.hpp"
-#include "articula/ros2/bridge/controller_parameters.hpp"
-#include "articula/ros2/bridge/controller_topics.hpp"
-#include "articula/ros2/bridge/manager_services.hpp"
-#include "articula/ros2/bridge/robot_topics.hpp"
-#include "articula/ros2/bridge/trajectory_action.hpp"
+#include "articula/core/refuse.hpp"
+#include "articula/ros2/bridge/bridge_nodes.hpp"
+#include "articula/ros2/dds/fast_dds_transport.hpp"
 
-#include <string>
-#include <vector>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
 
 namespace articula::ros2 {
 
-namespace {
-
-/// A node whose parameters nobody can change.
-struct FixedNode {
-  FixedNode(const Node& node, std::vector<NodeParameter> parameters)
-      : store(std::move(parameters)), server(node, store) {}
-
-  FixedParameters store;
-  ParameterServer server;
-};
-
-/// A controller as a node.
-struct ControllerNode {
-  ControllerNode(BridgeCore& core, BridgedController& controller)
-      : node(core.context, controller.node, core.options.name_space),
-        store(core, controller),
-        parameters(node, store),
-        topics(core, node, controller),
-        action(make_trajectory_action(core, node, controller)) {}
-
-  void update() {
-    parameters.update();
-    action->update();
-    topics.update();
-  }
-
-  Node node;
-  ControllerParameters store;
-  ParameterServer parameters;
-  ControllerTopics topics;
-  std::unique_ptr<TrajectoryAction> action;
-};
-
-}  // namespace
-
 struct Bridge::Parts {
-  Parts(remote::Port& port, Transport& transport, const BridgeOptions& options)
-      : core(port, transport, options), robot(core), manager(make_manager_services(core)) {
-    const auto sim_time = read_only("use_sim_time", to_value(options.use_sim_time),
-                                    "Whether stamps have the time of the loop.");
-    std::vector<NodeParameter> all{sim_time};
-    for (const BridgedController& own : core.controllers) {
-      all.push_back(read_only(own.name + ".type", to_value(own.type), "Type of the controller."));
-    }
-    fixed.push_back(std::make_unique<FixedNode>(core.manager, std::move(all)));
-    fixed.push_back(
-        std::make_unique<FixedNode>(robot.broadcaster(), std::vector<NodeParameter>{sim_time}));
-    fixed.push_back(std::make_unique<FixedNode>(
-        robot.state_publisher(),
-        std::vector<NodeParameter>{sim_time,
-                                   read_only("robot_description", to_value(port.robot().urdf),
-                                             "The robot as a URDF document.")}));
-    for (BridgedController& own : core.controllers) {
-      controllers.push_back(std::make_unique<ControllerNode>(core, own));
+  Parts(remote::Port& port, std::unique_ptr<Transport> own_transport, const BridgeOptions& options)
+      : transport(std::move(own_transport)), nodes(port, checked(), options) {}
+
+  [[nodiscard]] Transport& checked() const {
+    if (transport == nullptr) articula::detail::refuse({"ros2: there is no transport"});
+    return *transport;
+  }
+
+  void run() {
+    try {
+      while (runs) {
+        transport->poll(std::chrono::milliseconds(2));
+        nodes.update(std::chrono::system_clock::now().time_since_epoch());
+        const std::lock_guard lock(mutex);
+        dropped = nodes.dropped();
+      }
+    } catch (const std::exception& caught) {
+      const std::lock_guard lock(mutex);
+      error = caught.what();
     }
   }
 
-  void log_events() {
-    while (const auto event = core.loop_operator.session().event()) {
-      using Level = remote::Event::Level;
-      using Line = RosLog::Line;
-      core.log.write(event->level == Level::error     ? Line::error
-                     : event->level == Level::warning ? Line::warn
-                                                      : Line::info,
-                     "loop", event->text);
-    }
-  }
-
-  BridgeCore core;
-  RobotTopics robot;
-  std::unique_ptr<ManagerServices> manager;
-  std::vector<std::unique_ptr<FixedNode>> fixed{};
-  std::vector<std::unique_ptr<ControllerNode>> controllers{};
+  std::unique_ptr<Transport> transport;
+  BridgeNodes nodes;  ///< ends before the transport
+  std::atomic<bool> runs = true;
+  std::mutex mutex{};
+  DroppedMessages dropped{};  ///< under the mutex
+  std::string error{};        ///< likewise
+  std::thread thread{};
 };
 
-Bridge::Bridge(remote::Port& port, Transport& transport, const BridgeOptions& options)
-    : parts_(std::make_unique<Parts>(port, transport, options)) {}
-Bridge::~Bridge() = default;
+Bridge::Bridge(remote::Port& port, const BridgeOptions& options)
+    : Bridge(port, std::make_unique<FastDdsTransport>(options.dds, options.distribution), options) {}
 
-void Bridge::update(std::chrono::nanoseconds now) {
-  BridgeCore& core = parts_->core;
-  core.watch.update(now, core.options.use_sim_time);
-  core.context.now = core.options.use_sim_time ? to_duration(core.watch.cycle.time) : now;
-  core.loop_operator.update(now);
-  parts_->log_events();
-  parts_->robot.update();
-  parts_->manager->update();
-  for (const auto& controller : parts_->controllers) controller->update();
+Bridge::Bridge(remote::Port& port, std::unique_ptr<Transport> transport,
+                           const BridgeOptions& options)
+    : parts_(std::make_unique<Parts>(port, std::move(transport), options)) {
+  parts_->thread = std::thread([parts = parts_.get()] { parts->run(); });
 }
 
-DroppedMessages Bridge::dropped() const { return parts_->core.context.dropped; }
+Bridge::~Bridge() {
+  parts_->runs = false;
+  parts_->thread.join();
+}
+
+DroppedMessages Bridge::dropped() const {
+  const std::lock_guard lock(parts_->mutex);
+  return parts_->dropped;
+}
+
+std::string Bridge::error() const {
+  const std::lock_guard lock(parts_->mutex);
+  return parts_->error;
+}
 
 }  // namespace articula::ros2

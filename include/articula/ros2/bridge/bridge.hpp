@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A running loop as ROS 2's tools expect a controller_manager.
+/// @file A running loop as ROS 2's tools see and steer it.
 #pragma once
 
 #include "articula/ros2/bridge/bridge_options.hpp"
 #include "articula/ros2/node/context.hpp"
 
-#include <chrono>
 #include <memory>
+#include <string>
 
 namespace articula::remote {
 class Port;
@@ -14,31 +14,38 @@ class Port;
 
 namespace articula::ros2 {
 
-/// Offers a running loop to ROS 2 as a controller_manager with its controllers does: joint states,
-/// frames, services, parameters, trajectories. It has no thread:
+class Transport;
+
+/// Offers a running loop to ROS 2, as a controller_manager with its controllers does, from a thread
+/// of its own until it is destroyed:
 ///
-///     Bridge bridge(remote, transport);
-///     while (running) {
-///       transport.poll(std::chrono::milliseconds(5));
-///       bridge.update(std::chrono::system_clock::now().time_since_epoch());
-///     }
+///     SupervisedLoop<Q2dSim, PidPlusGravity> arm;
+///     Remote remote(arm);
+///     ros2::Bridge bridge(remote, {.distribution = ros2::Distribution::jazzy});
+///     remote.run(clock);
 ///
-/// All requests pass the checks of the port and take its controls, as those of other clients. In the
-/// thread that polls the transport. Real-time: no (allocates, locks).
+/// The loop does nothing for ROS but what a Remote costs. The thread wakes up when something comes,
+/// and each 2 ms. Programs with a thread of their own use BridgeNodes. Real-time: no.
 class Bridge {
  public:
-  /// @param port       outlives the bridge
-  /// @param transport  likewise
+  /// Over Fast DDS. By default ROS programs on this host see it, and no others.
+  /// @param port  outlives this
   /// @throws std::invalid_argument if an option makes no sense
-  Bridge(remote::Port& port, Transport& transport, const BridgeOptions& options = {});
+  /// @throws std::runtime_error if Fast DDS cannot make a participant
+  explicit Bridge(remote::Port& port, const BridgeOptions& options = {});
+  /// Over another transport.
+  /// @param port       outlives this
+  /// @param transport  not null
+  /// @throws std::invalid_argument if an option makes no sense; what the transport throws if it
+  ///         cannot offer a topic or service
+  Bridge(remote::Port& port, std::unique_ptr<Transport> transport, const BridgeOptions& options);
+  /// Ends the thread, then the transport.
   ~Bridge();
 
-  /// Delivers answers of the loop, and publishes what is due.
-  /// @param now  since 1970-01-01
-  void update(std::chrono::nanoseconds now);
-
-  /// The messages that were not taken.
+  /// Messages that were not taken so far.
   [[nodiscard]] DroppedMessages dropped() const;
+  /// Why the thread has ended, if the transport or a lack of memory ended it; else empty.
+  [[nodiscard]] std::string error() const;
 
  private:
   struct Parts;

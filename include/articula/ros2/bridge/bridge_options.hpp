@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
+#include "articula/ros2/dds/fast_dds_options.hpp"
 #include "articula/ros2/layout.hpp"
 
 #include <initializer_list>
@@ -16,6 +17,7 @@ namespace articula::ros2 {
 /// The options of a Bridge.
 struct BridgeOptions {
   Distribution distribution = Distribution::jazzy;  ///< of the ROS tools in the domain
+  FastDdsOptions dds{};                             ///< domain, interfaces and memory
   std::string name_space{};                         ///< of all nodes, as "/left"; empty: none
   bool operates = true;                             ///< ROS may move the robot
   /// Time that the controls stay with ROS after its last message or request, if no trajectory is

@@ -2,8 +2,6 @@
 /// @file Options of the transport over Fast DDS.
 #pragma once
 
-#include "articula/ros2/layout.hpp"
-
 #include <chrono>
 #include <cstddef>
 #include <string>
@@ -13,17 +11,13 @@ namespace articula::ros2 {
 
 /// What `FastDdsTransport` is made with. The defaults keep to this host.
 struct FastDdsOptions {
-  Distribution distribution = Distribution::jazzy;  ///< whose tools are to see the nodes
-  unsigned domain = 0;                              ///< ROS_DOMAIN_ID, 0 to 232
+  unsigned domain = 0;  ///< ROS_DOMAIN_ID, 0 to 232
   /// IPv4 addresses of this host that are used. Loopback alone: no multicast. Any other one: also
   /// multicast there, by which ROS finds peers by default.
   std::vector<std::string> interfaces{"127.0.0.1"};
   /// IPv4 addresses whose first 32 participants are told about this one, beside multicast.
   std::vector<std::string> peers{"127.0.0.1"};
   bool shared_memory = false;  ///< also talk to peers on this host by shared memory
-  /// Put before the names of nodes, topics and services, as /left. Topics that ROS has once in a
-  /// domain, as /tf, keep their names.
-  std::string name_space{};
   std::size_t largest_message = 1 << 20;  ///< bytes of a message; larger ones are refused
   /// Replies that wait for the reader of their client, in number and for how long. ROS clients
   /// announce their reader at about the time of their first request.

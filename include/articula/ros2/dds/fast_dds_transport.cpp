@@ -37,8 +37,8 @@ class TopicWriter final : public SampleWriter {
 
 }  // namespace
 
-FastDdsTransport::FastDdsTransport(const FastDdsOptions& options)
-    : participant_(std::make_shared<dds::Participant>(options)) {}
+FastDdsTransport::FastDdsTransport(const FastDdsOptions& options, Distribution distribution)
+    : participant_(std::make_shared<dds::Participant>(options, distribution)) {}
 
 FastDdsTransport::~FastDdsTransport() = default;
 

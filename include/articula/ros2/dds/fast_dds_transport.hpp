@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/ros2/dds/fast_dds_options.hpp"
+#include "articula/ros2/layout.hpp"
 #include "articula/ros2/transport.hpp"
 
 #include <chrono>
@@ -26,10 +27,12 @@ class Participant;
 /// All functions are of one thread. Real-time: no.
 class FastDdsTransport final : public Transport {
  public:
+  /// @param distribution  whose tools are to see the nodes
   /// @throws std::invalid_argument for options out of their range, and interfaces that this host
   ///         does not have
   /// @throws std::runtime_error if Fast DDS cannot make a participant
-  explicit FastDdsTransport(const FastDdsOptions& options = {});
+  explicit FastDdsTransport(const FastDdsOptions& options = {},
+                            Distribution distribution = Distribution::jazzy);
   FastDdsTransport(const FastDdsTransport&) = delete;
   FastDdsTransport& operator=(const FastDdsTransport&) = delete;
   ~FastDdsTransport() override;

@@ -4,7 +4,6 @@
 #include "articula/core/refuse.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
 namespace articula::ros2::dds {
@@ -51,13 +50,6 @@ void check_type_name(std::string_view name) {
     articula::detail::refuse({"ros2: the type '", name,
                               "' is not a package, kind and name, as \"std_msgs/msg/String\""});
   }
-}
-
-std::string in_name_space(std::string_view name_space, std::string_view name) {
-  constexpr std::array<std::string_view, 5> once{"/tf", "/tf_static", "/clock", "/rosout",
-                                                 "/parameter_events"};
-  if (std::find(once.begin(), once.end(), name) != once.end()) return std::string(name);
-  return std::string(name_space) + std::string(name);
 }
 
 }  // namespace articula::ros2::dds

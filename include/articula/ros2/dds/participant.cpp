@@ -42,23 +42,19 @@ void Participant::RemoveParticipant::operator()(rtps::RTPSParticipant* participa
   rtps::RTPSDomain::removeRTPSParticipant(participant);
 }
 
-Participant::Participant(FastDdsOptions options)
-    : options_(std::move(options)), participant_(make_participant(options_)) {
+Participant::Participant(FastDdsOptions options, Distribution distribution)
+    : options_(std::move(options)),
+      distribution_(distribution),
+      participant_(make_participant(options_)) {
   graph_writer_ = std::make_unique<Writer>(
       *participant_, inbox_,
       Endpoint{std::string(discovery_info_topic), dds_type_name(discovery_info_type),
-               discovery_info_hash(options_.distribution), quality_of_service::discovery_info,
+               discovery_info_hash(distribution_), quality_of_service::discovery_info,
                options_.largest_message});
 }
 
-std::string Participant::node_name(const std::string& node) const {
-  const std::string name = in_name_space(options_.name_space, node);
-  check_full_name("node", name);
-  return name;
-}
-
 Endpoint Participant::endpoint_of(const TopicEndpoint& topic) const {
-  const std::string name = in_name_space(options_.name_space, topic.topic);
+  const std::string& name = topic.topic;
   check_full_name("topic", name);
   check_type_name(topic.type);
   if (topic.quality.depth == 0) {
@@ -69,9 +65,9 @@ Endpoint Participant::endpoint_of(const TopicEndpoint& topic) const {
 }
 
 Writer& Participant::advertise(const TopicEndpoint& topic) {
-  const std::string node = node_name(topic.node);
+  check_full_name("node", topic.node);
   writers_.push_back(std::make_unique<Writer>(*participant_, inbox_, endpoint_of(topic)));
-  graph_.add(node, writers_.back()->guid());
+  graph_.add(topic.node, writers_.back()->guid());
   graph_changed_ = true;
   return *writers_.back();
 }
@@ -83,17 +79,17 @@ void Participant::remove(const Writer& writer) {
 }
 
 void Participant::subscribe(const TopicEndpoint& topic, Transport::OnSample on_sample) {
-  const std::string node = node_name(topic.node);
+  check_full_name("node", topic.node);
   readers_.push_back(std::make_unique<Reader>(
       *participant_, inbox_, endpoint_of(topic),
       [call = std::move(on_sample)](const Arrival& arrival) { call(arrival.bytes); }));
-  graph_.add(node, readers_.back()->guid());
+  graph_.add(topic.node, readers_.back()->guid());
   graph_changed_ = true;
 }
 
 void Participant::serve(const ServiceEndpoint& service, Transport::OnRequest on_request) {
-  const std::string node = node_name(service.node);
-  const std::string name = in_name_space(options_.name_space, service.service);
+  check_full_name("node", service.node);
+  const std::string& name = service.service;
   check_full_name("service", name);
   check_type_name(service.request_type);
   check_type_name(service.response_type);
@@ -112,8 +108,8 @@ void Participant::serve(const ServiceEndpoint& service, Transport::OnRequest on_
   server->on_request(
       [this, server = server.get(), call = std::move(on_request)](
           Sample request, const Client& client) { call(request, reply_sender(*server, client)); });
-  graph_.add(node, server->reader().guid());
-  graph_.add(node, server->writer().guid());
+  graph_.add(service.node, server->reader().guid());
+  graph_.add(service.node, server->writer().guid());
   graph_changed_ = true;
   services_.emplace(name, std::move(server));
 }
@@ -152,7 +148,7 @@ void Participant::send_waiting_replies() {
 
 void Participant::send_graph() {
   if (!std::exchange(graph_changed_, false)) return;
-  graph_writer_->write(graph_.message(options_.distribution, participant_->getGuid()));
+  graph_writer_->write(graph_.message(distribution_, participant_->getGuid()));
 }
 
 void Participant::poll(std::chrono::milliseconds longest) {

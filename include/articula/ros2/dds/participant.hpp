@@ -22,7 +22,7 @@ namespace articula::ros2::dds {
 /// What `FastDdsTransport` does, without its interface. All functions are of one thread.
 class Participant : public std::enable_shared_from_this<Participant> {
  public:
-  explicit Participant(FastDdsOptions options);
+  Participant(FastDdsOptions options, Distribution distribution);
 
   Writer& advertise(const TopicEndpoint& topic);
   void remove(const Writer& writer);
@@ -45,7 +45,6 @@ class Participant : public std::enable_shared_from_this<Participant> {
     void operator()(eprosima::fastrtps::rtps::RTPSParticipant* participant) const;
   };
 
-  [[nodiscard]] std::string node_name(const std::string& node) const;
   [[nodiscard]] Endpoint endpoint_of(const TopicEndpoint& topic) const;
   [[nodiscard]] ReplySender reply_sender(ServiceServer& service, const Client& client);
   void reply(ServiceServer& service, const Client& client, Sample bytes);
@@ -53,6 +52,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   void send_graph();
 
   FastDdsOptions options_;
+  Distribution distribution_;
   Inbox inbox_{};
   std::unique_ptr<eprosima::fastrtps::rtps::RTPSParticipant, RemoveParticipant> participant_;
   std::vector<std::unique_ptr<Writer>> writers_{};

@@ -3,7 +3,6 @@
 
 #include "articula/core/refuse.hpp"
 #include "articula/ros2/dds/endpoint.hpp"
-#include "articula/ros2/dds/full_names.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
@@ -73,7 +72,6 @@ void check(const FastDdsOptions& options) {
               "'; expected IPv4 addresses, as \"192.168.0.7\""});
     }
   }
-  if (!options.name_space.empty()) check_full_name("namespace", options.name_space);
   if (options.largest_message < least_message || options.largest_message > largest_message) {
     refuse({"ros2: FastDdsOptions::largest_message is ", options.largest_message, "; expected ",
             least_message, " to ", largest_message});

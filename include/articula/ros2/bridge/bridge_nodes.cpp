@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/ros2/bridge/bridge_nodes.hpp"
+
+#include "articula/ros2/bridge/bridge_core.hpp"
+#include "articula/ros2/bridge/controller_parameters.hpp"
+#include "articula/ros2/bridge/controller_topics.hpp"
+#include "articula/ros2/bridge/manager_services.hpp"
+#include "articula/ros2/bridge/robot_topics.hpp"
+#include "articula/ros2/bridge/trajectory_action.hpp"
+
+#include <string>
+#include <vector>
+
+namespace articula::ros2 {
+
+namespace {
+
+/// A node whose parameters nobody can change.
+struct FixedNode {
+  FixedNode(const Node& node, std::vector<NodeParameter> parameters)
+      : store(std::move(parameters)), server(node, store) {}
+
+  FixedParameters store;
+  ParameterServer server;
+};
+
+/// A controller as a node.
+struct ControllerNode {
+  ControllerNode(BridgeCore& core, BridgedController& controller)
+      : node(core.context, controller.node, core.options.name_space),
+        store(core, controller),
+        parameters(node, store),
+        topics(core, node, controller),
+        action(make_trajectory_action(core, node, controller)) {}
+
+  void update() {
+    parameters.update();
+    action->update();
+    topics.update();
+  }
+
+  Node node;
+  ControllerParameters store;
+  ParameterServer parameters;
+  ControllerTopics topics;
+  std::unique_ptr<TrajectoryAction> action;
+};
+
+}  // namespace
+
+struct BridgeNodes::Parts {
+  Parts(remote::Port& port, Transport& transport, const BridgeOptions& options)
+      : core(port, transport, options), robot(core), manager(make_manager_services(core)) {
+    const auto sim_time = read_only("use_sim_time", to_value(options.use_sim_time),
+                                    "Whether stamps have the time of the loop.");
+    std::vector<NodeParameter> all{sim_time};
+    for (const BridgedController& own : core.controllers) {
+      all.push_back(read_only(own.name + ".type", to_value(own.type), "Type of the controller."));
+    }
+    fixed.push_back(std::make_unique<FixedNode>(core.manager, std::move(all)));
+    fixed.push_back(
+        std::make_unique<FixedNode>(robot.broadcaster(), std::vector<NodeParameter>{sim_time}));
+    fixed.push_back(std::make_unique<FixedNode>(
+        robot.state_publisher(),
+        std::vector<NodeParameter>{sim_time,
+                                   read_only("robot_description", to_value(port.robot().urdf),
+                                             "The robot as a URDF document.")}));
+    for (BridgedController& own : core.controllers) {
+      controllers.push_back(std::make_unique<ControllerNode>(core, own));
+    }
+  }
+
+  void log_events() {
+    while (const auto event = core.loop_operator.session().event()) {
+      using Level = remote::Event::Level;
+      using Line = RosLog::Line;
+      core.log.write(event->level == Level::error     ? Line::error
+                     : event->level == Level::warning ? Line::warn
+                                                      : Line::info,
+                     "loop", event->text);
+    }
+  }
+
+  BridgeCore core;
+  RobotTopics robot;
+  std::unique_ptr<ManagerServices> manager;
+  std::vector<std::unique_ptr<FixedNode>> fixed{};
+  std::vector<std::unique_ptr<ControllerNode>> controllers{};
+};
+
+BridgeNodes::BridgeNodes(remote::Port& port, Transport& transport, const BridgeOptions& options)
+    : parts_(std::make_unique<Parts>(port, transport, options)) {}
+BridgeNodes::~BridgeNodes() = default;
+
+void BridgeNodes::update(std::chrono::nanoseconds now) {
+  BridgeCore& core = parts_->core;
+  core.watch.update(now, core.options.use_sim_time);
+  core.context.now = core.options.use_sim_time ? to_duration(core.watch.cycle.time) : now;
+  core.loop_operator.update(now);
+  parts_->log_events();
+  parts_->robot.update();
+  parts_->manager->update();
+  for (const auto& controller : parts_->controllers) controller->update();
+}
+
+DroppedMessages BridgeNodes::dropped() const { return parts_->core.context.dropped; }
+
+}  // namespace articula::ros2
