@@ -192,7 +192,10 @@ void CyclonePeer::make_reply_reader(const std::string& service) {
                    "reader");
 }
 
-bool CyclonePeer::finds_requests_reader() { return matches_of_writer(entities_->requests) > 0; }
+bool CyclonePeer::finds_service() {
+  return matches_of_writer(entities_->requests) > 0 &&
+         (entities_->replies == 0 || matches_of_reader(entities_->replies) > 0);
+}
 
 void CyclonePeer::request(std::int64_t sequence) {
   const Request request{entities_->client, sequence, 0};

@@ -33,7 +33,8 @@ class CyclonePeer {
   /// client come one by one.
   void make_request_writer(const std::string& service);
   void make_reply_reader(const std::string& service);
-  [[nodiscard]] bool finds_requests_reader();
+  /// Whether what there is of the client has its counterpart.
+  [[nodiscard]] bool finds_service();
   /// Sends a request.
   void request(std::int64_t sequence);
   struct Reply {

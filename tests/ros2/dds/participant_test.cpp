@@ -78,6 +78,7 @@ TEST_CASE("peers learn nodes, their readers and writers, and the hashes of types
   REQUIRE(waits_for(transport, [&] { return cyclone.readers("rt/left/commands"); }));
   REQUIRE(waits_for(transport, [&] { return cyclone.readers("rq/left/arm/triggerRequest"); }));
   REQUIRE(waits_for(transport, [&] { return cyclone.writers("rr/left/arm/triggerReply"); }));
+  REQUIRE(waits_for(transport, [&] { return cyclone.participants(); }));
   const auto text = cyclone.writers("rt/left/text"), commands = cyclone.readers("rt/left/commands");
   CHECK(text.at(0).user_data == hash);
   CHECK(text.at(0).guid == list[1].writer_gid_seq[0].data);
@@ -115,6 +116,7 @@ TEST_CASE("Humble's identifiers have 24 bytes, and it has no hashes") {
   const auto writer = transport.advertise(topic);
   REQUIRE(poll_until(transport, [&] { return nodes.update(); }));
   REQUIRE(waits_for(transport, [&] { return cyclone.writers("rt/text"); }));
+  REQUIRE(waits_for(transport, [&] { return cyclone.writers("ros_discovery_info"); }));
   const auto text = cyclone.writers("rt/text"), info = cyclone.writers("ros_discovery_info");
   CHECK(text.at(0).user_data.empty());
   CHECK(info.at(0).user_data.empty());

@@ -61,9 +61,8 @@ TEST_CASE("one service answers clients of both dialects, and each client gets it
   cyclone.make_request_writer("/arm/trigger");
   FastDdsPeer fast(domain());
   const FastClient client(fast), other(fast);
-  REQUIRE(poll_until(transport, [&] {
-    return cyclone.finds_requests_reader() && client.is_ready() && other.is_ready();
-  }));
+  REQUIRE(poll_until(
+      transport, [&] { return cyclone.finds_service() && client.is_ready() && other.is_ready(); }));
 
   cyclone.request(7);
   std::optional<CyclonePeer::Reply> reply;
@@ -98,13 +97,38 @@ TEST_CASE("one service answers clients of both dialects, and each client gets it
   CHECK(fast.take_replies(other.replies).empty());
 }
 
+TEST_CASE("a new client gets its first reply although others got many before") {
+  talk_over_udp_only();
+  FastDdsTransport transport({.domain = domain()});
+  Server server(transport);
+  FastDdsPeer fast(domain());
+  const FastClient client(fast);
+  REQUIRE(poll_until(transport, [&] { return client.is_ready(); }));
+  for (int round = 0; round < 5; ++round) {
+    for (int i = 0; i < 5; ++i) {
+      fast.request(client.requests, client.replies, bytes_of(Trigger::Request{}));
+    }
+    std::size_t replies = 0;
+    REQUIRE(poll_until(transport,
+                       [&] { return (replies += fast.take_replies(client.replies).size()) == 5; }));
+    CyclonePeer cyclone(domain());
+    cyclone.make_reply_reader("/arm/trigger");
+    cyclone.make_request_writer("/arm/trigger");
+    REQUIRE(poll_until(transport, [&] { return cyclone.finds_service(); }));
+    cyclone.request(round);
+    std::optional<CyclonePeer::Reply> reply;
+    REQUIRE(poll_until(transport, [&] { return (reply = cyclone.take_reply()).has_value(); }));
+    CHECK(reply->sequence == round);
+  }
+}
+
 TEST_CASE("a reply waits for the reader of its client") {
   FastDdsTransport transport(
       {.domain = domain(), .reply_patience = std::chrono::milliseconds(5000)});
   Server server(transport);
   CyclonePeer cyclone(domain());
   cyclone.make_request_writer("/arm/trigger");
-  REQUIRE(poll_until(transport, [&] { return cyclone.finds_requests_reader(); }));
+  REQUIRE(poll_until(transport, [&] { return cyclone.finds_service(); }));
   cyclone.request(1);
   REQUIRE(poll_until(transport, [&] { return !server.requests.empty(); }));
   poll_for(transport, std::chrono::milliseconds(50));
@@ -122,8 +146,7 @@ TEST_CASE("clients that never have a reader delay no other, and their replies ar
   cyclone.make_request_writer("/arm/trigger");
   FastDdsPeer fast(domain());
   const FastClient client(fast);
-  REQUIRE(
-      poll_until(transport, [&] { return cyclone.finds_requests_reader() && client.is_ready(); }));
+  REQUIRE(poll_until(transport, [&] { return cyclone.finds_service() && client.is_ready(); }));
   for (int i = 0; i < 20; ++i) cyclone.request(i);
   const auto begin = std::chrono::steady_clock::now();
   fast.request(client.requests, client.replies, bytes_of(Trigger::Request{}));

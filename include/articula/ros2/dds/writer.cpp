@@ -10,7 +10,8 @@
 #include <fastrtps/qos/WriterQos.h>
 
 #include <algorithm>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -30,6 +31,7 @@ Writer::Writer(rtps::RTPSParticipant& participant, Inbox& inbox, Endpoint endpoi
                eprosima::fastdds::rtps::IReaderDataFilter* filter)
     : inbox_(&inbox),
       endpoint_(std::move(endpoint)),
+      sends_replies_(filter != nullptr),
       pool_(std::make_shared<PayloadPool>(endpoint_.largest_message,
                                           kept_largest_messages * endpoint_.largest_message)),
       history_(history_attributes(endpoint_, endpoint_.quality.depth)) {
@@ -68,13 +70,7 @@ void Writer::write(Sample sample, const rtps::SampleIdentity& related) {
   }
   if (!endpoint_.quality.transient_local && readers_.count() == 0) return;
   const auto size = static_cast<std::uint32_t>(sample.size());
-  if (size > largest_unfragmented_message) {
-    // A volatile reader of Cyclone DDS drops a message that has come in part when the first
-    // heartbeat arrives. So a heartbeat precedes it.
-    if (auto* const writer = dynamic_cast<rtps::StatefulWriter*>(writer_)) {
-      writer->send_periodic_heartbeat(true, true);
-    }
-  }
+  if (size > largest_unfragmented_message) send_heartbeat();
   if (history_.getHistorySize() >= endpoint_.quality.depth) history_.remove_min_change();
   const auto make = [&] { return writer_->new_change([size] { return size; }, rtps::ALIVE); };
   rtps::CacheChange_t* change = make();
@@ -83,10 +79,17 @@ void Writer::write(Sample sample, const rtps::SampleIdentity& related) {
 
   change->serializedPayload.encapsulation = CDR_LE;
   change->serializedPayload.length = size;
-  std::memcpy(change->serializedPayload.data, sample.data(), sample.size());
+  std::copy(sample.begin(), sample.end(),
+            reinterpret_cast<std::byte*>(change->serializedPayload.data));
   rtps::WriteParams parameters;
   parameters.related_sample_identity(related);
   if (!history_.add_change(change, parameters)) writer_->release_change(change);
+}
+
+void Writer::send_heartbeat() {
+  if (auto* const writer = dynamic_cast<rtps::StatefulWriter*>(writer_)) {
+    writer->send_periodic_heartbeat(true, true);
+  }
 }
 
 void Writer::onWriterMatched(rtps::RTPSWriter* /*writer*/, rtps::MatchingInfo& info) {

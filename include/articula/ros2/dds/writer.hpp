@@ -22,7 +22,7 @@ namespace articula::ros2::dds {
 /// transient local, for later readers.
 class Writer final : public eprosima::fastrtps::rtps::WriterListener {
  public:
-  /// @param filter  chooses the readers of each message; nullptr: all
+  /// @param filter  chooses the readers of each reply; nullptr: a topic's messages go to all
   /// @throws std::runtime_error if Fast DDS refuses
   Writer(eprosima::fastrtps::rtps::RTPSParticipant& participant, Inbox& inbox, Endpoint endpoint,
          eprosima::fastdds::rtps::IReaderDataFilter* filter = nullptr);
@@ -47,8 +47,14 @@ class Writer final : public eprosima::fastrtps::rtps::WriterListener {
   using WriterListener::onWriterMatched;
 
  private:
+  // Readers of Cyclone DDS that are volatile begin at the first heartbeat. A reply that comes before
+  // it, behind replies to others, is lost to them, and so is a message of which fragments come
+  // before and after it. A heartbeat before the message prevents both.
+  void send_heartbeat();
+
   Inbox* inbox_;
   Endpoint endpoint_;
+  bool sends_replies_;
   Matched readers_{};
   std::shared_ptr<PayloadPool> pool_;
   eprosima::fastrtps::rtps::WriterHistory history_;
