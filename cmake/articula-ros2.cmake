@@ -21,9 +21,10 @@ if(TARGET fastrtps AND TARGET Threads::Threads)
     file(GLOB articula_ros2_dds_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/dds/*.cpp)
     add_library(articula_ros2 STATIC EXCLUDE_FROM_ALL ${articula_ros2_sources}
                                                       ${articula_ros2_dds_sources})
-    # Reading the headers of Fast DDS takes most of the time.
-    set_target_properties(articula_ros2 PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-    set_source_files_properties(${articula_ros2_sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    # Reading the headers of messages and of Fast DDS takes most of the time.
+    set_source_files_properties(${articula_ros2_sources} PROPERTIES UNITY_GROUP bridge)
+    set_source_files_properties(${articula_ros2_dds_sources} PROPERTIES UNITY_GROUP dds)
+    set_target_properties(articula_ros2 PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     add_library(articula::ros2 ALIAS articula_ros2)
     target_link_libraries(articula_ros2 PUBLIC articula::articula fastrtps Threads::Threads)
   endif()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever comes from a domain of ROS 2, the bridge answers it or drops it, and keeps its size.
-#include "articula/ros2/bridge/bridge_thread.hpp"
+#include "articula/ros2/bridge/bridge.hpp"
 #include "articula/ros2/messages/action_msgs.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/messages/controller_manager_msgs.hpp"
@@ -230,8 +230,8 @@ TEST_CASE("with the loop's time, stamps and the clock agree") {
 TEST_CASE("two bridges share a transport by their namespaces, and one may end before it") {
   BridgedArm arm({.name_space = "/left"});
   const auto loop = support::switched_arm();
-  auto right =
-      std::make_unique<Bridge>(loop->port(), arm.transport, BridgeOptions{.name_space = "/right"});
+  auto right = std::make_unique<BridgeNodes>(loop->port(), arm.transport,
+                                             BridgeOptions{.name_space = "/right"});
   CHECK(arm.transport.services.contains("/left/pid_plus_gravity/set_parameters"));
   CHECK(arm.transport.services.contains("/right/pid_plus_gravity/set_parameters"));
   right.reset();
@@ -262,7 +262,7 @@ TEST_CASE("a bridge in a thread of its own serves a running loop") {
   };
   std::atomic<int> count = 0;
   const auto loop = support::switched_arm();
-  BridgeThread bridge(loop->port(), std::make_unique<Counting>(count));
+  Bridge bridge(loop->port(), std::make_unique<Counting>(count), {});
   for (int k = 0; k < 20'000 && bridge.error().empty(); ++k) {
     loop->cycles(1);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -270,5 +270,5 @@ TEST_CASE("a bridge in a thread of its own serves a running loop") {
   CHECK(count > 200);
   CHECK(bridge.error() == "the network is gone");
   CHECK(bridge.dropped().malformed == 0);
-  CHECK_THROWS_WITH(BridgeThread(loop->port(), nullptr), "ros2: there is no transport");
+  CHECK_THROWS_WITH(Bridge(loop->port(), nullptr, {}), "ros2: there is no transport");
 }

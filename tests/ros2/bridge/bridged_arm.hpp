@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/remote/port.hpp"
-#include "articula/ros2/bridge/bridge.hpp"
+#include "articula/ros2/bridge/bridge_nodes.hpp"
 
 #include "catch.hpp"
 #include "memory_transport.hpp"
@@ -83,7 +83,7 @@ class BridgedArm {
 
   MemoryTransport transport{};
   std::unique_ptr<AnyLoop> loop;
-  articula::ros2::Bridge bridge;
+  articula::ros2::BridgeNodes bridge;
   std::chrono::nanoseconds now{1'700'000'000'000'000'000};
 };
 

@@ -245,7 +245,9 @@ TEST_CASE("the controls go back to others when ROS has been silent") {
 TEST_CASE("options that make no sense are refused") {
   const auto loop = support::switched_arm();
   support::MemoryTransport transport;
-  const auto make = [&](const BridgeOptions& options) { Bridge(loop->port(), transport, options); };
+  const auto make = [&](const BridgeOptions& options) {
+    BridgeNodes(loop->port(), transport, options);
+  };
   CHECK_THROWS_WITH(make({.name_space = "left"}),
                     "ros2: name_space 'left' does not begin with / or ends with it");
   CHECK_THROWS_WITH(make({.state_rate = 0}), "ros2: state_rate 0 is not within 0 .. 1000000");

@@ -51,7 +51,7 @@ bool waits_for(FastDdsTransport& transport, auto discovered) {
 
 TEST_CASE("peers learn nodes, their readers and writers, and the hashes of types") {
   talk_over_udp_only();
-  FastDdsTransport transport({.domain = domain(), .name_space = "/left"});
+  FastDdsTransport transport({.domain = domain()});
   FastDdsPeer peer(domain());
   CyclonePeer cyclone(domain());
   Nodes<Jazzy> nodes(peer);
@@ -64,9 +64,9 @@ TEST_CASE("peers learn nodes, their readers and writers, and the hashes of types
 
   const auto& list = nodes.info.node_entities_info_seq;
   REQUIRE(list.size() == 2);
-  CHECK(list[0].node_namespace.view() == "/left/arm");
+  CHECK(list[0].node_namespace.view() == "/arm");
   CHECK(list[0].node_name.view() == "driver");
-  CHECK(list[1].node_namespace.view() == "/left");
+  CHECK(list[1].node_namespace.view() == "/");
   CHECK(list[1].node_name.view() == "tester");
   for (const auto& node : list) {
     CHECK(node.reader_gid_seq.size() == 1);
@@ -74,19 +74,19 @@ TEST_CASE("peers learn nodes, their readers and writers, and the hashes of types
   }
 
   const std::string hash = "typehash=" + std::string(type_hash<TextMessage>.view()) + ";";
-  REQUIRE(waits_for(transport, [&] { return cyclone.writers("rt/left/text"); }));
-  REQUIRE(waits_for(transport, [&] { return cyclone.readers("rt/left/commands"); }));
-  REQUIRE(waits_for(transport, [&] { return cyclone.readers("rq/left/arm/triggerRequest"); }));
-  REQUIRE(waits_for(transport, [&] { return cyclone.writers("rr/left/arm/triggerReply"); }));
+  REQUIRE(waits_for(transport, [&] { return cyclone.writers("rt/text"); }));
+  REQUIRE(waits_for(transport, [&] { return cyclone.readers("rt/commands"); }));
+  REQUIRE(waits_for(transport, [&] { return cyclone.readers("rq/arm/triggerRequest"); }));
+  REQUIRE(waits_for(transport, [&] { return cyclone.writers("rr/arm/triggerReply"); }));
   REQUIRE(waits_for(transport, [&] { return cyclone.participants(); }));
-  const auto text = cyclone.writers("rt/left/text"), commands = cyclone.readers("rt/left/commands");
+  const auto text = cyclone.writers("rt/text"), commands = cyclone.readers("rt/commands");
   CHECK(text.at(0).user_data == hash);
   CHECK(text.at(0).guid == list[1].writer_gid_seq[0].data);
   CHECK(commands.at(0).user_data == hash);
   CHECK(commands.at(0).guid == list[1].reader_gid_seq[0].data);
   // Exactly one reader and one writer, or clients of rmw_fastrtps wait for ever.
-  const auto requests = cyclone.readers("rq/left/arm/triggerRequest"),
-             replies = cyclone.writers("rr/left/arm/triggerReply");
+  const auto requests = cyclone.readers("rq/arm/triggerRequest"),
+             replies = cyclone.writers("rr/arm/triggerReply");
   REQUIRE(requests.size() == 1);
   REQUIRE(replies.size() == 1);
   CHECK(requests[0].user_data == "typehash=" + service.hash + ";");
@@ -107,7 +107,7 @@ TEST_CASE("peers learn nodes, their readers and writers, and the hashes of types
 
 TEST_CASE("Humble's identifiers have 24 bytes, and it has no hashes") {
   talk_over_udp_only();
-  FastDdsTransport transport({.distribution = Distribution::humble, .domain = domain()});
+  FastDdsTransport transport({.domain = domain()}, Distribution::humble);
   FastDdsPeer peer(domain());
   CyclonePeer cyclone(domain());
   Nodes<Humble> nodes(peer);
@@ -125,15 +125,6 @@ TEST_CASE("Humble's identifiers have 24 bytes, and it has no hashes") {
   CHECK(std::all_of(gid.begin() + 16, gid.end(), [](auto byte) { return byte == 0; }));
 }
 
-TEST_CASE("names that ROS has once in a domain have no namespace") {
-  FastDdsTransport transport({.domain = domain(), .name_space = "/left"});
-  CyclonePeer cyclone(domain());
-  const auto tf = transport.advertise(text_topic("/tf", reliable));
-  const auto tfs = transport.advertise(text_topic("/tf/more", reliable));
-  CHECK(waits_for(transport, [&] { return cyclone.writers("rt/tf"); }));
-  CHECK(waits_for(transport, [&] { return cyclone.writers("rt/left/tf/more"); }));
-}
-
 TEST_CASE("options out of their range are refused with what is expected") {
   const auto refused = [](const FastDdsOptions& options, const std::string& text) {
     CHECK_THROWS_WITH(FastDdsTransport(options), Contains(text));
@@ -145,7 +136,6 @@ TEST_CASE("options out of their range are refused with what is expected") {
   refused({.interfaces = {"lo"}}, "127.0.0.1");
   refused({.interfaces = {"239.255.0.1"}}, "interfaces has '239.255.0.1'");
   refused({.peers = {"host"}}, "peers has 'host'");
-  refused({.name_space = "left"}, "the namespace 'left' is not a full name");
   refused({.largest_message = 10}, "largest_message is 10; expected 1024 to");
   refused({.reply_patience = std::chrono::milliseconds(-1)}, "reply_patience is -1 ms");
 }

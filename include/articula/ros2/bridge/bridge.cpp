@@ -47,10 +47,11 @@ struct Bridge::Parts {
 };
 
 Bridge::Bridge(remote::Port& port, const BridgeOptions& options)
-    : Bridge(port, std::make_unique<FastDdsTransport>(options.dds, options.distribution), options) {}
+    : Bridge(port, std::make_unique<FastDdsTransport>(options.dds, options.distribution), options) {
+}
 
 Bridge::Bridge(remote::Port& port, std::unique_ptr<Transport> transport,
-                           const BridgeOptions& options)
+               const BridgeOptions& options)
     : parts_(std::make_unique<Parts>(port, std::move(transport), options)) {
   parts_->thread = std::thread([parts = parts_.get()] { parts->run(); });
 }

@@ -13,42 +13,38 @@
 
 namespace articula::ros2 {
 
-namespace {
-
-/// A node whose parameters nobody can change.
-struct FixedNode {
-  FixedNode(const Node& node, std::vector<NodeParameter> parameters)
-      : store(std::move(parameters)), server(node, store) {}
-
-  FixedParameters store;
-  ParameterServer server;
-};
-
-/// A controller as a node.
-struct ControllerNode {
-  ControllerNode(BridgeCore& core, BridgedController& controller)
-      : node(core.context, controller.node, core.options.name_space),
-        store(core, controller),
-        parameters(node, store),
-        topics(core, node, controller),
-        action(make_trajectory_action(core, node, controller)) {}
-
-  void update() {
-    parameters.update();
-    action->update();
-    topics.update();
-  }
-
-  Node node;
-  ControllerParameters store;
-  ParameterServer parameters;
-  ControllerTopics topics;
-  std::unique_ptr<TrajectoryAction> action;
-};
-
-}  // namespace
-
 struct BridgeNodes::Parts {
+  /// A node whose parameters nobody can change.
+  struct FixedNode {
+    FixedNode(const Node& node, std::vector<NodeParameter> parameters)
+        : store(std::move(parameters)), server(node, store) {}
+
+    FixedParameters store;
+    ParameterServer server;
+  };
+
+  /// A controller as a node.
+  struct ControllerNode {
+    ControllerNode(BridgeCore& core, BridgedController& controller)
+        : node(core.context, controller.node, core.options.name_space),
+          store(core, controller),
+          parameters(node, store),
+          topics(core, node, controller),
+          action(make_trajectory_action(core, node, controller)) {}
+
+    void update() {
+      parameters.update();
+      action->update();
+      topics.update();
+    }
+
+    Node node;
+    ControllerParameters store;
+    ParameterServer parameters;
+    ControllerTopics topics;
+    std::unique_ptr<TrajectoryAction> action;
+  };
+
   Parts(remote::Port& port, Transport& transport, const BridgeOptions& options)
       : core(port, transport, options), robot(core), manager(make_manager_services(core)) {
     const auto sim_time = read_only("use_sim_time", to_value(options.use_sim_time),

@@ -17,7 +17,7 @@ struct FastDdsOptions {
   std::vector<std::string> interfaces{"127.0.0.1"};
   /// IPv4 addresses whose first 32 participants are told about this one, beside multicast.
   std::vector<std::string> peers{"127.0.0.1"};
-  bool shared_memory = false;  ///< also talk to peers on this host by shared memory
+  bool shared_memory = false;             ///< also talk to peers on this host by shared memory
   std::size_t largest_message = 1 << 20;  ///< bytes of a message; larger ones are refused
   /// Replies that wait for the reader of their client, in number and for how long. ROS clients
   /// announce their reader at about the time of their first request.

@@ -16,10 +16,10 @@ namespace articula::ros2 {
 
 namespace {
 
-namespace msg = rcl_interfaces::msg;
-namespace srv = rcl_interfaces::srv;
-using Type = msg::ParameterType;
-using Value = msg::ParameterValue<Jazzy>;
+namespace messages = rcl_interfaces::msg;
+namespace services = rcl_interfaces::srv;
+using Type = messages::ParameterType;
+using Value = messages::ParameterValue<Jazzy>;
 
 bool same(const Value& a, const Value& b) {
   return a.type == b.type && a.bool_value == b.bool_value && a.integer_value == b.integer_value &&
@@ -49,7 +49,7 @@ std::uint64_t depth_of(std::string_view name) {
 }
 
 /// Whether a name is listed: it is one of the prefixes or below it, at most so deep.
-bool is_listed(std::string_view name, const srv::ListParameters<Jazzy>::Request& request) {
+bool is_listed(std::string_view name, const services::ListParameters<Jazzy>::Request& request) {
   const bool unlimited = request.depth == 0;
   if (request.prefixes.empty()) return unlimited || depth_of(name) < request.depth;
   return std::any_of(request.prefixes.begin(), request.prefixes.end(),
@@ -105,10 +105,10 @@ std::vector<NodeParameter> ParameterServer::named(const std::vector<std::string>
 
 void ParameterServer::serve_reading() {
   const auto quality = quality_of_service::parameters;
-  serve<srv::ListParameters<Jazzy>>(
+  serve<services::ListParameters<Jazzy>>(
       node_, "~/list_parameters",
       [this](const auto& request, const auto& reply) {
-        srv::ListParameters<Jazzy>::Response response;
+        services::ListParameters<Jazzy>::Response response;
         auto& [names, prefixes] = response.result;
         for (const NodeParameter& own : store_.list()) {
           const std::string& name = own.descriptor.name;
@@ -124,11 +124,11 @@ void ParameterServer::serve_reading() {
         reply.send(response);
       },
       quality);
-  serve<srv::GetParameters<Jazzy>>(
+  serve<services::GetParameters<Jazzy>>(
       node_, "~/get_parameters",
       [this](const auto& request, const auto& reply) {
         const auto all = store_.list();
-        srv::GetParameters<Jazzy>::Response response;
+        services::GetParameters<Jazzy>::Response response;
         for (const std::string& name : request.names) {
           const NodeParameter* const own = find(all, name);
           response.values.push_back(own == nullptr ? Value{} : own->value);
@@ -137,10 +137,10 @@ void ParameterServer::serve_reading() {
       },
       quality);
   // The answers to the next two are empty if a name is unknown, as in rclcpp.
-  serve<srv::GetParameterTypes<Jazzy>>(
+  serve<services::GetParameterTypes<Jazzy>>(
       node_, "~/get_parameter_types",
       [this](const auto& request, const auto& reply) {
-        srv::GetParameterTypes<Jazzy>::Response response;
+        services::GetParameterTypes<Jazzy>::Response response;
         for (const NodeParameter& own : named(request.names)) {
           response.types.push_back(own.value.type);
         }
@@ -148,10 +148,10 @@ void ParameterServer::serve_reading() {
         reply.send(response);
       },
       quality);
-  serve<srv::DescribeParameters<Jazzy>>(
+  serve<services::DescribeParameters<Jazzy>>(
       node_, "~/describe_parameters",
       [this](const auto& request, const auto& reply) {
-        srv::DescribeParameters<Jazzy>::Response response;
+        services::DescribeParameters<Jazzy>::Response response;
         for (NodeParameter& own : named(request.names)) {
           response.descriptors.push_back(std::move(own.descriptor));
         }
@@ -170,13 +170,13 @@ void ParameterServer::serve_reading() {
 
 void ParameterServer::serve_setting() {
   const auto quality = quality_of_service::parameters;
-  serve<srv::SetParameters<Jazzy>>(
+  serve<services::SetParameters<Jazzy>>(
       node_, "~/set_parameters",
       [this](const auto& request, const auto& reply) {
         const std::size_t count = request.parameters.size();
         if (count == 0) return reply.send({});
         struct Open {
-          srv::SetParameters<Jazzy>::Response response{};
+          services::SetParameters<Jazzy>::Response response{};
           std::size_t left = 0;
         };
         const auto open = std::make_shared<Open>();
@@ -192,7 +192,7 @@ void ParameterServer::serve_setting() {
         }
       },
       quality);
-  serve<srv::SetParametersAtomically<Jazzy>>(
+  serve<services::SetParametersAtomically<Jazzy>>(
       node_, "~/set_parameters_atomically",
       [this](const auto& request, const auto& reply) {
         const auto answer = [this, reply](const std::string& reason) {
@@ -201,7 +201,7 @@ void ParameterServer::serve_setting() {
         };
         const auto all = store_.list();
         NamedValues wanted;
-        for (msg::Parameter<Jazzy> own : request.parameters) {
+        for (messages::Parameter<Jazzy> own : request.parameters) {
           if (const std::string reason = check(all, own); !reason.empty()) return answer(reason);
           if (!same(find(all, own.name)->value, own.value)) wanted.push_back(std::move(own));
         }
@@ -211,7 +211,7 @@ void ParameterServer::serve_setting() {
 }
 
 std::string ParameterServer::check(const std::vector<NodeParameter>& all,
-                                   msg::Parameter<Jazzy>& wanted) const {
+                                   messages::Parameter<Jazzy>& wanted) const {
   const NodeParameter* const own = find(all, wanted.name);
   if (own == nullptr) {
     return "parameter '" + wanted.name + "' cannot be set because it was not declared";
@@ -230,8 +230,8 @@ std::string ParameterServer::check(const std::vector<NodeParameter>& all,
   return {};
 }
 
-void ParameterServer::set(const msg::Parameter<Jazzy>& wanted, ParameterStore::OnSet on_set) {
-  msg::Parameter<Jazzy> own = wanted;
+void ParameterServer::set(const messages::Parameter<Jazzy>& wanted, ParameterStore::OnSet on_set) {
+  messages::Parameter<Jazzy> own = wanted;
   const auto all = store_.list();
   if (const std::string reason = check(all, own); !reason.empty()) return on_set(reason);
   if (same(find(all, own.name)->value, own.value)) return on_set({});
@@ -239,7 +239,7 @@ void ParameterServer::set(const msg::Parameter<Jazzy>& wanted, ParameterStore::O
 }
 
 void ParameterServer::publish_changes() {
-  msg::ParameterEvent<Jazzy> event;
+  messages::ParameterEvent<Jazzy> event;
   for (NodeParameter& own : store_.list()) {
     Value& known = known_[own.descriptor.name];
     if (same(known, own.value)) continue;
