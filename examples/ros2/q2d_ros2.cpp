@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Q2D as ROS 2 sees a robot under a controller_manager: `ros2 topic echo /joint_states`, `ros2
+// control list_controllers`, `ros2 param set`, trajectories from MoveIt. This program links no ROS.
+// ROS_DOMAIN_ID names the domain, as for ROS programs. Ctrl-C ends the program.
+#include <articula/articula.hpp>
+#include <articula/loop/realtime/monotonic_clock.hpp>
+#include <articula/loop/realtime/stop_on_signal.hpp>
+#include <articula/remote/remote.hpp>
+#include <articula/robots/q2d.hpp>
+#include <articula/ros2/bridge/bridge.hpp>
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+using namespace articula;
+
+template <class R>
+using Controllers = Switch<R, PidPlusGravity<R>, Pid<R>, ComputedTorque<R>>;
+
+int main() try {
+  const char* domain = std::getenv("ROS_DOMAIN_ID");
+  ros2::BridgeOptions options{.distribution = ros2::Distribution::jazzy};
+  if (domain != nullptr) options.dds.domain = static_cast<unsigned>(std::atoi(domain));
+
+  // `overruns` tolerates the overruns of a desktop machine; omit it for an arm.
+  SupervisedLoop<Q2dSim, Controllers> arm(SupervisionOptions{.overruns = 1000});
+  arm.request_activation();  // in a simulation nobody can be hurt
+  Remote remote(arm);
+  const ros2::Bridge bridge(remote, options);
+
+  std::printf("ROS 2 programs on this host see the Q2D in domain %u. Ctrl-C ends the program.\n",
+              options.dds.domain);
+  std::fflush(stdout);
+  StopFlag stop;
+  const StopOnSignal on_signal(stop);
+  MonotonicClock clock;
+  remote.run(clock, {.stop = &stop});
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
