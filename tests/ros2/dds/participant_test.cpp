@@ -7,7 +7,13 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 using namespace articula::ros2;
@@ -123,6 +129,27 @@ TEST_CASE("Humble's identifiers have 24 bytes, and it has no hashes") {
   const auto& gid = nodes.info.node_entities_info_seq.at(0).writer_gid_seq.at(0).data;
   CHECK(first_16(gid) == text[0].guid);
   CHECK(std::all_of(gid.begin() + 16, gid.end(), [](auto byte) { return byte == 0; }));
+}
+
+TEST_CASE("with the default options all sockets are on loopback") {
+  const FastDdsTransport transport({.domain = domain()});
+  std::set<std::string> own;  // inodes of sockets
+  for (const auto& file : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code closed;
+    const std::string target = std::filesystem::read_symlink(file.path(), closed).string();
+    if (target.starts_with("socket:[")) own.insert(target.substr(8, target.size() - 9));
+  }
+  std::ifstream sockets("/proc/self/net/udp");
+  std::string line;
+  std::size_t count = 0;
+  while (std::getline(sockets, line)) {
+    std::istringstream words(line);
+    std::vector<std::string> column{std::istream_iterator<std::string>(words), {}};
+    if (column.size() < 10 || !own.contains(column[9])) continue;
+    ++count;
+    CHECK(column[1].substr(0, 8) == "0100007F");  // 127.0.0.1
+  }
+  CHECK(count >= 3);  // for discovery, for users, for sending
 }
 
 TEST_CASE("options out of their range are refused with what is expected") {

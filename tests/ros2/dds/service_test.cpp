@@ -6,7 +6,7 @@
 
 #include <chrono>
 #include <optional>
-#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -158,6 +158,35 @@ TEST_CASE("clients that never have a reader delay no other, and their replies ar
   cyclone.make_reply_reader("/arm/trigger");
   poll_for(transport, std::chrono::milliseconds(200));
   CHECK_FALSE(cyclone.take_reply().has_value());
+}
+
+TEST_CASE("errors of a service's function pass through poll, and the next request is served") {
+  talk_over_udp_only();
+  FastDdsTransport transport({.domain = domain(), .largest_message = 1024});
+  FastDdsPeer fast(domain());
+  const FastClient client(fast);
+  std::size_t requests = 0;
+  transport.serve(trigger_service("/arm/trigger"), [&](Sample, const ReplySender& reply) {
+    const std::size_t size = ++requests == 1 ? 2000 : 1000;
+    reply(bytes_of(Trigger::Response{.message = std::string(size, 'x')}, 4096));
+  });
+  REQUIRE(poll_until(transport, [&] { return client.is_ready(); }));
+  std::string error;
+  for (int i = 0; i < 2; ++i) {
+    fast.request(client.requests, client.replies, bytes_of(Trigger::Request{}));
+  }
+  const auto poll = [&] {
+    try {
+      transport.poll(std::chrono::milliseconds(5));
+    } catch (const std::invalid_argument& refusal) {
+      error = refusal.what();
+    }
+    return requests == 2;
+  };
+  for (int i = 0; i < 1000 && !poll(); ++i) {
+  }
+  CHECK(error.find("largest_message is 1024") != std::string::npos);
+  REQUIRE(poll_until(transport, [&] { return !fast.take_replies(client.replies).empty(); }));
 }
 
 TEST_CASE("a reply may be sent after others, and after the transport it is dropped") {

@@ -91,6 +91,25 @@ TEST_CASE("a late subscription gets the last message of a transient local peer")
   CHECK(texts == std::vector<std::string>{"urdf"});
 }
 
+TEST_CASE("two transports of one process, in one domain, keep apart by their namespaces") {
+  FastDdsTransport left({.domain = domain(), .name_space = "/left"});
+  FastDdsTransport right({.domain = domain(), .name_space = "/right"});
+  std::vector<std::string> texts;
+  right.subscribe(text_topic("/text", reliable),
+                  [&](Sample sample) { texts.push_back("right: " + text_of(sample)); });
+  right.subscribe(text_topic("/tf", reliable),
+                  [&](Sample sample) { texts.push_back("tf: " + text_of(sample)); });
+  const auto text = left.advertise(text_topic("/text", reliable));
+  const auto tf = left.advertise(text_topic("/tf", reliable));
+  REQUIRE(poll_until(left, [&] { return tf->readers() == 1; }));
+  poll_for(right, std::chrono::milliseconds(100));
+  text->write(text_bytes("left's own"));
+  tf->write(text_bytes("everyone's"));
+  REQUIRE(poll_until(right, [&] { return !texts.empty(); }));
+  CHECK(texts == std::vector<std::string>{"tf: everyone's"});
+  CHECK(text->readers() == 0);
+}
+
 TEST_CASE("a writer ends before or after its transport") {
   CyclonePeer peer(domain());
   const int reader = peer.make_reader("rt/arm/text", false);

@@ -22,6 +22,8 @@ namespace {
 // their client has confirmed them.
 constexpr std::size_t most_requests = 100;
 constexpr std::size_t least_replies = 64;
+// The dialect of rmw_cyclonedds has as many bytes more in requests and replies.
+constexpr std::size_t dialect_header = 16;
 
 rtps::RTPSParticipant* make_participant(const FastDdsOptions& options) {
   check(options);
@@ -97,7 +99,7 @@ void Participant::serve(const ServiceEndpoint& service, Transport::OnRequest on_
     articula::detail::refuse({"ros2: the service ", name, " is served already"});
   }
   Endpoint requests{request_topic_name(name), dds_type_name(service.request_type), service.hash,
-                    service.quality, options_.largest_message};
+                    service.quality, options_.largest_message + dialect_header};
   Endpoint replies = requests;
   requests.quality.depth = std::clamp<std::size_t>(service.quality.depth, 1, most_requests);
   replies.topic = reply_topic_name(name);
@@ -125,6 +127,11 @@ ReplySender Participant::reply_sender(ServiceServer& service, const Client& clie
 }
 
 void Participant::reply(ServiceServer& service, const Client& client, Sample bytes) {
+  if (bytes.size() > options_.largest_message) {
+    articula::detail::refuse({"ros2: a reply of ", bytes.size(),
+                              " bytes; FastDdsOptions::largest_message is ",
+                              options_.largest_message});
+  }
   if (service.reaches(client)) {
     service.reply(client, bytes);
     return;

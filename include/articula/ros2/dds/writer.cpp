@@ -70,7 +70,7 @@ void Writer::write(Sample sample, const rtps::SampleIdentity& related) {
   }
   if (!endpoint_.quality.transient_local && readers_.count() == 0) return;
   const auto size = static_cast<std::uint32_t>(sample.size());
-  if (size > largest_unfragmented_message) send_heartbeat();
+  if (sends_replies_ || size > largest_unfragmented_message) send_heartbeat();
   if (history_.getHistorySize() >= endpoint_.quality.depth) history_.remove_min_change();
   const auto make = [&] { return writer_->new_change([size] { return size; }, rtps::ALIVE); };
   rtps::CacheChange_t* change = make();
