@@ -62,7 +62,7 @@ flags="-std=c++20 $(cached CMAKE_CXX_FLAGS) $(cached CMAKE_CXX_FLAGS_RELEASE)"
 revision=$(git describe --always --dirty 2>/dev/null || echo unknown)
 context_of() { # <subject>
   local key flags=$flags
-  [[ $1 != packs || -z $(cached ARTICULA_HAS_MARCH_NATIVE) ]] || flags+=' -march=native'
+  [[ $1 != packs && $1 != lanes || -z $(cached ARTICULA_HAS_MARCH_NATIVE) ]] || flags+=' -march=native'
   for key in cpu compiler flags revision command; do
     printf '    "%s": "%s",\n' "$key" "$(tr -s ' ' <<<"${!key//\"/\'}")"
   done
@@ -71,7 +71,7 @@ context_of() { # <subject>
 for subject in ${subjects[@]+"${subjects[@]}"}; do
   result=$results/$subject.json
   order=() # random order: a disturbance then affects all cases, and ratios stay correct
-  [[ $subject != peers && $subject != packs ]] || order=(--benchmark_enable_random_interleaving=true)
+  [[ $subject != peers && $subject != packs && $subject != lanes ]] || order=(--benchmark_enable_random_interleaving=true)
   "$programs/${subject}_benchmark" \
     --benchmark_repetitions=5 --benchmark_report_aggregates_only=true \
     --benchmark_out_format=json --benchmark_out="$result" \

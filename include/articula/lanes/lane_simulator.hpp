@@ -200,7 +200,7 @@ class LaneSimulator {
   /// Advances by one period.
   void advance(const Vector& drives) noexcept {
     const Vector total = drives + external_;
-    const auto effort = [&](const auto&, const auto&) noexcept { return total; };
+    const auto effort = [&](const auto&, const auto&) noexcept -> const Vector& { return total; };
     const double step = period_ / substeps_;
     for (int i = 0; i < substeps_; ++i) {
       const auto [next, event] = dynamics_.advance_smoothly(truth_, effort, step);
@@ -220,7 +220,8 @@ class LaneSimulator {
       if (!is_true(parts, k)) continue;
       const JointVector<joint_count> effort = lane_of(total, k);
       const JointState<joint_count> own = alone_[static_cast<std::size_t>(k)].advance(
-          lane_of(before, k), [&](const auto&, const auto&) noexcept { return effort; }, step);
+          lane_of(before, k),
+          [&](const auto&, const auto&) noexcept -> const auto& { return effort; }, step);
       set_lane(truth_.position, k, own.position);
       set_lane(truth_.velocity, k, own.velocity);
     }

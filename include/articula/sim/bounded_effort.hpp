@@ -77,7 +77,7 @@ template <int N, class S>
     for (int j = 0; j < N; ++j) {
       const Mask &held = answer.held[j], binds = bounds.binds(j);
       const S &x = answer.motion[j], lower = bounds.lower[j], upper = bounds.upper[j];
-      const Mask too_weak = (needed[j] < lower) | (needed[j] > upper);
+      const Mask below = needed[j]<lower, above = needed[j]> upper, too_weak = below | above;
       const Mask at_lower = answer.effort[j] == lower;
       const Mask turns = (at_lower & (x < 0)) | (not_of(at_lower) & (x > 0));
       const Mask violates = (held & too_weak) | (not_of(held) & binds & turns);

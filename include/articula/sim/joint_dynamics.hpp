@@ -169,12 +169,11 @@ class JointDynamics {
     if (!may_hold) return phase;
     const auto answer = held_within(bounds, phase, motion.position, motion.velocity, effort);
     for (int j = 0; j < joint_count; ++j) {
-      const MaskOf<S>& held = answer.held[j];
+      const MaskOf<S> held = answer.held[j], is_free = not_of(held), binds = bounds.binds(j);
       phase.any_held = phase.any_held || any_of(held);
       phase.holding.upper[j] = select(held, S(infinity), S(0));
       phase.holding.lower[j] = -phase.holding.upper[j];
-      const MaskOf<S> breaks_away = not_of(held) & bounds.binds(j);
-      phase.sliding[j] = select(breaks_away, answer.effort[j], phase.sliding[j]);
+      phase.sliding[j] = select(is_free & binds, answer.effort[j], phase.sliding[j]);
     }
     return phase;
   }

@@ -41,8 +41,8 @@ class Pack {
   // A register at a time. Compilers would copy arrays of packs by halves of registers, and loading
   // what was just stored in halves waits for the cache (failed store forwarding).
   [[gnu::always_inline]] Pack(const Pack& other) noexcept : reals_(other.reals_) {}
-  [[gnu::always_inline]] Pack& operator=(
-      const Pack& other) noexcept {  // NOLINT: no members to free
+  // NOLINTNEXTLINE(modernize-use-equals-default): see above
+  [[gnu::always_inline]] Pack& operator=(const Pack& other) noexcept {
     reals_ = other.reals_;
     return *this;
   }

@@ -91,15 +91,15 @@ TEST_CASE("a late subscription gets the last message of a transient local peer")
   CHECK(texts == std::vector<std::string>{"urdf"});
 }
 
-TEST_CASE("two transports of one process, in one domain, keep apart by their namespaces") {
-  FastDdsTransport left({.domain = domain(), .name_space = "/left"});
-  FastDdsTransport right({.domain = domain(), .name_space = "/right"});
+TEST_CASE("two transports of one process meet in one domain") {
+  FastDdsTransport left({.domain = domain()});
+  FastDdsTransport right({.domain = domain()});
   std::vector<std::string> texts;
-  right.subscribe(text_topic("/text", reliable),
+  right.subscribe(text_topic("/right/text", reliable),
                   [&](Sample sample) { texts.push_back("right: " + text_of(sample)); });
   right.subscribe(text_topic("/tf", reliable),
                   [&](Sample sample) { texts.push_back("tf: " + text_of(sample)); });
-  const auto text = left.advertise(text_topic("/text", reliable));
+  const auto text = left.advertise(text_topic("/left/text", reliable));
   const auto tf = left.advertise(text_topic("/tf", reliable));
   REQUIRE(poll_until(left, [&] { return tf->readers() == 1; }));
   poll_for(right, std::chrono::milliseconds(100));

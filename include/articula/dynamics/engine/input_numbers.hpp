@@ -36,7 +36,7 @@ inline constexpr bool has_input_numbers<WithInputNumbers<R>> = true;
 template <DescribedRobot R>
 [[nodiscard]] consteval auto input_mask() {
   constexpr int bodies = std::remove_cvref_t<decltype(model_of(R{}))>::body_count;
-  std::array<bool, std::size_t{bodies * BodyNumbers<double>::count}> mask{};
+  std::array<bool, std::size_t{bodies} * std::size_t{BodyNumbers<double>::count}> mask{};
   std::size_t next = 0;
   for (const Body& body : model_of(R{}).canonical.bodies) {
     const auto numbers = numbers_of<double>(body);
