@@ -47,7 +47,6 @@ if(TARGET articula::sweep)
     set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/make_experiment_${joints}.cpp)
     configure_file(${CMAKE_CURRENT_LIST_DIR}/articula/sweep/make_experiment.cpp.in ${articula_loop_file}
                    @ONLY)
-    set_source_files_properties(${articula_loop_file} PROPERTIES COMPILE_OPTIONS -O1)
     list(APPEND articula_sweep_files ${articula_loop_file})
   endforeach()
   add_library(articula_sweep_command OBJECT ${articula_sweep_files})

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 using namespace articula;
@@ -129,7 +130,8 @@ TEST_CASE("parameters that make no sweep are refused") {
   };
   CHECK_THROWS_WITH(samples({{"a", "1", 0, 1}, {"a", "1", 0, 2}}), Catch::Contains("two param"));
   CHECK_THROWS_WITH(samples({{"a", "1", 0, 1, Spacing::logarithmic}}), Catch::Contains("above 0"));
-  CHECK_THROWS_WITH(samples({{"a", "1", 0, INFINITY}}), Catch::Contains("not finite"));
+  CHECK_THROWS_WITH(samples({{"a", "1", 0, std::numeric_limits<double>::infinity()}}),
+                    Catch::Contains("not finite"));
   CHECK_THROWS_WITH(samples({{"a", "1", 0, 1, Spacing::linear, 0}}), Catch::Contains("levels 0"));
   CHECK_THROWS_WITH(samples({{"a", "1", 0, 1, Spacing::linear, 1000000},
                              {"b", "1", 0, 1, Spacing::linear, 1000000},

@@ -85,7 +85,8 @@ TEST_CASE("an exact sum loses nothing") {
 TEST_CASE("undefined values count as above all others") {
   MetricSummary summary;
   for (int k = 1; k <= 90; ++k) summary.add(k);
-  for (int k = 0; k < 10; ++k) summary.add(k % 2 == 0 ? NAN : INFINITY);
+  for (int k = 0; k < 10; ++k)
+    summary.add(k % 2 == 0 ? std::nan("") : std::numeric_limits<double>::infinity());
   CHECK(summary.undefined == 10);
   CHECK(summary.mean() == 45.5);
   CHECK(summary.quantile(0.5) == Approx(50).epsilon(0.005));

@@ -202,7 +202,7 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
   CHECK_THAT(refused({VariedQuantity::mass, "base_link", 1, 2}), Catch::Contains("does not move"));
   CHECK_THAT(refused({VariedQuantity::mass, {}, -1, 2}), Catch::Contains("-1 .. 2"));
   CHECK_THAT(refused({VariedQuantity::mass, {}, 2, 1}), Catch::Contains("above its high end"));
-  CHECK_THAT(refused({VariedQuantity::mass, {}, 1, NAN}), Catch::Contains("not finite"));
+  CHECK_THAT(refused({VariedQuantity::mass, {}, 1, std::nan("")}), Catch::Contains("not finite"));
   CHECK_THAT(refused({VariedQuantity::payload, {}, 0, 1}), Catch::Contains("needs the name"));
   CHECK_THAT(refused({VariedQuantity::delay, "elbow_active_joint", 0, 1}),
              Catch::Contains("whole loop"));
