@@ -89,6 +89,7 @@ for (const [count, list] of Object.entries(all)) {
 
 // The age of what the page shows: from a cycle to the picture after the one that draws it.
 const server = await startServer();
+withPriority(server.pid); // a loop that misses cycles counts less time than passes
 const browser = await startBrowser();
 const {page} = await openPage(browser, server.url);
 const ages = await page.evaluate(async (duration) => {

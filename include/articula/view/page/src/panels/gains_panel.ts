@@ -42,10 +42,10 @@ export class GainsPanel {
   ) {
     this.step = new StepField(session, () => this.propose());
     this.box.append(
+      this.step.box,
       this.list,
       element('div', {class: 'row'}, this.applyButton, this.revert),
       this.outcome,
-      this.step.box,
       this.fan,
     );
     this.futures = new GainFutures(session, playback, (futures, refusal) =>
