@@ -37,6 +37,9 @@ grep -q 'run 990 (rate .*): it fails' "$folder/log" || fail "no reason: $(cat "$
 sed 's/checkpoint-1 [0-9]*/checkpoint-1 7/' "$folder/whole/checkpoint" >"$folder/other/checkpoint"
 if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "another sweep's checkpoint was used"; fi
 grep -q 'belongs to another sweep' "$folder/log"
+awk 'NR == 1 { $4 += 9 } { print }' "$folder/whole/checkpoint" >"$folder/other/checkpoint"
+if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "a checkpoint had too many runs"; fi
+grep -q 'lines of runs' "$folder/log"
 head -n 3 "$folder/whole/checkpoint" >"$folder/other/checkpoint"
 if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "half a checkpoint was used"; fi
 grep -q 'not complete' "$folder/log"

@@ -3,6 +3,7 @@
 /// Boost).
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/sweep/run_chunk.hpp"
 #include "articula/sweep/sweep_options.hpp"
 #include "articula/sweep/sweep_result.hpp"
@@ -20,6 +21,17 @@
 #include <vector>
 
 namespace articula {
+
+namespace detail {
+
+/// Refuses a result with more runs than its sweep has.
+inline void check_begun(const SweepResult& result, const Samples& samples) {
+  if (result.runs() <= samples.runs()) return;
+  refuse(
+      {"sweep: the result has ", result.runs(), " runs already, and the sweep ", samples.runs()});
+}
+
+}  // namespace detail
 
 /// What to do while a sweep runs. Calls come from one thread at a time, in the order of the runs.
 struct SweepHooks {
@@ -39,6 +51,7 @@ void continue_sweep(const E& experiment, const SweepOptions& options, SweepResul
                     const SweepHooks& hooks = {}) {
   const Samples samples(experiment.parameters(), options.sampling);
   validate(options, result.metrics());
+  detail::check_begun(result, samples);
   std::optional<tbb::global_control> more_threads;  // than processors, if that is asked for
   if (options.threads > 0) {
     more_threads.emplace(tbb::global_control::max_allowed_parallelism,

@@ -14,7 +14,8 @@
 namespace articula {
 
 /// Initialises MPI where the program was started by mpirun or srun, and ends it in the destructor.
-/// Without them, it does nothing: there is one rank.
+/// Without them, it does nothing: there is one rank. A rank that fails while others work calls `abort`:
+/// the destructor waits for all ranks.
 class MpiSession {
  public:
   MpiSession() : is_active_(is_launched()) {

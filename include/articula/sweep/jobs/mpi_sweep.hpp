@@ -111,13 +111,18 @@ void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, S
   }
   if (rank != 0) return detail::work_for_mpi(experiment, samples, packing, all);
 
-  std::uint64_t next = result.runs();
+  std::uint64_t next = std::min(result.runs(), samples.runs());
   const std::uint64_t ahead = 8 * static_cast<std::uint64_t>(ranks) * options.chunk;
   std::map<std::uint64_t, std::vector<SweepRow>> waiting;  // rows whose predecessors are missing
   std::deque<int> idle;
   std::string error;
-  bool goes_on = true;
   std::exception_ptr thrown;
+  try {
+    detail::check_begun(result, samples);
+  } catch (...) {
+    thrown = std::current_exception();
+  }
+  bool goes_on = thrown == nullptr;
   for (int working = ranks - 1; working > 0;) {
     // Chunks for all idle ranks, not too far ahead of the slowest; in the end, none.
     while (!idle.empty() && (!goes_on || next < result.runs() + ahead)) {
