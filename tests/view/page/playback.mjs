@@ -15,8 +15,11 @@ async function record(robot) {
     robot.page.evaluate((...call) => articula.session.ask(...call), service, request);
   await ask('/deactivate', {});
   await mode(robot, 'inactive');
-  const start = await robot.page.evaluate(() => articula.session.samples.lastTime);
-  await robot.until('inactive cycles', (t) => articula.session.samples.lastTime > t + 0.05, start);
+  await robot.until('inactive cycles', () => {
+    const {samples} = articula.session;
+    return [1, 50].every((k) => samples.value('status', samples.end - k) === 9);
+  });
+  const start = await robot.page.evaluate(() => articula.session.samples.lastTime - 0.045);
   await ask('/activate', {});
   await mode(robot, 'active');
   await ask('/go', {positions: {shoulder_active_joint: 0.4, elbow_active_joint: -0.3}, speed: 0.5});
@@ -28,7 +31,7 @@ async function record(robot) {
   return robot.page.evaluate((start) => {
     const {samples} = articula.session;
     const number = samples.reader('number');
-    const from = samples.rowAt(start + 0.02);
+    const from = samples.rowAt(start);
     let hasGap = false;
     for (let row = from + 1; row < samples.end; ++row)
       hasGap ||= number(row) !== number(row - 1) + 1;
