@@ -233,6 +233,7 @@ TEST_CASE("the controls go back to others when ROS has been silent") {
   BridgedArm arm;
   set_hardware(arm, "active");
   CHECK(arm.loop->port().situation().operator_name == "ROS 2");
+  arm.now -= std::chrono::hours(1);  // the clock was set
   arm.run(1100);
   CHECK(arm.loop->port().situation().operator_name.empty());
   const auto session = arm.loop->port().connect("window", true);

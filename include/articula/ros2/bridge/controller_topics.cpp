@@ -79,6 +79,7 @@ ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
 }
 
 void ControllerTopics::update() {
+  if (moving_since_) moving_since_ = std::min(*moving_since_, core_.context.now);
   if (moving_since_ &&
       core_.context.now - *moving_since_ > to_duration(core_.options.controls_time)) {
     moving_since_.reset();

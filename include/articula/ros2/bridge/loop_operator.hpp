@@ -4,6 +4,7 @@
 
 #include "articula/remote/port.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -40,9 +41,10 @@ class LoopOperator {
   [[nodiscard]] std::size_t waiting() const noexcept { return waiting_.size(); }
 
   /// Delivers answers, shows signs of life, releases the controls.
-  /// @param now  of a clock that does not jump
+  /// @param now  of a clock that may jump
   void update(std::chrono::nanoseconds now) {
     now_ = now;
+    last_request_ = std::min(last_request_, now);
     while (const auto answer = session_->answer()) {
       const auto found = waiting_.find(answer->request);
       if (found == waiting_.end()) continue;
