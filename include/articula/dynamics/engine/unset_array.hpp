@@ -5,6 +5,7 @@
 #include "articula/core/joint_array.hpp"
 
 #include <memory>
+#include <type_traits>
 
 namespace articula::detail {
 
@@ -26,6 +27,10 @@ class UnsetArray {
  private:
   union Slot {
     constexpr Slot() noexcept {}  // NOLINT: without the element
+    constexpr Slot(const Slot&) noexcept
+      requires std::is_trivially_copyable_v<T>
+    = default;
+    constexpr Slot(const Slot& other) noexcept : element(other.element) {}
     T element;
   };
 
