@@ -94,9 +94,9 @@ TEST_CASE("a run is a loop of one's own, to the last bit") {
   for (const std::uint64_t number : {std::uint64_t{3}, std::uint64_t{17}}) {
     const SweepRow row = run_once(experiment, samples, number, experiment.metrics().size());
     const auto own = experiment.loop({number, row.seed, row.parameters});
-    using Model = std::remove_cvref_t<decltype(own.model)>;
-    ControlLoop loop(DelayedCommands<Simulator<Model>, EffortCommand<2>>(
-                         Simulator<Model>(own.model, own.simulation), own.delay),
+    using Robot = VariedRobot<Q2d>;
+    ControlLoop loop(DelayedCommands<Simulator<Robot>, EffortCommand<2>>(
+                         Simulator<Robot>(own.robot.value(), own.simulation), own.delay),
                      PidPlusGravity<Q2d>(own.gains));
     StepMetrics elbow(0, -0.2);
     double effort = 0;

@@ -3,18 +3,20 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
-#include "articula/futures/futures.hpp"
+#include "articula/futures/future_end.hpp"
 #include "articula/loop/control_loop.hpp"
 #include "articula/reference/joint_signals.hpp"
 #include "articula/sim/simulator.hpp"
 #include "articula/sweep/delayed_commands.hpp"
-#include "articula/sweep/run_measures.hpp"
+#include "articula/sweep/lane_runs.hpp"
+#include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
+#include "articula/sweep/sweep_result.hpp"
 #include "articula/sweep/varied_loop.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -66,35 +68,38 @@ class ClosedLoopExperiment {
     nominal_.simulation = options_.simulation;
     validate(robot_, options_.simulation);
     nominal_.simulation.initial_position = initial_position(robot_, options_.simulation);
-    target_ = options_.target.value_or(*nominal_.simulation.initial_position);
+    const JointVector<joint_count>& start = *nominal_.simulation.initial_position;
+    plan_.target = options_.target.value_or(start);
     constexpr double most_cycles = 1e6;
     const double period = options_.simulation.period;
     if (!(options_.duration >= period && options_.duration <= most_cycles * period)) {
       detail::refuse({"sweep: duration ", options_.duration, " s is not within ", period, " .. ",
                       most_cycles * period});
     }
-    cycles_ = static_cast<int>(std::lround(options_.duration / period));
+    plan_.period = period;
+    plan_.cycles = static_cast<int>(std::lround(options_.duration / period));
     for (const JointSignal& signal : options_.disturbances) {
       if (signal.target == SignalTarget::effort) continue;
       detail::refuse({"sweep: the disturbance of joint '", signal.joint.view(), "' is no effort"});
     }
-    signals_.emplace(robot_, options_.signals, JointReference<joint_count>{target_});
-    disturbances_.emplace(robot_, options_.disturbances,
-                          JointReference<joint_count>{*nominal_.simulation.initial_position});
+    plan_.signals.emplace(robot_, options_.signals, JointReference<joint_count>{plan_.target});
+    if (!options_.disturbances.empty()) {
+      plan_.disturbances.emplace(robot_, options_.disturbances, JointReference<joint_count>{start});
+    }
     for (const Variation& each : options_.vary) {
       varied_.push_back(detail::placed(robot_, each));
       parameters_.push_back(each.parameter());
     }
     for (int j = 0; j < joint_count; ++j) {
-      moves_[static_cast<std::size_t>(j)] =
-          target_[j] != (*nominal_.simulation.initial_position)[j];
+      plan_.moves[static_cast<std::size_t>(j)] = plan_.target[j] != start[j];
     }
-    metrics_ = RunMeasures<joint_count>::metrics(joint_names(robot_), moves_);
-    standard_metrics_ = metrics_.size();
+    metrics_ = RunMeasures<joint_count>::metrics(joint_names(robot_), plan_.moves);
+    plan_.standard_metrics = metrics_.size();
     for (const auto& own : options_.own_metrics) {
       if (!own.next) detail::refuse({"sweep: metric '", own.metric.name, "' has no function"});
       metrics_.push_back(own.metric);
     }
+    plan_.own_metrics = options_.own_metrics;
     check_ends();
   }
 
@@ -108,52 +113,100 @@ class ClosedLoopExperiment {
     return detail::varied_loop<R>(nominal_, varied_, run.parameters, run.seed);
   }
 
-  /// One run. It ends early if the motion or a command is not finite; metrics are of the time until
-  /// then.
+  /// One run, as a sweep runs it. It ends early if the motion or a command is not finite; metrics are
+  /// of the time until then.
   /// @throws std::invalid_argument if the loop cannot be simulated
   /// Real-time: no (allocates).
   [[nodiscard]] FutureEnd run(const SweepRun& run, std::span<double> metrics) const {
-    using Simulated = Simulator<typename VariedLoop<R>::Model>;
-    using Command = typename detail::CheckedController<Controller, joint_count, double>::Command;
     const VariedLoop<R> own = loop(run);
-    ControlLoop arm(
-        DelayedCommands<Simulated, Command>(Simulated(own.model, own.simulation), own.delay),
-        make_(own.gains));
-    Simulated& simulator = arm.hardware().simulator();
-    RunMeasures<joint_count> measures(simulator.true_state().position, target_);
-    std::vector<double> own_values(options_.own_metrics.size());
-    detail::LimitSwings<joint_count> swings(effort_limits(own.model));
-    FutureEnd end = FutureEnd::stable;
-    for (int cycle = 0; cycle <= cycles_; ++cycle) {
-      const double time = cycle * arm.period();
-      arm.reference() = signals_->sample(time);
-      const JointState<joint_count>& truth = simulator.true_state();
-      if (!is_finite(truth)) {
-        end = FutureEnd::non_finite;
-        break;
+    if constexpr (in_lanes) {
+      if (own.robot) {
+        const VariedLoop<R>* const only = &own;
+        return detail::run_in_lanes<R>(plan_, {&only, 1}, make_)[0].result(metrics);
       }
-      measures.add(time, truth, arm.reference(), arm.period());
-      for (std::size_t k = 0; k < own_values.size(); ++k) {
-        own_values[k] = options_.own_metrics[k].next(own_values[k], truth, arm.reference());
-      }
-      if (cycle == cycles_) break;
-      if (!options_.disturbances.empty()) {
-        simulator.set_external_effort(disturbances_->sample(time).effort);
-      }
-      if (arm.update() != Status::ok) {
-        end = FutureEnd::non_finite;
-        break;
-      }
-      if (4 * cycle >= 3 * cycles_) swings.note(simulator.true_state().effort);
     }
-    if (end == FutureEnd::stable && swings.many()) end = FutureEnd::unstable;
-    measures.values(moves_, metrics.first(standard_metrics_));
-    std::copy(own_values.begin(), own_values.end(),
-              metrics.begin() + std::ptrdiff_t(standard_metrics_));
-    return end;
+    return run_alone(own, metrics);
+  }
+
+  /// Some runs. Those of robots known at compile time, under a controller that commands efforts, run
+  /// in the lanes of a pack, as many at once as a register has; the others one after the other. Each
+  /// gives what `run` gives, to the last bit.
+  /// @param rows  with number, seed and parameters; get metrics and end
+  /// @throws std::invalid_argument if a loop cannot be simulated
+  /// Real-time: no (allocates).
+  void run_together(std::span<SweepRow> rows) const {
+    std::vector<VariedLoop<R>> loops;
+    loops.reserve(rows.size());
+    std::map<int, std::vector<std::size_t>> waiting;  // by substeps, which a pack has in common
+    const auto run_waiting = [&](std::vector<std::size_t>& places) {
+      if constexpr (in_lanes) {
+        std::vector<const VariedLoop<R>*> own;
+        for (const std::size_t place : places) own.push_back(&loops[place]);
+        const auto watches = detail::run_in_lanes<R>(plan_, own, make_);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+          rows[places[k]].end = watches[k].result(rows[places[k]].metrics);
+        }
+        places.clear();
+      }
+    };
+    for (std::size_t place = 0; place < rows.size(); ++place) {
+      SweepRow& row = rows[place];
+      const VariedLoop<R>& own = loops.emplace_back(loop({row.number, row.seed, row.parameters}));
+      if (!in_lanes || !own.robot) {
+        row.end = run_alone(own, row.metrics);
+        continue;
+      }
+      std::vector<std::size_t>& places = waiting[own.simulation.substeps];
+      places.push_back(place);
+      if (places.size() == std::size_t{symbolic::Pack<>::lanes}) run_waiting(places);
+    }
+    for (auto& [substeps, places] : waiting) {
+      if (!places.empty()) run_waiting(places);
+    }
+  }
+
+  /// One run without lanes, to the last bit as in lanes; where the compiler fuses multiplications and
+  /// additions, metrics differ by some 1e-7 of their size.
+  /// @param own  from `loop`
+  /// @throws std::invalid_argument if the loop cannot be simulated
+  /// Real-time: no (allocates).
+  [[nodiscard]] FutureEnd run_alone(const VariedLoop<R>& own, std::span<double> metrics) const {
+    if constexpr (DescribedRobot<R>) {
+      if (own.robot) return simulate(*own.robot, own, metrics);
+    }
+    return simulate(own.model, own, metrics);
   }
 
  private:
+  /// True if runs can go into lanes.
+  static constexpr bool in_lanes = detail::can_run_in_lanes<R, Controller>;
+
+  template <class Simulated>
+  [[nodiscard]] FutureEnd simulate(const Simulated& robot, const VariedLoop<R>& own,
+                                   std::span<double> metrics) const {
+    using Command = typename detail::CheckedController<Controller, joint_count, double>::Command;
+    ControlLoop arm(DelayedCommands<Simulator<Simulated>, Command>(
+                        Simulator<Simulated>(robot, own.simulation), own.delay),
+                    make_(own.gains));
+    Simulator<Simulated>& simulator = arm.hardware().simulator();
+    detail::RunWatch<R> watch(plan_, simulator.true_state().position, effort_limits(robot));
+    for (int cycle = 0; cycle <= plan_.cycles; ++cycle) {
+      arm.reference() = plan_.signals->sample(plan_.time(cycle));
+      if (!watch.begin(cycle, simulator.true_state(), arm.reference()) || cycle == plan_.cycles) {
+        break;
+      }
+      if (plan_.disturbances) {
+        simulator.set_external_effort(plan_.disturbances->sample(plan_.time(cycle)).effort);
+      }
+      if (arm.update() != Status::ok) {
+        watch.fail();
+        break;
+      }
+      watch.finish(cycle, simulator.true_state());
+    }
+    return watch.result(metrics);
+  }
+
   /// Sets up a loop at the ends of all ranges.
   void check_ends() const {
     for (const double share : {0.0, 1.0}) {
@@ -174,14 +227,10 @@ class ClosedLoopExperiment {
   Make make_;
   ClosedLoopOptions<joint_count> options_;
   VariedLoop<R> nominal_{};
-  JointVector<joint_count> target_;
-  int cycles_ = 0;
-  std::optional<JointSignals<R>> signals_{}, disturbances_{};
+  detail::RunPlan<R> plan_{};
   std::vector<detail::PlacedVariation> varied_{};
   std::vector<SweepParameter> parameters_{};
-  std::array<bool, static_cast<std::size_t>(joint_count)> moves_{};
   std::vector<SweepMetric> metrics_{};
-  std::size_t standard_metrics_ = 0;
 };
 
 }  // namespace articula

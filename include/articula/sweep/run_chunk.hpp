@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Consecutive runs of a sweep, one after the other.
+/// @file Consecutive runs of a sweep.
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -23,17 +24,28 @@ struct SweepChunk {
   std::uint64_t count = 0;
 };
 
+namespace detail {
+
+/// A row with what decides a run.
+[[nodiscard]] inline SweepRow row_of(const Samples& samples, std::uint64_t number,
+                                     std::size_t metrics) {
+  SweepRow row{.number = number,
+               .seed = samples.seed(number),
+               .parameters = std::vector<double>(samples.parameters().size()),
+               .metrics = std::vector<double>(metrics, std::nan(""))};
+  samples.values(number, row.parameters);
+  return row;
+}
+
+}  // namespace detail
+
 /// One run of a sweep, for example to replay one of the worst.
 /// @throws std::runtime_error naming the run and its parameters, if it cannot be set up
 /// Real-time: no (allocates).
 template <SweepExperiment E>
 [[nodiscard]] SweepRow run_once(const E& experiment, const Samples& samples, std::uint64_t number,
                                 std::size_t metrics) {
-  SweepRow row{.number = number,
-               .seed = samples.seed(number),
-               .parameters = std::vector<double>(samples.parameters().size()),
-               .metrics = std::vector<double>(metrics, std::nan(""))};
-  samples.values(number, row.parameters);
+  SweepRow row = detail::row_of(samples, number, metrics);
   try {
     row.end = experiment.run({number, row.seed, row.parameters}, row.metrics);
   } catch (const std::exception& error) {
@@ -48,7 +60,7 @@ template <SweepExperiment E>
   return row;
 }
 
-/// The runs of a chunk, one after the other. What simulates several runs at once belongs here.
+/// The runs of a chunk: together if the experiment can, else one after the other.
 /// @throws std::runtime_error as above
 /// Real-time: no (allocates).
 template <SweepExperiment E>
@@ -57,6 +69,17 @@ template <SweepExperiment E>
   const std::size_t metrics = experiment.metrics().size();
   std::vector<SweepRow> rows;
   rows.reserve(chunk.count);
+  if constexpr (requires(std::span<SweepRow> all) { experiment.run_together(all); }) {
+    for (std::uint64_t k = 0; k < chunk.count; ++k) {
+      rows.push_back(detail::row_of(samples, chunk.first + k, metrics));
+    }
+    try {
+      experiment.run_together(rows);
+      return rows;
+    } catch (const std::exception&) {
+      rows.clear();  // below, the run that cannot be set up has its number in the error
+    }
+  }
   for (std::uint64_t k = 0; k < chunk.count; ++k) {
     rows.push_back(run_once(experiment, samples, chunk.first + k, metrics));
   }

@@ -77,7 +77,7 @@ struct Variation {
   [[nodiscard]] SweepParameter parameter() const {
     const VariedTraits& traits = traits_of(quantity);
     std::string name(traits.name);
-    if (!where.empty()) name += "." + std::string(where.view());
+    if (!where.empty()) name.append(1, '.').append(where.view());
     return {name, std::string(traits.unit), low, high, spacing, levels};
   }
 };

@@ -4,6 +4,7 @@
 
 #include "articula/control/laws/pid_gains.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/dynamics/varied_robot.hpp"
 #include "articula/futures/varied_model.hpp"
 #include "articula/model/canonical_mechanism.hpp"
 #include "articula/model/robot.hpp"
@@ -14,11 +15,27 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
 namespace articula {
+
+namespace detail {
+
+/// The type of robots that differ from R in numbers; of a robot loaded at run time, its model.
+template <Robot R>
+struct RobotOfKind {
+  using Type = R;
+};
+template <DescribedRobot R>
+struct RobotOfKind<R> {
+  using Type = VariedRobot<R>;
+};
+
+}  // namespace detail
 
 /// Everything about one run that varies: it replays the run in a loop of one's own.
 /// @tparam R  the robot as described
@@ -27,7 +44,11 @@ struct VariedLoop {
   static constexpr int joint_count = articula::joint_count<R>;
   using Model = std::remove_cvref_t<decltype(model_of(std::declval<const R&>()))>;
 
-  Model model{};                               ///< the robot of this run
+  Model model{};  ///< the robot of this run
+  /// The same robot, which the run simulates. None if a variation gives numbers that VariedRobot<R>
+  /// does not take, such as a payload beside an axis: the run then simulates the model. Of a robot
+  /// loaded at run time it is none.
+  std::optional<typename detail::RobotOfKind<R>::Type> robot{};
   JointPidGains<joint_count> gains{};          ///< of its controller
   SimulatorOptions<joint_count> simulation{};  ///< with noise and the seed of this run
   int delay = 0;                               ///< of the commands [periods]
@@ -159,6 +180,13 @@ template <DynamicRobot R>
   const double needed = std::ceil(simulation.period / longest);
   if (needed <= 100.0 * simulation.substeps) {
     simulation.substeps = std::max(simulation.substeps, static_cast<int>(needed));
+  }
+  if constexpr (DescribedRobot<R>) {
+    try {
+      loop.robot.emplace(loop.model);
+    } catch (const std::invalid_argument&) {
+      loop.robot.reset();  // of another kind: the model has no such bounds
+    }
   }
   return loop;
 }
