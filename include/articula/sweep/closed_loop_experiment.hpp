@@ -4,11 +4,11 @@
 
 #include "articula/core/refuse.hpp"
 #include "articula/futures/future_end.hpp"
-#include "articula/loop/control_loop.hpp"
+#include "articula/loop/controller_check.hpp"
 #include "articula/reference/joint_signals.hpp"
-#include "articula/sim/simulator.hpp"
-#include "articula/sweep/delayed_commands.hpp"
+#include "articula/sim/simulator_options.hpp"
 #include "articula/sweep/lane_runs.hpp"
+#include "articula/sweep/run_simulated.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_result.hpp"
@@ -16,7 +16,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -128,40 +127,23 @@ class ClosedLoopExperiment {
     return run_alone(own, metrics);
   }
 
-  /// Some runs. Those of robots known at compile time, under a controller that commands efforts, run
-  /// in the lanes of a pack, as many at once as a register has; the others one after the other. Each
-  /// gives what `run` gives, to the last bit.
+  /// Some runs: those that have `VariedLoop::robot`, under a controller that commands efforts, in the
+  /// lanes of packs; the others one after the other. Each gives what `run` gives, to the last bit.
   /// @param rows  with number, seed and parameters; get metrics and end
   /// @throws std::invalid_argument if a loop cannot be simulated
   /// Real-time: no (allocates).
   void run_together(std::span<SweepRow> rows) const {
     std::vector<VariedLoop<R>> loops;
     loops.reserve(rows.size());
-    std::map<int, std::vector<std::size_t>> waiting;  // by substeps, which a pack has in common
-    const auto run_waiting = [&](std::vector<std::size_t>& places) {
-      if constexpr (in_lanes) {
-        std::vector<const VariedLoop<R>*> own;
-        for (const std::size_t place : places) own.push_back(&loops[place]);
-        const auto watches = detail::run_in_lanes<R>(plan_, own, make_);
-        for (std::size_t k = 0; k < places.size(); ++k) {
-          rows[places[k]].end = watches[k].result(rows[places[k]].metrics);
-        }
-        places.clear();
-      }
-    };
-    for (std::size_t place = 0; place < rows.size(); ++place) {
-      SweepRow& row = rows[place];
-      const VariedLoop<R>& own = loops.emplace_back(loop({row.number, row.seed, row.parameters}));
-      if (!in_lanes || !own.robot) {
-        row.end = run_alone(own, row.metrics);
-        continue;
-      }
-      std::vector<std::size_t>& places = waiting[own.simulation.substeps];
-      places.push_back(place);
-      if (places.size() == std::size_t{symbolic::Pack<>::lanes}) run_waiting(places);
+    for (SweepRow& row : rows) {
+      loops.push_back(loop({row.number, row.seed, row.parameters}));
+      if (!in_lanes || !loops.back().robot) row.end = run_alone(loops.back(), row.metrics);
     }
-    for (auto& [substeps, places] : waiting) {
-      if (!places.empty()) run_waiting(places);
+    if constexpr (in_lanes) {
+      detail::run_in_packs<R>(plan_, loops, make_,
+                              [&](std::size_t place, const detail::RunWatch<R>& watch) {
+                                rows[place].end = watch.result(rows[place].metrics);
+                              });
     }
   }
 
@@ -172,40 +154,14 @@ class ClosedLoopExperiment {
   /// Real-time: no (allocates).
   [[nodiscard]] FutureEnd run_alone(const VariedLoop<R>& own, std::span<double> metrics) const {
     if constexpr (DescribedRobot<R>) {
-      if (own.robot) return simulate(*own.robot, own, metrics);
+      if (own.robot) return detail::run_simulated(plan_, *own.robot, own, make_).result(metrics);
     }
-    return simulate(own.model, own, metrics);
+    return detail::run_simulated(plan_, own.model, own, make_).result(metrics);
   }
 
  private:
   /// True if runs can go into lanes.
   static constexpr bool in_lanes = detail::can_run_in_lanes<R, Controller>;
-
-  template <class Simulated>
-  [[nodiscard]] FutureEnd simulate(const Simulated& robot, const VariedLoop<R>& own,
-                                   std::span<double> metrics) const {
-    using Command = typename detail::CheckedController<Controller, joint_count, double>::Command;
-    ControlLoop arm(DelayedCommands<Simulator<Simulated>, Command>(
-                        Simulator<Simulated>(robot, own.simulation), own.delay),
-                    make_(own.gains));
-    Simulator<Simulated>& simulator = arm.hardware().simulator();
-    detail::RunWatch<R> watch(plan_, simulator.true_state().position, effort_limits(robot));
-    for (int cycle = 0; cycle <= plan_.cycles; ++cycle) {
-      arm.reference() = plan_.signals->sample(plan_.time(cycle));
-      if (!watch.begin(cycle, simulator.true_state(), arm.reference()) || cycle == plan_.cycles) {
-        break;
-      }
-      if (plan_.disturbances) {
-        simulator.set_external_effort(plan_.disturbances->sample(plan_.time(cycle)).effort);
-      }
-      if (arm.update() != Status::ok) {
-        watch.fail();
-        break;
-      }
-      watch.finish(cycle, simulator.true_state());
-    }
-    return watch.result(metrics);
-  }
 
   /// Sets up a loop at the ends of all ranges.
   void check_ends() const {

@@ -8,13 +8,18 @@
 #include "articula/core/scalar.hpp"
 #include "articula/lanes/lane_simulator.hpp"
 #include "articula/loop/control_loop.hpp"
+#include "articula/loop/controller_check.hpp"
 #include "articula/sweep/delayed_commands.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/varied_loop.hpp"
+#include "articula/symbolic/pack.hpp"
 
+#include <algorithm>
 #include <concepts>
 #include <cstddef>
+#include <map>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace articula::detail {
@@ -81,8 +86,7 @@ template <DescribedRobot R, class Make>
                                                     std::span<const VariedLoop<R>* const> loops,
                                                     const Make& make) {
   using S = symbolic::Pack<>;
-  using Controller = std::remove_cvref_t<
-      std::invoke_result_t<const Make&, const JointPidGains<articula::joint_count<R>>&>>;
+  using Controller = std::remove_cvref_t<decltype(make(loops[0]->gains))>;
   constexpr int n = articula::joint_count<R>;
   using Port = DelayedCommands<LanePort<R>, EffortCommand<n>>;
   std::vector<LaneSetup<R>> setups;
@@ -139,6 +143,29 @@ template <DescribedRobot R, class Make>
     }
   }
   return watches;
+}
+
+/// Runs all loops that have a robot, as many at once as there are lanes. The loops of a pack have the
+/// same substeps.
+/// @param done  called with the index of a loop, and what was watched in it
+/// @throws std::invalid_argument as above
+template <DescribedRobot R, class Make, class Done>
+void run_in_packs(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops, const Make& make,
+                  const Done& done) {
+  std::map<int, std::vector<std::size_t>> by_substeps;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (loops[k].robot) by_substeps[loops[k].simulation.substeps].push_back(k);
+  }
+  constexpr std::size_t most = symbolic::Pack<>::lanes;
+  for (const auto& [substeps, places] : by_substeps) {
+    for (std::size_t begin = 0; begin < places.size(); begin += most) {
+      const auto some = std::span(places).subspan(begin, std::min(most, places.size() - begin));
+      std::vector<const VariedLoop<R>*> pack;
+      for (const std::size_t place : some) pack.push_back(&loops[place]);
+      const auto watches = run_in_lanes<R>(plan, pack, make);
+      for (std::size_t k = 0; k < some.size(); ++k) done(some[k], watches[k]);
+    }
+  }
 }
 
 }  // namespace articula::detail

@@ -33,6 +33,9 @@ struct SweepRun {
 ///   that are not finite are undefined in this run. Several threads call it at the same time. The
 ///   result depends on the run alone.
 ///
+/// If there is `run_together(std::span<SweepRow>)`, a sweep calls it with some rows that have number,
+/// seed and parameters. It gives each what `run` gives, to the last bit.
+///
 /// ClosedLoopExperiment is a robot under a controller.
 template <class E>
 concept SweepExperiment =
