@@ -35,8 +35,9 @@ template <SweepExperiment E, class Run>
                                              const SweepFiles& files, const SweepHooks& hooks,
                                              const Run& run) {
   if (!files.checkpoint.empty() && files.identity.empty()) {
-    detail::refuse({"sweep: SweepFiles::identity is empty; expected a text that changes with the "
-                    "robot, its gains and the experiment"});
+    detail::refuse(
+        {"sweep: SweepFiles::identity is empty; expected a text that changes with the "
+         "robot, its gains and the experiment"});
   }
   const std::string identity =
       detail::identity_of(experiment.parameters(), experiment.metrics(), options, files.identity);
