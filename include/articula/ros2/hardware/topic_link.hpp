@@ -52,7 +52,7 @@ class TopicLink {
   using Time = std::chrono::nanoseconds;
 
   TopicLink(const R& robot, Transport& transport, const TopicHardwareOptions& options)
-      : context_(transport, checked(options).distribution),
+      : context_(transport, checked_distribution(options)),
         node_(context_, options.node.empty()
                             ? "topic_based_ros2_control_" + std::string(model_of(robot).name.view())
                             : options.node),
@@ -114,9 +114,9 @@ class TopicLink {
     bool follows = false;
   };
 
-  static const TopicHardwareOptions& checked(const TopicHardwareOptions& options) {
+  static Distribution checked_distribution(const TopicHardwareOptions& options) {
     validate(options);
-    return options;
+    return options.distribution;
   }
 
   void take(const Message& message) {
