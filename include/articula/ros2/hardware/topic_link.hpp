@@ -60,7 +60,7 @@ class TopicLink {
         deadline_(to_duration(options.command_deadline)),
         names_(names_of(robot)),
         collector_(names_, options.sum_wrapped_joint_states) {
-    subscribe<Message>(node_, options.joint_states_topic, quality_of_service::states,
+    subscribe<Message>(node_, options.joint_states_topic, quality_of_service::sensor_data,
                        [this](const Message& message) { take(message); });
   }
 
