@@ -37,6 +37,7 @@ class MemoryTransport final : public articula::ros2::Transport {
     std::deque<Bytes> sent{};  ///< the last 100
     std::size_t count = 0;     ///< of all that were sent
     std::vector<OnSample> readers{};
+    std::size_t clients = 1;  ///< that read what is sent
   };
   struct Service {
     articula::ros2::ServiceEndpoint endpoint{};
@@ -95,7 +96,7 @@ class MemoryTransport final : public articula::ros2::Transport {
       if (topic_.sent.size() > 100) topic_.sent.pop_front();
       ++topic_.count;
     }
-    [[nodiscard]] std::size_t readers() const override { return 1; }
+    [[nodiscard]] std::size_t readers() const override { return topic_.clients; }
 
    private:
     Topic& topic_;

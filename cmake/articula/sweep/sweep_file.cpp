@@ -109,8 +109,9 @@ class SweepReader {
     options.tip = read.tip;
     if (read.gravity) options.gravity = *read.gravity;
     const std::string urdf = beside(robot->word());
-    plan_.text += text_of(file) + text_of(urdf);
-    plan_.robot = articula::read_urdf(robot_source(urdf), options);
+    const articula::UrdfSource source = robot_source(urdf);
+    plan_.text += text_of(file) + source.text();
+    plan_.robot = articula::read_urdf(source, options);
     plan_.substeps = default_substeps(read.period);
     for (const articula::Joint& joint : (*plan_.robot)->joints) {
       if (articula::detail::is_free(joint)) joints_.emplace_back(joint.name.view());

@@ -112,8 +112,8 @@ class ClosedLoopExperiment {
     return detail::varied_loop<R>(nominal_, varied_, run.parameters, run.seed);
   }
 
-  /// One run, as a sweep runs it. It ends early if the motion or a command is not finite; metrics are
-  /// of the time until then.
+  /// One run, as a sweep runs it. It ends early if the motion or a command is not finite; then all
+  /// metrics are undefined.
   /// @throws std::invalid_argument if the loop cannot be simulated
   /// Real-time: no (allocates).
   [[nodiscard]] FutureEnd run(const SweepRun& run, std::span<double> metrics) const {
@@ -163,18 +163,28 @@ class ClosedLoopExperiment {
   /// True if runs can go into lanes.
   static constexpr bool in_lanes = detail::can_run_in_lanes<R, Controller>;
 
-  /// Sets up a loop at the ends of all ranges.
+  /// Sets up a loop at each corner of the ranges, of many parameters at the lowest and highest only.
+  /// A light body and a strongly damped joint are at different ends.
   void check_ends() const {
-    for (const double share : {0.0, 1.0}) {
+    constexpr std::size_t most = 10;
+    const std::size_t count = parameters_.size();
+    const std::size_t corners = count <= most ? std::size_t{1} << count : 2;
+    for (std::size_t corner = 0; corner < corners; ++corner) {
       std::vector<double> values;
-      for (const SweepParameter& parameter : parameters_) values.push_back(parameter.value(share));
+      std::string names;
+      for (std::size_t k = 0; k < count; ++k) {
+        const SweepParameter& parameter = parameters_[k];
+        values.push_back(
+            parameter.value(count <= most ? double((corner >> k) & 1) : double(corner)));
+        names +=
+            detail::message_of({names.empty() ? "" : ", ", parameter.name, " ", values.back()});
+      }
       const VariedLoop<R> own = loop({0, 1, values});
       try {
         validate(own.model, own.simulation);
         static_cast<void>(make_(own.gains));
       } catch (const std::invalid_argument& error) {
-        detail::refuse({"sweep: with all parameters at their ", share == 0 ? "low" : "high",
-                        " ends: ", error.what()});
+        detail::refuse({"sweep: with ", names, ": ", error.what()});
       }
     }
   }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -69,8 +70,13 @@ class RunWatch {
   /// The run has ended since a number is not finite.
   void fail() noexcept { end_ = FutureEnd::non_finite; }
 
-  /// @param metrics  receives all
+  /// @param metrics  receives all; NaN if the run was not finite: those of its short life would
+  ///                 make it look good
   [[nodiscard]] FutureEnd result(std::span<double> metrics) const {
+    if (end_ == FutureEnd::non_finite) {
+      std::ranges::fill(metrics, std::numeric_limits<double>::quiet_NaN());
+      return end_;
+    }
     measures_.values(plan_->moves, metrics.first(plan_->standard_metrics));
     std::copy(own_values_.begin(), own_values_.end(),
               metrics.begin() + std::ptrdiff_t(plan_->standard_metrics));

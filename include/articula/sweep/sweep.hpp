@@ -91,7 +91,7 @@ void continue_sweep(const E& experiment, const SweepOptions& options, SweepResul
 /// Runs an experiment many times with other parameters, and summarises:
 ///
 ///     const SweepResult result = sweep(experiment, {.sampling = {.runs = 10'000}});
-///     result.summary("elbow.overshoot").quantile(0.95);
+///     result.summary("elbow_active_joint.overshoot").quantile(0.95);
 ///
 /// The result has the same bits for any number of threads and any chunk. A run that becomes unstable
 /// or not finite is counted, see SweepResult::runs_with.

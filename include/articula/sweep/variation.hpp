@@ -73,7 +73,7 @@ struct Variation {
   Spacing spacing = Spacing::linear;
   int levels = 11;  ///< in a grid
 
-  /// The parameter of a sweep: named as "mass.elbow_link", or "mass" where all vary.
+  /// The parameter of a sweep: named as "mass.elbow_passive_link", or "mass" where all vary.
   [[nodiscard]] SweepParameter parameter() const {
     const VariedTraits& traits = traits_of(quantity);
     std::string name(traits.name);

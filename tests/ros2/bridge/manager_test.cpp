@@ -127,7 +127,7 @@ TEST_CASE("controllers are switched, and refusals say why") {
   CHECK(switch_to(arm, {"pid_plus_gravity"}, {}, 4).ok);  // by force
   CHECK(controller(arm, "computed_torque").state == "inactive");
 
-  const auto unknown = switch_to(arm, {"ghost"}, {}, 0);
+  const auto unknown = switch_to(arm, {"ghost"}, {});
   CHECK_FALSE(unknown.ok);
   CHECK(unknown.message == "controller 'ghost': unknown name");
   CHECK(switch_to(arm, {"ghost", "computed_torque"}, {"pid_plus_gravity"}, 1).ok);
@@ -253,4 +253,25 @@ TEST_CASE("options that make no sense are refused") {
                     "ros2: name_space 'left' does not begin with / or ends with it");
   CHECK_THROWS_WITH(make({.state_rate = 0}), "ros2: state_rate 0 is not within 0 .. 1000000");
   CHECK_THROWS(make({.command_quantities = {{"pid", "torque"}}}));
+}
+
+TEST_CASE("a switch without a strictness does what can be done, as in ros2_control") {
+  BridgedArm arm;
+  set_hardware(arm, "active");
+  CHECK_FALSE(switch_to(arm, {"computed_torque", "unknown"}, {"pid_plus_gravity"}).ok);
+  switch_to(arm, {"computed_torque", "unknown"}, {"pid_plus_gravity"}, 0);
+  arm.run(5);
+  CHECK(controller(arm, "computed_torque").state == "active");
+}
+
+TEST_CASE("a loop that stands still says nothing") {
+  BridgedArm arm;
+  arm.run(100);
+  const auto count = [&] { return arm.transport.topics["/joint_states"].count; };
+  const auto before = count();
+  CHECK(before > 5);
+  for (int k = 0; k < 1000; ++k) arm.bridge.update(arm.now += std::chrono::milliseconds(1));
+  CHECK(count() <= before + 1);
+  arm.run(100);
+  CHECK(count() > before + 5);
 }

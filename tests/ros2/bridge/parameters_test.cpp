@@ -209,3 +209,14 @@ TEST_CASE("constraints are parameters, and hold for trajectories that bring no t
   });
   CHECK(logged);
 }
+
+TEST_CASE("a request for more names than a node has room for is dropped") {
+  BridgedArm arm;
+  using Get = rcl_interfaces::srv::GetParameters<Jazzy>;
+  Get::Request request{.names = std::vector<std::string>(1001, "x")};
+  const auto service = "/controller_manager/get_parameters";
+  CHECK(arm.transport.request(service, support::bytes_of(request))->empty());
+  CHECK(arm.bridge.dropped().refused == 1);
+  request.names.pop_back();
+  CHECK(arm.call<Get>(service, request).values.size() == 1000);
+}

@@ -387,3 +387,24 @@ TEST_CASE("Rolling's goals give feedback in its layout") {
   REQUIRE(feedback);
   CHECK(feedback->feedback.joint_names.size() == 2);
 }
+
+TEST_CASE("a reference with a velocity stops only the motion that it began") {
+  ActiveArm arm;
+  const auto turn_by = [&](double velocity) {
+    arm.publish(controller + "reference", Point{.velocities = {velocity, 0}});
+    arm.run(5);
+  };
+  turn_by(0.1);
+  REQUIRE(arm.send(1, goal_to(0.3, -0.2, 2)).accepted);  // instead of the reference
+  CHECK(arm.wait_for(1).status == GoalState::succeeded);
+
+  arm.run(2000);  // ROS has released the controls
+  const auto window = arm.loop->port().connect("window", true);
+  REQUIRE(window->take_controls().empty());
+  window->ask(remote::Go{.positions = {{shoulder_joint, -0.3}}, .speed = 0.2});
+  arm.run(5);
+  turn_by(0.1);  // refused: the window has the controls
+  CHECK(arm.logged("window"));
+  for (int k = 0; k < 4000 && arm.reference()[0] > -0.3; ++k) window->keep_alive();
+  CHECK(arm.reference()[0] == -0.3);
+}

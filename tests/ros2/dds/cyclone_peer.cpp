@@ -4,7 +4,9 @@
 #include <dds/dds.h>
 
 #include <array>
+#include <span>
 #include <stdexcept>
+#include <utility>
 
 namespace {
 
@@ -22,11 +24,32 @@ struct Response {
   std::uint8_t success;
   char* message;
 };
+struct SwitchRequest {
+  std::uint64_t client;
+  std::int64_t sequence;
+  dds_sequence_t activate, deactivate;
+  std::int32_t strictness;
+  bool activate_asap;
+  std::int32_t timeout_sec;
+  std::uint32_t timeout_nanosec;
+};
+struct States {
+  std::int32_t stamp_sec;
+  std::uint32_t stamp_nanosec;
+  char* frame;
+  dds_sequence_t name, position, velocity, effort;
+};
 
 constexpr std::uint32_t field_8by = std::uint32_t{DDS_OP_ADR} | std::uint32_t{DDS_OP_TYPE_8BY},
                         field_signed = field_8by | DDS_OP_FLAG_SGN,
                         field_1by = std::uint32_t{DDS_OP_ADR} | std::uint32_t{DDS_OP_TYPE_1BY},
-                        field_text = std::uint32_t{DDS_OP_ADR} | std::uint32_t{DDS_OP_TYPE_STR};
+                        field_4by = std::uint32_t{DDS_OP_ADR} | std::uint32_t{DDS_OP_TYPE_4BY},
+                        field_signed_4by = field_4by | DDS_OP_FLAG_SGN,
+                        field_text = std::uint32_t{DDS_OP_ADR} | std::uint32_t{DDS_OP_TYPE_STR},
+                        field_texts = std::uint32_t{DDS_OP_ADR} | std::uint32_t{DDS_OP_TYPE_SEQ} |
+                                      std::uint32_t{DDS_OP_SUBTYPE_STR},
+                        field_doubles = std::uint32_t{DDS_OP_ADR} | std::uint32_t{DDS_OP_TYPE_SEQ} |
+                                        std::uint32_t{DDS_OP_SUBTYPE_8BY} | DDS_OP_FLAG_FP;
 
 constexpr std::array<std::uint32_t, 3> text_fields{field_text, offsetof(Text, data), DDS_OP_RTS};
 constexpr std::array<std::uint32_t, 7> request_fields{
@@ -38,6 +61,22 @@ constexpr std::array<std::uint32_t, 9> response_fields{
     field_8by, offsetof(Response, client),  field_signed, offsetof(Response, sequence),
     field_1by, offsetof(Response, success), field_text,   offsetof(Response, message),
     DDS_OP_RTS};
+
+constexpr std::array<std::uint32_t, 17> switch_fields{
+    field_8by,        offsetof(SwitchRequest, client),
+    field_signed,     offsetof(SwitchRequest, sequence),
+    field_texts,      offsetof(SwitchRequest, activate),
+    field_texts,      offsetof(SwitchRequest, deactivate),
+    field_signed_4by, offsetof(SwitchRequest, strictness),
+    field_1by,        offsetof(SwitchRequest, activate_asap),
+    field_signed_4by, offsetof(SwitchRequest, timeout_sec),
+    field_4by,        offsetof(SwitchRequest, timeout_nanosec),
+    DDS_OP_RTS};
+constexpr std::array<std::uint32_t, 15> states_fields{
+    field_signed_4by, offsetof(States, stamp_sec), field_4by,     offsetof(States, stamp_nanosec),
+    field_text,       offsetof(States, frame),     field_texts,   offsetof(States, name),
+    field_doubles,    offsetof(States, position),  field_doubles, offsetof(States, velocity),
+    field_doubles,    offsetof(States, effort),    DDS_OP_RTS};
 
 template <class T, std::size_t n>
 dds_topic_descriptor_t descriptor(const char* name, const std::array<std::uint32_t, n>& fields) {
@@ -71,6 +110,24 @@ struct Qos {
   Qos& operator=(const Qos&) = delete;
   ~Qos() { dds_delete_qos(qos); }
   dds_qos_t* qos = dds_create_qos();
+};
+
+template <class T>
+std::span<T> items(const dds_sequence_t& sequence) {
+  return {reinterpret_cast<T*>(sequence._buffer), sequence._length};
+}
+
+// A sequence of texts, which stay where they are.
+struct Texts {
+  explicit Texts(std::vector<std::string> own) : texts(std::move(own)) {
+    for (std::string& text : texts) pointers.push_back(text.data());
+  }
+  dds_sequence_t sequence() {
+    const auto size = static_cast<std::uint32_t>(pointers.size());
+    return {size, size, reinterpret_cast<std::uint8_t*>(pointers.data()), false};
+  }
+  std::vector<std::string> texts;
+  std::vector<char*> pointers{};
 };
 
 std::string user_data(const dds_qos_t* qos) {
@@ -190,6 +247,57 @@ void CyclonePeer::make_reply_reader(const std::string& service) {
   e.replies = good(dds_create_reader(e.participant, e.make_topic(type, "rr" + service + "Reply"),
                                      qos.qos, nullptr),
                    "reader");
+}
+
+int CyclonePeer::make_states_reader(const std::string& topic) {
+  const auto type = descriptor<States>("sensor_msgs::msg::dds_::JointState_", states_fields);
+  const Qos qos(false);
+  return good(dds_create_reader(entities_->participant, entities_->make_topic(type, topic), qos.qos,
+                                nullptr),
+              "reader");
+}
+
+std::vector<CyclonePeer::JointStates> CyclonePeer::take_states(int reader) {
+  std::vector<JointStates> all;
+  for_each_sample<States>(reader, true, [&](const States& states) {
+    const auto names = items<char*>(states.name);
+    const auto positions = items<double>(states.position);
+    all.push_back({{names.begin(), names.end()}, {positions.begin(), positions.end()}});
+  });
+  return all;
+}
+
+void CyclonePeer::make_switch_client(const std::string& service) {
+  Entities& e = *entities_;
+  const Qos qos(false);
+  const auto reply = descriptor<Response>(
+      "controller_manager_msgs::srv::dds_::SwitchController_Response_", response_fields);
+  e.replies = good(dds_create_reader(e.participant, e.make_topic(reply, "rr" + service + "Reply"),
+                                     qos.qos, nullptr),
+                   "reader");
+  const auto request = descriptor<SwitchRequest>(
+      "controller_manager_msgs::srv::dds_::SwitchController_Request_", switch_fields);
+  e.requests =
+      good(dds_create_writer(e.participant, e.make_topic(request, "rq" + service + "Request"),
+                             qos.qos, nullptr),
+           "writer");
+  dds_instance_handle_t handle = 0;
+  good(dds_get_instance_handle(e.requests, &handle), "instance handle");
+  e.client = handle;
+}
+
+void CyclonePeer::request_switch(std::int64_t sequence, const std::vector<std::string>& activate,
+                                 const std::vector<std::string>& deactivate) {
+  Texts on(activate), off(deactivate);
+  const SwitchRequest request{.client = entities_->client,
+                              .sequence = sequence,
+                              .activate = on.sequence(),
+                              .deactivate = off.sequence(),
+                              .strictness = 2,
+                              .activate_asap = true,
+                              .timeout_sec = 5,
+                              .timeout_nanosec = 0};
+  good(dds_write(entities_->requests, &request), "write");
 }
 
 bool CyclonePeer::finds_service() {

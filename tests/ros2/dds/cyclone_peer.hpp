@@ -29,10 +29,24 @@ class CyclonePeer {
   std::size_t matches_of_writer(int writer);
   std::size_t matches_of_reader(int reader);
 
+  /// sensor_msgs/msg/JointState on a DDS topic. Returns a number for the functions below.
+  int make_states_reader(const std::string& topic);
+  struct JointStates {
+    std::vector<std::string> names;
+    std::vector<double> positions;
+  };
+  /// The states that have come.
+  std::vector<JointStates> take_states(int reader);
+
   /// A client of std_srvs/srv/Trigger in the dialect of rmw_cyclonedds. Reader and writer of a
   /// client come one by one.
   void make_request_writer(const std::string& service);
   void make_reply_reader(const std::string& service);
+  /// In place of it, a client of controller_manager_msgs/srv/SwitchController of Jazzy.
+  void make_switch_client(const std::string& service);
+  /// Asks for a strict switch. The reply is that of `take_reply`.
+  void request_switch(std::int64_t sequence, const std::vector<std::string>& activate,
+                      const std::vector<std::string>& deactivate);
   /// Whether what there is of the client has its counterpart.
   [[nodiscard]] bool finds_service();
   /// Sends a request.

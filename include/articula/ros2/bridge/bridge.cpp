@@ -24,16 +24,18 @@ struct Bridge::Parts {
   }
 
   void run() {
-    try {
-      while (runs) {
+    while (runs) {
+      std::string caught_error;
+      try {
         transport->poll(std::chrono::milliseconds(2));
         nodes.update(std::chrono::system_clock::now().time_since_epoch());
-        const std::lock_guard lock(mutex);
-        dropped = nodes.dropped();
+      } catch (const std::exception& caught) {  // of one message: the others go on
+        caught_error = caught.what();
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
       }
-    } catch (const std::exception& caught) {
       const std::lock_guard lock(mutex);
-      error = caught.what();
+      dropped = nodes.dropped();
+      if (!caught_error.empty()) error = std::move(caught_error);
     }
   }
 

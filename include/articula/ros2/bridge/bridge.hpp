@@ -28,7 +28,7 @@ class Transport;
 /// and each 2 ms. Programs with a thread of their own use BridgeNodes. Real-time: no.
 class Bridge {
  public:
-  /// Over Fast DDS. By default ROS programs on this host see it, and no others.
+  /// Over Fast DDS. By default it keeps to the loopback interface; see FastDdsOptions.
   /// @param port  outlives this
   /// @throws std::invalid_argument if an option makes no sense
   /// @throws std::runtime_error if Fast DDS cannot make a participant
@@ -44,7 +44,8 @@ class Bridge {
 
   /// Messages that were not taken so far.
   [[nodiscard]] DroppedMessages dropped() const;
-  /// Why the thread has ended, if the transport or a lack of memory ended it; else empty.
+  /// The last message or request that failed, such as a reply that is too large; else empty. The
+  /// others go on.
   [[nodiscard]] std::string error() const;
 
  private:

@@ -83,10 +83,13 @@ void ControllerTopics::update() {
   if (moving_since_ &&
       core_.context.now - *moving_since_ > to_duration(core_.options.controls_time)) {
     moving_since_.reset();
-    refuse("no reference has followed one with a velocity: the joints stop");
-    ask(remote::Stop{});
+    if (core_.watch.situation.motion == "set") {  // nobody has asked for another motion since
+      refuse("no reference has followed one with a velocity: the joints stop");
+      ask(remote::Stop{});
+    }
   }
-  if (!core_.watch.has_cycle || !state_due_.due(core_.context.now)) return;
+  if (!core_.watch.has_new_cycle(published_cycle_) || !state_due_.due(core_.context.now)) return;
+  published_cycle_ = core_.watch.cycle.number;
   const CyclePoints points = points_of(core_.watch.cycle, joints_, core_.port.robot().commands);
   if (humble_state_) {
     humble_state_->publish(state_of<Humble>(core_.header(), controller_.joints, points));
@@ -131,15 +134,17 @@ void ControllerTopics::take(const TrajectoryMessage& message) {
     }
     return refuse("Incoming joint " + joint + " doesn't match the controller's joints.");
   }
-  moving_since_.reset();
   remote::PlayTrajectory request = to_request(message, core_.context.now);
   controller_.constraints.complete(request, controller_.joints);
   ask(request);
 }
 
 void ControllerTopics::set(const remote::SetReference& reference, bool moves) {
-  moving_since_ = moves ? std::optional(core_.context.now) : std::nullopt;
-  ask(reference);
+  const std::chrono::nanoseconds asked = core_.context.now;
+  core_.loop_operator.ask(reference, [this, moves, asked](const remote::Answer& answer) {
+    if (answer.verdict != remote::Verdict::done) return refuse(answer.text);
+    moving_since_ = moves ? std::optional(asked) : std::nullopt;
+  });
 }
 
 void ControllerTopics::ask(const remote::Request& request) {

@@ -10,6 +10,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,6 +56,7 @@ class ControllerTopics {
   std::optional<Publisher<State>> state_{};
   std::optional<Publisher<HumbleState>> humble_state_{};
   Periodic state_due_;
+  std::optional<std::uint64_t> published_cycle_{};
   std::optional<std::chrono::nanoseconds> moving_since_{};  ///< of a reference with a velocity
 };
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -47,6 +48,11 @@ class LoopWatch {
       for (std::size_t i = known; i < references.size(); ++i) references[i].time += shift;
     }
     while (references.size() > kept_references) references.pop_front();
+  }
+
+  /// Whether there was a cycle since the one of a number. A loop that stands still says nothing.
+  [[nodiscard]] bool has_new_cycle(std::optional<std::uint64_t> known) const {
+    return has_cycle && known != cycle.number;
   }
 
   /// The state of a controller.

@@ -209,8 +209,8 @@ class Services final : public ManagerServices {
       set_text(response.message, text);
       reply.send(response);
     };
-    constexpr int strict = 2, best_effort = 1, force_automatic = 4;
-    const int strictness = request.strictness == 0 ? strict : request.strictness;
+    constexpr int best_effort = 1, force_automatic = 4;
+    const int strictness = request.strictness == 0 ? best_effort : request.strictness;
     if (strictness < best_effort || strictness > force_automatic) {
       return answer(false, "strictness " + std::to_string(strictness) +
                                " is not 1 (best effort), 2 (strict), 3 (auto) or 4 (force auto)");

@@ -51,7 +51,8 @@ RobotTopics::RobotTopics(BridgeCore& core)
 }
 
 void RobotTopics::update() {
-  if (!core_.watch.has_cycle || !states_due_.due(core_.context.now)) return;
+  if (!core_.watch.has_new_cycle(published_cycle_) || !states_due_.due(core_.context.now)) return;
+  published_cycle_ = core_.watch.cycle.number;
   if (clock_) clock_->publish({to_message<builtin_interfaces::msg::Time>(core_.context.now)});
   if (core_.broadcasts) publish_joints();
   publish_frames();

@@ -10,6 +10,7 @@
 #include "articula/ros2/node/periodic.hpp"
 #include "articula/ros2/node/publisher.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace articula::ros2 {
@@ -42,6 +43,7 @@ class RobotTopics {
   Publisher<std_msgs::msg::String<Jazzy>> description_;
   std::optional<Publisher<rosgraph_msgs::msg::Clock>> clock_{};
   Periodic states_due_;
+  std::optional<std::uint64_t> published_cycle_{};
   sensor_msgs::msg::JointState<Jazzy> joints_{};
   control_msgs::msg::DynamicJointState<Jazzy> dynamic_{};
   tf2_msgs::msg::TFMessage<Jazzy> frames_{};

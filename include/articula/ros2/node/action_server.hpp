@@ -128,7 +128,10 @@ class ActionServer {
     } else if (goals_.find(id) == nullptr) {
       reply.send({});  // status 0: unknown
     } else {
-      if (waiting_.size() >= most_waiting) waiting_.erase(waiting_.begin());
+      if (waiting_.size() >= most_waiting) {
+        ++context_.dropped.refused;
+        return reply.send({});
+      }
       waiting_.emplace_back(id, std::move(reply));
     }
   }

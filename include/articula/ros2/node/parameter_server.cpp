@@ -94,6 +94,12 @@ void ParameterServer::update() {
   if (look_due_.due(node_.context().now)) publish_changes();
 }
 
+bool ParameterServer::too_many(const auto& names) {
+  if (names.size() <= most_names) return false;
+  ++node_.context().dropped.refused;
+  return true;
+}
+
 std::vector<NodeParameter> ParameterServer::named(const std::vector<std::string>& names) {
   const auto all = store_.list();
   std::vector<NodeParameter> found;
@@ -127,6 +133,7 @@ void ParameterServer::serve_reading() {
   serve<services::GetParameters<Jazzy>>(
       node_, "~/get_parameters",
       [this](const auto& request, const auto& reply) {
+        if (too_many(request.names)) return;
         const auto all = store_.list();
         services::GetParameters<Jazzy>::Response response;
         for (const std::string& name : request.names) {
@@ -140,6 +147,7 @@ void ParameterServer::serve_reading() {
   serve<services::GetParameterTypes<Jazzy>>(
       node_, "~/get_parameter_types",
       [this](const auto& request, const auto& reply) {
+        if (too_many(request.names)) return;
         services::GetParameterTypes<Jazzy>::Response response;
         for (const NodeParameter& own : named(request.names)) {
           response.types.push_back(own.value.type);
@@ -151,6 +159,7 @@ void ParameterServer::serve_reading() {
   serve<services::DescribeParameters<Jazzy>>(
       node_, "~/describe_parameters",
       [this](const auto& request, const auto& reply) {
+        if (too_many(request.names)) return;
         services::DescribeParameters<Jazzy>::Response response;
         for (NodeParameter& own : named(request.names)) {
           response.descriptors.push_back(std::move(own.descriptor));
@@ -174,6 +183,7 @@ void ParameterServer::serve_setting() {
       node_, "~/set_parameters",
       [this](const auto& request, const auto& reply) {
         const std::size_t count = request.parameters.size();
+        if (too_many(request.parameters)) return;
         if (count == 0) return reply.send({});
         struct Open {
           services::SetParameters<Jazzy>::Response response{};
@@ -195,6 +205,7 @@ void ParameterServer::serve_setting() {
   serve<services::SetParametersAtomically<Jazzy>>(
       node_, "~/set_parameters_atomically",
       [this](const auto& request, const auto& reply) {
+        if (too_many(request.parameters)) return;
         const auto answer = [this, reply](const std::string& reason) {
           publish_changes();
           reply.send({.result = {reason.empty(), reason}});

@@ -7,6 +7,7 @@
 #include "articula/ros2/node/periodic.hpp"
 #include "articula/ros2/node/publisher.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -28,10 +29,13 @@ namespace articula::ros2 {
 
 /// Serves the parameters of a node as `ros2 param` and rqt_reconfigure expect it: six services,
 /// get_type_description, and changes on /parameter_events. Integers are taken for numbers. A
-/// read-only parameter may be set to the value that it has, so a dumped file loads again. In the
-/// thread that polls the transport. Real-time: no (allocates).
+/// read-only parameter may be set to the value that it has, so a dumped file loads again. A request
+/// of more than `most_names` is dropped: its reply could take any memory. In the thread that polls
+/// the transport. Real-time: no (allocates).
 class ParameterServer {
  public:
+  static constexpr std::size_t most_names = 1000;
+
   /// @param node   outlives this
   /// @param store  likewise
   ParameterServer(const Node& node, ParameterStore& store);
@@ -47,6 +51,8 @@ class ParameterServer {
 
   void serve_reading();
   void serve_setting();
+  /// Whether a request is too large. It is counted then.
+  [[nodiscard]] bool too_many(const auto& names);
   [[nodiscard]] std::vector<NodeParameter> named(const std::vector<std::string>& names);
   /// The reason why a value cannot be set, or empty. Integers become numbers.
   [[nodiscard]] std::string check(const std::vector<NodeParameter>& all,

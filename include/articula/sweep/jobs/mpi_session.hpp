@@ -43,7 +43,7 @@ class MpiSession {
  private:
   [[nodiscard]] static bool is_launched() {
     constexpr auto variables =
-        std::to_array<const char*>({"Odetail::mpi_world()_SIZE", "PMIX_RANK", "PMI_RANK"});
+        std::to_array<const char*>({"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"});
     return std::any_of(variables.begin(), variables.end(),
                        [](const char* name) { return std::getenv(name) != nullptr; });
   }

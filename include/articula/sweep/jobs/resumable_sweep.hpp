@@ -2,6 +2,7 @@
 /// @file A sweep with files: rows as CSV, and a checkpoint from which it goes on.
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/sweep/jobs/checkpoint.hpp"
 #include "articula/sweep/jobs/sweep_csv.hpp"
 #include "articula/sweep/sweep.hpp"
@@ -20,16 +21,24 @@ struct SweepFiles {
   std::filesystem::path rows{};        ///< CSV; empty: rows are not kept
   std::filesystem::path checkpoint{};  ///< empty: none
   double interval = 1;                 ///< shortest time between two checkpoints [s], >= 0
-  std::string identity{};  ///< of the experiment: what decides its bits beside its parameters
+  /// What decides the experiment's bits beside its parameters and the options: robot, gains, target,
+  /// duration, version of the program. A checkpoint of another identity is refused.
+  std::string identity{};
 };
 
 /// Runs the sweep that some threads or processes compute.
 /// @param run  callable with (options, result, hooks), goes on with the result
-/// @throws as `run`; std::runtime_error naming a file that cannot be used
+/// @throws as `run`; std::runtime_error naming a file that cannot be used; std::invalid_argument for a
+///         checkpoint without an identity
 template <SweepExperiment E, class Run>
 [[nodiscard]] SweepResult resumable_sweep_by(const E& experiment, const SweepOptions& options,
                                              const SweepFiles& files, const SweepHooks& hooks,
                                              const Run& run) {
+  if (!files.checkpoint.empty() && files.identity.empty()) {
+    detail::refuse(
+        {"sweep: SweepFiles::identity is empty; expected a text that changes with the "
+         "robot, its gains and the experiment"});
+  }
   const std::string identity =
       detail::identity_of(experiment.parameters(), experiment.metrics(), options, files.identity);
   SweepResult result(experiment.metrics(), options);
@@ -66,8 +75,8 @@ template <SweepExperiment E, class Run>
   return result;
 }
 
-/// A sweep that goes on from its checkpoint: after a crash, a power failure or SIGKILL, the same call
-/// computes the runs that are missing. Its result and rows have the same bits as without interruption.
+/// A sweep that goes on from its checkpoint: after a crash or SIGKILL, the same call computes
+/// the runs that are missing. Its result and rows have the same bits as without interruption.
 /// @throws as continue_sweep; std::runtime_error naming a file that cannot be used
 /// Real-time: no (writes files).
 template <SweepExperiment E>
