@@ -124,9 +124,9 @@ constexpr auto make_spring = [](const JointPidGains<2>& gains) {
 TEST_CASE("runs have the same numbers in lanes as alone, and the same bits in any chunk") {
   ClosedLoopOptions<2> options = q2d_options();
   options.disturbances = {{"elbow_active_joint", SineSignal{.amplitude = 3}, SignalTarget::effort}};
-  options.vary = {{VariedQuantity::mass, "elbow_passive_link", 0.02, 3},
+  options.vary = {{VariedQuantity::mass, "elbow_passive_link", 0.05, 3},
                   {VariedQuantity::payload, "tool_link", 0, 0.5},
-                  {VariedQuantity::damping, {}, 0.5, 20},  // steps of several lengths
+                  {VariedQuantity::damping, {}, 0.5, 8},  // steps of several lengths
                   {VariedQuantity::added_friction, {}, 0, 1},
                   {VariedQuantity::delay, {}, 0, 0.003},
                   {VariedQuantity::position_noise, {}, 0, 1e-4},
