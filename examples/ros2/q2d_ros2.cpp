@@ -16,7 +16,7 @@
 using namespace articula;
 
 template <class R>
-using Controllers = Switch<R, PidPlusGravity<R>, Pid<R>, ComputedTorque<R>>;
+using Controllers = Switch<R, PidPlusGravity<R>, Pid<R>, ComputedTorque<R>, Bypass<R>>;
 
 int main() try {
   const char* domain = std::getenv("ROS_DOMAIN_ID");

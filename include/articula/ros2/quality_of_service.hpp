@@ -6,10 +6,12 @@
 
 namespace articula::ros2 {
 
-/// How a topic is transported. All topics here are reliable: lost samples are sent again.
+/// How a topic is transported. Writers here are reliable: lost samples are sent again.
 struct QualityOfService {
   bool transient_local = false;  ///< late readers get the last samples of the writer
   std::size_t depth = 1;         ///< samples that are kept
+  /// For readers: samples may be lost. Writers that offer no more match as well as reliable ones.
+  bool best_effort = false;
 };
 
 namespace quality_of_service {
@@ -22,6 +24,9 @@ inline constexpr QualityOfService action_feedback{.transient_local = false, .dep
 inline constexpr QualityOfService action_status{.transient_local = true, .depth = 1};
 /// Joint states, states of controllers and commands.
 inline constexpr QualityOfService states{.transient_local = false, .depth = 1};
+/// Readers of measurements, as rclcpp's SensorDataQoS.
+inline constexpr QualityOfService sensor_data{
+    .transient_local = false, .depth = 5, .best_effort = true};
 inline constexpr QualityOfService robot_description{.transient_local = true, .depth = 1};
 inline constexpr QualityOfService tf{.transient_local = false, .depth = 100};
 /// Writers of static transforms. Readers keep 100 samples.

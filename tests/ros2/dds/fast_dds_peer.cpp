@@ -124,9 +124,10 @@ FastDdsPeer::~FastDdsPeer() {
 }
 
 std::size_t FastDdsPeer::make_writer(const std::string& topic, const std::string& type,
-                                     bool transient_local) {
+                                     bool transient_local, bool best_effort) {
   fast::DataWriterQos quality;
   set(quality, transient_local);
+  if (best_effort) quality.reliability().kind = fast::BEST_EFFORT_RELIABILITY_QOS;
   auto* writer = entities_->publisher->create_datawriter(entities_->topic(topic, type), quality);
   if (writer == nullptr) throw std::runtime_error("no writer");
   entities_->writers.push_back(writer);

@@ -22,9 +22,9 @@ class FastDdsPeer {
   FastDdsPeer& operator=(const FastDdsPeer&) = delete;
   ~FastDdsPeer();
 
-  /// A reliable writer or reader in the names of DDS. Returns its index.
+  /// A writer or reader in the names of DDS, reliable by default. Returns its index.
   std::size_t make_writer(const std::string& topic, const std::string& type,
-                          bool transient_local = false);
+                          bool transient_local = false, bool best_effort = false);
   std::size_t make_reader(const std::string& topic, const std::string& type,
                           bool transient_local = false);
   void write(std::size_t writer, std::span<const std::byte> bytes);

@@ -22,9 +22,11 @@ using States = ros2::sensor_msgs::msg::JointState<ros2::Jazzy>;
 
 TEST_CASE("states come in and commands go out over DDS, and the end is a stop") {
   talk_over_udp_only();
+  const bool best_effort = GENERATE(false, true);
   FastDdsPeer peer(domain());
   const std::string type = ros2::dds_type_name<States>();
-  const auto states = peer.make_writer(ros2::topic_name("/robot_joint_states"), type);
+  const auto states =
+      peer.make_writer(ros2::topic_name("/robot_joint_states"), type, false, best_effort);
   const auto commands = peer.make_reader(ros2::topic_name("/robot_joint_commands"), type);
   States joints;
   joints.name = {"elbow_active_joint", "shoulder_active_joint"};

@@ -32,7 +32,8 @@ Reader::Reader(rtps::RTPSParticipant& participant, Inbox& inbox, const Endpoint&
                                           incomplete_largest_messages * endpoint.largest_message)),
       history_(history_attributes(endpoint, incomplete_messages)) {
   rtps::ReaderAttributes attributes;
-  attributes.endpoint.reliabilityKind = rtps::RELIABLE;
+  attributes.endpoint.reliabilityKind =
+      endpoint.quality.best_effort ? rtps::BEST_EFFORT : rtps::RELIABLE;
   attributes.endpoint.durabilityKind =
       endpoint.quality.transient_local ? rtps::TRANSIENT_LOCAL : rtps::VOLATILE;
   attributes.matched_writers_allocation = {0, most_matches, 1};
@@ -42,7 +43,9 @@ Reader::Reader(rtps::RTPSParticipant& participant, Inbox& inbox, const Endpoint&
   }
 
   eprosima::fastrtps::ReaderQos quality;
-  quality.m_reliability.kind = eprosima::fastrtps::RELIABLE_RELIABILITY_QOS;
+  quality.m_reliability.kind = endpoint.quality.best_effort
+                                   ? eprosima::fastrtps::BEST_EFFORT_RELIABILITY_QOS
+                                   : eprosima::fastrtps::RELIABLE_RELIABILITY_QOS;
   quality.m_durability.kind = endpoint.quality.transient_local
                                   ? eprosima::fastrtps::TRANSIENT_LOCAL_DURABILITY_QOS
                                   : eprosima::fastrtps::VOLATILE_DURABILITY_QOS;

@@ -52,7 +52,7 @@ class TopicLink {
   using Time = std::chrono::nanoseconds;
 
   TopicLink(const R& robot, Transport& transport, const TopicHardwareOptions& options)
-      : context_(transport, checked(options).distribution),
+      : context_(transport, checked_distribution(options)),
         node_(context_, options.node.empty()
                             ? "topic_based_ros2_control_" + std::string(model_of(robot).name.view())
                             : options.node),
@@ -60,7 +60,7 @@ class TopicLink {
         deadline_(to_duration(options.command_deadline)),
         names_(names_of(robot)),
         collector_(names_, options.sum_wrapped_joint_states) {
-    subscribe<Message>(node_, options.joint_states_topic, quality_of_service::states,
+    subscribe<Message>(node_, options.joint_states_topic, quality_of_service::sensor_data,
                        [this](const Message& message) { take(message); });
   }
 
@@ -114,9 +114,9 @@ class TopicLink {
     bool follows = false;
   };
 
-  static const TopicHardwareOptions& checked(const TopicHardwareOptions& options) {
+  static Distribution checked_distribution(const TopicHardwareOptions& options) {
     validate(options);
-    return options;
+    return options.distribution;
   }
 
   void take(const Message& message) {
