@@ -7,10 +7,12 @@
 
 #include "catch.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
+#include <set>
+#include <utility>
 #include <vector>
 
 using namespace articula;
@@ -136,6 +138,11 @@ TEST_CASE("runs have the same numbers in lanes as alone, and the same bits in an
   const auto experiment = experiment_of<Q2d>(Q2d::pid_gains, options);
   const auto rows = rows_of(experiment, {.sampling = {.runs = 50}, .threads = 2, .chunk = 50});
   REQUIRE(rows.size() == 50);
+  std::set<int> substeps;
+  for (const SweepRow& row : rows) {
+    substeps.insert(experiment.loop({row.number, row.seed, row.parameters}).simulation.substeps);
+  }
+  CHECK(substeps.size() > 1);
   check_alone(experiment, rows);
   for (const std::uint64_t chunk : {1U, 7U}) {
     const auto other =
