@@ -206,7 +206,12 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
   CHECK_THAT(refused({VariedQuantity::payload, {}, 0, 1}), Catch::Contains("needs the name"));
   CHECK_THAT(refused({VariedQuantity::delay, "elbow_active_joint", 0, 1}),
              Catch::Contains("whole loop"));
-  CHECK_THAT(refused({VariedQuantity::damping, {}, 0, 1e6}), Catch::Contains("high ends"));
+  CHECK_THAT(refused({VariedQuantity::damping, {}, 0, 1e6}), Catch::Contains("with damping 1e+06"));
+  CHECK_THAT(message([&] {
+               static_cast<void>(experiment_of(
+                   {{VariedQuantity::mass, {}, 0.02, 1}, {VariedQuantity::damping, {}, 1, 20}}));
+             }),
+             Catch::Contains("mass 0.02, damping 20"));
   const auto experiment = arms();
   CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.worst_metric = "speed"})); }),
              Catch::Contains("'speed'") && Catch::Contains("elbow_active_joint.overshoot"));

@@ -45,8 +45,6 @@ struct ClosedLoopOptions {
 ///         [](const JointPidGains<2>& gains) { return PidPlusGravity<Q2d>(gains); },
 ///         {.target = JointVector<2>(0.5, -0.5),
 ///          .vary = {{VariedQuantity::mass, "elbow_passive_link", 0.8, 1.2}}});
-///
-/// `loop(run)` gives everything that a run differs in.
 /// @tparam R     the robot as described
 /// @tparam Make  makes the controller of gains; several threads call it at the same time
 template <DynamicRobot R, class Make>
