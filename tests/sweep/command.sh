@@ -84,5 +84,5 @@ refused 's/duration: 0.3/duration: 1e9/' 'bad.yaml:4:.*1 000 000 periods'
 refused 's/tracking_rms: 0.2/speed: 0.2/' "bad.yaml:11:.*no metric 'elbow_active_joint.speed'"
 refused 's/\[elbow_active_joint.overshoot\]/[height]/' "bad.yaml:14:.*no column 'height'"
 refused 's/height: 0.5/height: many/' 'bad.yaml:6:.*a number'
-refused 's/quantity: delay, low: 0, high: 0.003/quantity: damping, low: 1, high: 1e5/' 'high ends'
+refused 's/quantity: delay, low: 0, high: 0.003/quantity: damping, low: 1, high: 1e5/' 'damping 100000: simulator'
 refused 's/^sampling/samplings/' "bad.yaml:10:.*unknown key 'samplings'"

@@ -89,10 +89,10 @@ LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
                                .page_folder = plan.page_folder,
                                .mesh_folders = plan.mesh_folders});
   loop.request_activation();
-  plan.ready(view.url());
 
   articula::StopFlag stop;
-  const articula::StopOnSignal on_signal(stop);
+  const articula::StopOnSignal on_signal(stop);  // before anybody knows that it runs
+  plan.ready(view.url());
   articula::RealtimeOptions options;
   options.thread.priority = plan.priority;
   options.thread.lock_memory = plan.priority > 0;

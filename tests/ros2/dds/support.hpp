@@ -59,7 +59,7 @@ inline std::string text_of(Sample sample) {
 /// Polls until the condition holds, at most for 10 s.
 template <class Condition>
 bool poll_until(Transport& transport, Condition condition) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   while (!condition()) {
     if (std::chrono::steady_clock::now() > end) return false;
     transport.poll(std::chrono::milliseconds(5));
