@@ -91,10 +91,10 @@ TEST_CASE("futures begin with the present state and follow the present reference
   const double time = arm.loop.time();
   const JointVector<2> position = arm.loop.state().position;
   arm.cycles(1);  // publishes the last one
-  const auto answer = arm.remote.futures({.options = {.count = 20}});
+  const auto answer = arm.remote.futures({.options = {.count = 5}});
   CHECK(answer.time == time);
   CHECK(answer.horizon == 1);
-  REQUIRE(answer.futures.size() == 20);
+  REQUIRE(answer.futures.size() == 5);
   for (const FutureTrajectory& future : answer.futures) {
     REQUIRE(future.positions.size() == 2);
     REQUIRE(future.positions[0].size() == 51);
