@@ -24,7 +24,7 @@ using Parameter = rcl_interfaces::msg::Parameter<Jazzy>;
 using Event = rcl_interfaces::msg::ParameterEvent<Jazzy>;
 using Names = std::vector<std::string>;
 const std::string node = "/pid_plus_gravity/";
-const std::string p = "gains." + shoulder_joint + ".p";
+const std::string p = "gains.shoulder_active_joint.p";
 
 Parameter number(const std::string& name, double value) {
   return {.name = name, .value = {.type = Type::floating_point, .double_value = value}};
