@@ -172,6 +172,7 @@ TEST_CASE("a run that overflows in a lane is a result and changes no bit of the 
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const bool bad = rows[k].parameters[1] > 1;
     CHECK((rows[k].end == FutureEnd::non_finite) == bad);
+    CHECK(std::ranges::all_of(rows[k].metrics, [](double x) { return std::isnan(x); }) == bad);
     overflows += bad ? 1 : 0;
     if (!bad) CHECK(same_bits(rows[k].metrics, healthy[k].metrics));
   }

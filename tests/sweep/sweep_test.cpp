@@ -2,6 +2,7 @@
 #include <articula/articula.hpp>
 #include <articula/robots/q2d.hpp>
 #include <articula/sweep/closed_loop_experiment.hpp>
+#include <articula/sweep/jobs/resumable_sweep.hpp>
 #include <articula/sweep/sweep.hpp>
 
 #include "catch.hpp"
@@ -213,6 +214,10 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
              }),
              Catch::Contains("mass 0.02, damping 20"));
   const auto experiment = arms();
+  CHECK_THAT(message([&] {
+               static_cast<void>(resumable_sweep(experiment, {}, {.checkpoint = "checkpoint"}));
+             }),
+             Catch::Contains("identity is empty"));
   CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.worst_metric = "speed"})); }),
              Catch::Contains("'speed'") && Catch::Contains("elbow_active_joint.overshoot"));
   CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.sampling = {.runs = 0}})); }),
