@@ -35,6 +35,7 @@ foreach(joints RANGE 1 8)
 endforeach()
 add_executable(articula_program ${articula_program_files})
 target_include_directories(articula_program PRIVATE ${CMAKE_CURRENT_LIST_DIR}/articula)
+target_precompile_headers(articula_program PRIVATE <CLI/CLI.hpp>)
 set_target_properties(articula_program PROPERTIES OUTPUT_NAME articula)
 target_link_libraries(articula_program PRIVATE articula::recording articula::config articula::urdf
                                                articula::view CLI11::CLI11)

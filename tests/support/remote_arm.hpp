@@ -54,6 +54,16 @@ using SupervisedArm =
     RemoteArm<articula::SupervisedLoop<articula::Q2dSim, articula::PidPlusGravity>>;
 using PlainArm = RemoteArm<articula::Loop<articula::Q2dSim, articula::PidPlusGravity>>;
 
+// tests/remote/remote_arms.cpp has them compiled once for all tests.
+extern template class RemoteArm<
+    articula::SupervisedLoop<articula::Q2dSim, articula::PidPlusGravity>>;
+extern template class RemoteArm<articula::Loop<articula::Q2dSim, articula::PidPlusGravity>>;
+
 inline const std::string shoulder = "shoulder_active_joint", elbow = "elbow_active_joint";
 
 }  // namespace support
+
+namespace articula::remote {
+extern template class Remote<SupervisedLoop<Q2dSim, PidPlusGravity>>;
+extern template class Remote<Loop<Q2dSim, PidPlusGravity>>;
+}  // namespace articula::remote

@@ -22,6 +22,8 @@ void append_text(std::string& bytes, std::string_view text) {
 
 }  // namespace
 
+SharedText share(const Json& json) { return std::make_shared<const std::string>(to_text(json)); }
+
 Frame text_frame(const Json& json) { return {true, to_text(json), nullptr}; }
 
 Frame text_frame(SharedText text) { return {true, {}, std::move(text)}; }

@@ -16,6 +16,9 @@ namespace articula::view {
 /// A text that many clients get.
 using SharedText = std::shared_ptr<const std::string>;
 
+/// The text of a value, for many clients.
+[[nodiscard]] SharedText share(const Json& json);
+
 /// A WebSocket frame: a head of its client's own and a body that may be shared between clients.
 struct Frame {
   bool is_text = true;

@@ -17,7 +17,7 @@ constexpr std::array shares{0.0, 0.1, 0.5, 0.9, 1.0};  // of the futures below a
 constexpr std::size_t most_curves = 8;
 
 /// Seven digits, more than a plot shows; null if it is not finite.
-Json number(double x) {
+Json rounded(double x) {
   if (!std::isfinite(x)) return nullptr;
   const double unit = x == 0 ? 1 : std::pow(10.0, 6 - std::floor(std::log10(std::abs(x))));
   return std::isfinite(unit) && unit > 0 ? std::round(x * unit) / unit : x;
@@ -38,7 +38,7 @@ Json quantiles(const remote::FuturesAnswer& answer, std::size_t joint) {
     std::sort(values.begin(), values.end());
     for (std::size_t band = 0; band < shares.size(); ++band) {
       const double place = shares[band] * static_cast<double>(values.size() - 1);
-      bands[band].push_back(number(values[static_cast<std::size_t>(std::lround(place))]));
+      bands[band].push_back(rounded(values[static_cast<std::size_t>(std::lround(place))]));
     }
   }
 }
@@ -54,21 +54,17 @@ constexpr std::array cycle_members{Member{"position", Kind::numbers, true},
                                    Member{"reference_velocity", Kind::numbers},
                                    Member{"reference_acceleration", Kind::numbers},
                                    Member{"reference_effort", Kind::numbers}};
-constexpr std::array reference_members{
+constexpr std::array followed_members{
     Member{"position", Kind::numbers, true}, Member{"velocity", Kind::numbers},
     Member{"acceleration", Kind::numbers}, Member{"effort", Kind::numbers}};
-
-std::vector<double> numbers(const Json& object, const char* member) {
-  return object.value(member, std::vector<double>{});
-}
 
 /// Reads where the futures begin and what they follow.
 /// @return empty if all is well, else what is wrong
 std::string read_course(const Json& call, remote::FuturesQuestion& question) {
   if (const auto start = call.find("start"); start != call.end()) {
     if (std::string fault = fault_of(*start, start_members, "start."); !fault.empty()) return fault;
-    question.start = {start->at("time").get<double>(), numbers(*start, "position"),
-                      numbers(*start, "velocity"), numbers(*start, "effort")};
+    question.start = {start->at("time").get<double>(), numbers_of(*start, "position"),
+                      numbers_of(*start, "velocity"), numbers_of(*start, "effort")};
   }
   if (const auto history = call.find("history"); history != call.end()) {
     std::size_t index = 0;
@@ -76,9 +72,9 @@ std::string read_course(const Json& call, remote::FuturesQuestion& question) {
       const std::string place = "history[" + std::to_string(index++) + "].";
       if (std::string fault = fault_of(own, cycle_members, place); !fault.empty()) return fault;
       question.history.push_back(
-          {{0, numbers(own, "position"), numbers(own, "velocity"), numbers(own, "effort")},
-           {numbers(own, "reference_position"), numbers(own, "reference_velocity"),
-            numbers(own, "reference_acceleration"), numbers(own, "reference_effort")},
+          {{0, numbers_of(own, "position"), numbers_of(own, "velocity"), numbers_of(own, "effort")},
+           {numbers_of(own, "reference_position"), numbers_of(own, "reference_velocity"),
+            numbers_of(own, "reference_acceleration"), numbers_of(own, "reference_effort")},
            own.at("command").get<std::vector<std::vector<double>>>()});
     }
   }
@@ -86,9 +82,9 @@ std::string read_course(const Json& call, remote::FuturesQuestion& question) {
     std::size_t index = 0;
     for (const Json& own : *references) {
       const std::string place = "references[" + std::to_string(index++) + "].";
-      if (std::string fault = fault_of(own, reference_members, place); !fault.empty()) return fault;
-      question.references.push_back({numbers(own, "position"), numbers(own, "velocity"),
-                                     numbers(own, "acceleration"), numbers(own, "effort")});
+      if (std::string fault = fault_of(own, followed_members, place); !fault.empty()) return fault;
+      question.references.push_back({numbers_of(own, "position"), numbers_of(own, "velocity"),
+                                     numbers_of(own, "acceleration"), numbers_of(own, "effort")});
     }
   }
   question.reference_step = call.value("reference_step", question.reference_step);
@@ -143,7 +139,7 @@ Json futures_json(const remote::FuturesAnswer& answer, const remote::RobotSheet&
     Json curves = Json::array();
     for (std::size_t k = 0; k < std::min(most_curves, answer.futures.size()); ++k) {
       Json& curve = curves.emplace_back(Json::array());
-      for (const double q : answer.futures[k].positions[j]) curve.push_back(number(q));
+      for (const double q : answer.futures[k].positions[j]) curve.push_back(rounded(q));
     }
     json["joints"].push_back(
         {{"name", robot.joints[j].name}, {"quantiles", quantiles(answer, j)}, {"curves", curves}});
@@ -152,9 +148,9 @@ Json futures_json(const remote::FuturesAnswer& answer, const remote::RobotSheet&
     json["margins"].push_back({{"controller", margins.controller},
                                {"joint", margins.joint},
                                {"stable", margins.stable},
-                               {"gain_margin", number(margins.gain_margin)},
-                               {"phase_margin", number(margins.phase_margin)},
-                               {"delay_margin", number(margins.delay_margin)}});
+                               {"gain_margin", rounded(margins.gain_margin)},
+                               {"phase_margin", rounded(margins.phase_margin)},
+                               {"delay_margin", rounded(margins.delay_margin)}});
   }
   return json;
 }

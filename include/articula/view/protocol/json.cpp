@@ -42,6 +42,10 @@ std::string to_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::vector<double> numbers_of(const Json& object, const char* member) {
+  return object.value(member, std::vector<double>{});
+}
+
 void append_number(std::string& text, double x) {
   if (!std::isfinite(x)) {
     text += "null";

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace articula::view {
 
@@ -22,6 +23,9 @@ inline constexpr std::size_t json_depth_limit = 16;
 
 /// The text of a value. Bytes that are not UTF-8 become the replacement character.
 [[nodiscard]] std::string to_text(const Json& json);
+
+/// The numbers of a list that is a member of the object; none if there is no such member.
+[[nodiscard]] std::vector<double> numbers_of(const Json& object, const char* member);
 
 /// Appends the shortest text that reads back as the same double; null if it is not finite.
 void append_number(std::string& text, double x);

@@ -9,7 +9,7 @@ namespace articula::view {
 
 namespace {
 
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+Json finite_or_null(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json joint_json(const remote::SheetJoint& joint) {
   const JointLimits& limits = joint.limits;
@@ -18,15 +18,15 @@ Json joint_json(const remote::SheetJoint& joint) {
           {"position_unit", joint.position_unit()},
           {"effort_unit", joint.effort_unit()},
           {"limits",
-           {{"lower", number(limits.lower)},
-            {"upper", number(limits.upper)},
-            {"velocity", number(limits.velocity)},
-            {"effort", number(limits.effort)},
-            {"acceleration", number(limits.acceleration)},
-            {"jerk", number(limits.jerk)},
-            {"soft_lower", number(limits.soft_lower)},
-            {"soft_upper", number(limits.soft_upper)},
-            {"soft_rate", number(limits.soft_rate)}}}};
+           {{"lower", finite_or_null(limits.lower)},
+            {"upper", finite_or_null(limits.upper)},
+            {"velocity", finite_or_null(limits.velocity)},
+            {"effort", finite_or_null(limits.effort)},
+            {"acceleration", finite_or_null(limits.acceleration)},
+            {"jerk", finite_or_null(limits.jerk)},
+            {"soft_lower", finite_or_null(limits.soft_lower)},
+            {"soft_upper", finite_or_null(limits.soft_upper)},
+            {"soft_rate", finite_or_null(limits.soft_rate)}}}};
 }
 
 }  // namespace
@@ -93,8 +93,8 @@ Json parameters_json(const std::vector<remote::Parameter>& parameters) {
     json["parameters"].push_back({{"name", parameter.name},
                                   {"value", parameter.value},
                                   {"unit", parameter.unit},
-                                  {"lowest", number(parameter.lowest)},
-                                  {"highest", number(parameter.highest)},
+                                  {"lowest", finite_or_null(parameter.lowest)},
+                                  {"highest", finite_or_null(parameter.highest)},
                                   {"description", parameter.description}});
   }
   return json;

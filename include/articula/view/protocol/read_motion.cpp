@@ -16,9 +16,9 @@ constexpr std::array point_members{
 
 constexpr Member joint_member{"joint", Kind::text, true}, kind_member{"kind", Kind::text, true},
     target_member{"target", Kind::text};
-constexpr std::array step_members{joint_member, kind_member, target_member,
-                                  Member{"height", Kind::number, true},
-                                  Member{"start", Kind::number}};
+constexpr std::array step_signal_members{joint_member, kind_member, target_member,
+                                         Member{"height", Kind::number, true},
+                                         Member{"start", Kind::number}};
 constexpr std::array ramp_members{joint_member,
                                   kind_member,
                                   target_member,
@@ -41,24 +41,20 @@ constexpr std::array chirp_members{joint_member,
                                    Member{"duration", Kind::number, true},
                                    Member{"start", Kind::number}};
 
-std::vector<double> numbers(const Json& object, const char* member) {
-  return object.value(member, std::vector<double>{});
-}
-
 double seconds(const Json& duration) {
   if (duration.is_number()) return duration.get<double>();
   const double nanoseconds = duration.value("nanosec", 0.0) + duration.value("nsec", 0.0);
   return duration.value("sec", 0.0) + 1e-9 * nanoseconds;
 }
 
-double number(const Json& object, const char* member, double otherwise) {
+double number_or(const Json& object, const char* member, double otherwise) {
   return object.value(member, otherwise);
 }
 
 template <class Wave>
 Signal wave(const Json& json) {
-  return Wave{number(json, "amplitude", 0), number(json, "frequency", 0), number(json, "phase", 0),
-              number(json, "offset", 0)};
+  return Wave{number_or(json, "amplitude", 0), number_or(json, "frequency", 0),
+              number_or(json, "phase", 0), number_or(json, "offset", 0)};
 }
 
 /// A kind of signal: its name, the members of its JSON, and how to read them.
@@ -69,22 +65,23 @@ struct SignalKind {
 };
 
 const std::array signal_kinds{
-    SignalKind{"step", step_members,
+    SignalKind{"step", step_signal_members,
                [](const Json& x) -> Signal {
-                 return StepSignal{number(x, "height", 0), number(x, "start", 0)};
+                 return StepSignal{number_or(x, "height", 0), number_or(x, "start", 0)};
                }},
     SignalKind{"ramp", ramp_members,
                [](const Json& x) -> Signal {
-                 return RampSignal{number(x, "height", 0), number(x, "duration", 1),
-                                   number(x, "start", 0)};
+                 return RampSignal{number_or(x, "height", 0), number_or(x, "duration", 1),
+                                   number_or(x, "start", 0)};
                }},
     SignalKind{"sine", wave_members, wave<SineSignal>},
     SignalKind{"square", wave_members, wave<SquareSignal>},
     SignalKind{"chirp", chirp_members,
                [](const Json& x) -> Signal {
-                 return ChirpSignal{number(x, "amplitude", 0), number(x, "first_frequency", 1),
-                                    number(x, "last_frequency", 1), number(x, "duration", 1),
-                                    number(x, "start", 0)};
+                 return ChirpSignal{number_or(x, "amplitude", 0),
+                                    number_or(x, "first_frequency", 1),
+                                    number_or(x, "last_frequency", 1), number_or(x, "duration", 1),
+                                    number_or(x, "start", 0)};
                }},
 };
 
@@ -131,8 +128,9 @@ Asked read_trajectory(const Json& message) {
       return Refusal{std::move(fault)};
     }
     request.trajectory.points.push_back(
-        {seconds(point.at("time_from_start")), numbers(point, "positions"),
-         numbers(point, "velocities"), numbers(point, "accelerations"), numbers(point, "effort")});
+        {seconds(point.at("time_from_start")), numbers_of(point, "positions"),
+         numbers_of(point, "velocities"), numbers_of(point, "accelerations"),
+         numbers_of(point, "effort")});
   }
   return remote::Request(std::move(request));
 }
@@ -154,7 +152,7 @@ Asked read_published_reference(const Json& message) {
   for (const auto& [member, target] :
        {std::pair{"position", &request.positions}, std::pair{"velocity", &request.velocities},
         std::pair{"effort", &request.efforts}}) {
-    const auto values = numbers(message, member);
+    const auto values = numbers_of(message, member);
     if (values.empty()) continue;
     if (values.size() != names.size()) {
       return Refusal{std::string(member) + ": has " + std::to_string(values.size()) +

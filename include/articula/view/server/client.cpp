@@ -17,8 +17,6 @@ constexpr const char* only_shows =
 constexpr std::size_t watch_limit = 4096;  // names of parameters
 constexpr std::size_t asset_limit = 1024;  // files that wait to be read
 
-SharedText share(const Json& json) { return std::make_shared<const std::string>(to_text(json)); }
-
 }  // namespace
 
 Client::Client(remote::Port& port, FuturesDesk& futures, const Latest& latest,

@@ -11,8 +11,6 @@ namespace articula::view {
 
 namespace {
 
-SharedText share(const Json& json) { return std::make_shared<const std::string>(to_text(json)); }
-
 Json server_info_json(const remote::RobotSheet& robot, const std::string& session_id) {
   return {{"op", "serverInfo"},
           {"name", "articula: " + robot.name},
