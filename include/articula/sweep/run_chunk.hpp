@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
+#include "articula/sweep/row_text.hpp"
 #include "articula/sweep/sampling/samples.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_result.hpp"
@@ -22,6 +23,12 @@ namespace articula {
 struct SweepChunk {
   std::uint64_t first = 0;
   std::uint64_t count = 0;
+};
+
+/// The runs of a chunk.
+struct ComputedChunk {
+  std::vector<SweepRow> rows{};
+  std::string lines{};  ///< the same as CSV, if a sweep's hooks ask for it
 };
 
 namespace detail {
@@ -84,6 +91,20 @@ template <SweepExperiment E>
     rows.push_back(run_once(experiment, samples, chunk.first + k, metrics));
   }
   return rows;
+}
+
+/// The runs of a chunk, and their lines of CSV.
+/// @param with_lines  false: without the lines
+/// @throws std::runtime_error as above
+/// Real-time: no (allocates).
+template <SweepExperiment E>
+[[nodiscard]] ComputedChunk compute_chunk(const E& experiment, const Samples& samples,
+                                          const SweepChunk& chunk, bool with_lines) {
+  ComputedChunk computed{run_chunk(experiment, samples, chunk)};
+  if (with_lines) {
+    for (const SweepRow& row : computed.rows) append_row(computed.lines, row);
+  }
+  return computed;
 }
 
 }  // namespace articula

@@ -18,11 +18,23 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <vector>
+#include <string_view>
 
 namespace articula {
 
 namespace detail {
+
+/// Adds the runs of a chunk to a result, and tells the hooks.
+/// @return  false if the hooks end the sweep
+template <class Hooks>
+[[nodiscard]] bool collect(const ComputedChunk& chunk, SweepResult& result, const Hooks& hooks) {
+  for (const SweepRow& row : chunk.rows) {
+    result.add(row);
+    if (hooks.row) hooks.row(row);
+  }
+  if (hooks.lines) hooks.lines(chunk.lines);
+  return !hooks.progress || hooks.progress(result);
+}
 
 /// Refuses a result with more runs than its sweep has.
 inline void check_begun(const SweepResult& result, const Samples& samples) {
@@ -35,7 +47,10 @@ inline void check_begun(const SweepResult& result, const Samples& samples) {
 
 /// What to do while a sweep runs. Calls come from one thread at a time, in the order of the runs.
 struct SweepHooks {
-  std::function<void(const SweepRow&)> row{};  ///< with each run, for example to write a file
+  std::function<void(const SweepRow&)> row{};  ///< with each run
+  /// With some runs as lines of CSV, see append_row. The threads and ranks that compute the runs
+  /// write their lines, too.
+  std::function<void(std::string_view)> lines{};
   /// After some runs, with all so far; false ends the sweep early.
   std::function<bool(const SweepResult&)> progress{};
 };
@@ -62,7 +77,7 @@ void continue_sweep(const E& experiment, const SweepOptions& options, SweepResul
   const auto under_way = 4 * static_cast<std::size_t>(arena.max_concurrency());
   std::uint64_t next = result.runs();
   std::atomic<bool> goes_on = true;
-  using Rows = std::vector<SweepRow>;
+  const bool with_lines = hooks.lines != nullptr;
   const auto take = [&](tbb::flow_control& flow) {
     const SweepChunk chunk{next, std::min(options.chunk, samples.runs() - next)};
     if (chunk.count == 0 || !goes_on) flow.stop();
@@ -70,21 +85,18 @@ void continue_sweep(const E& experiment, const SweepOptions& options, SweepResul
     return chunk;
   };
   const auto compute = [&](const SweepChunk& chunk) {
-    return chunk.count == 0 ? Rows() : run_chunk(experiment, samples, chunk);
+    if (chunk.count == 0) return ComputedChunk();
+    return compute_chunk(experiment, samples, chunk, with_lines);
   };
-  const auto collect = [&](const Rows& rows) {
-    if (!goes_on || rows.empty()) return;
-    for (const SweepRow& row : rows) {
-      result.add(row);
-      if (hooks.row) hooks.row(row);
-    }
-    goes_on = !hooks.progress || hooks.progress(result);
+  const auto collect = [&](const ComputedChunk& chunk) {
+    if (goes_on && !chunk.rows.empty()) goes_on = detail::collect(chunk, result, hooks);
   };
   arena.execute([&] {
     tbb::parallel_pipeline(
-        under_way, tbb::make_filter<void, SweepChunk>(tbb::filter_mode::serial_in_order, take) &
-                       tbb::make_filter<SweepChunk, Rows>(tbb::filter_mode::parallel, compute) &
-                       tbb::make_filter<Rows, void>(tbb::filter_mode::serial_in_order, collect));
+        under_way,
+        tbb::make_filter<void, SweepChunk>(tbb::filter_mode::serial_in_order, take) &
+            tbb::make_filter<SweepChunk, ComputedChunk>(tbb::filter_mode::parallel, compute) &
+            tbb::make_filter<ComputedChunk, void>(tbb::filter_mode::serial_in_order, collect));
   });
 }
 

@@ -10,7 +10,8 @@ namespace articula::detail {
 // NOLINTBEGIN(bugprone-casting-through-void)
 /// All ranks.
 [[nodiscard]] inline MPI_Comm mpi_world() noexcept { return MPI_COMM_WORLD; }
-[[nodiscard]] inline MPI_Datatype mpi_double() noexcept { return MPI_DOUBLE; }
+[[nodiscard]] inline MPI_Datatype mpi_byte() noexcept { return MPI_BYTE; }
+[[nodiscard]] inline MPI_Datatype mpi_int() noexcept { return MPI_INT; }
 [[nodiscard]] inline MPI_Datatype mpi_uint64() noexcept { return MPI_UINT64_T; }
 // NOLINTEND(bugprone-casting-through-void)
 

@@ -12,6 +12,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace articula {
@@ -59,10 +60,13 @@ template <SweepExperiment E, class Run>
   using Clock = std::chrono::steady_clock;
   Clock::time_point written = Clock::now();
   SweepHooks own;
-  own.row = [&](const SweepRow& row) {
-    if (csv) csv->add(row);
-    if (hooks.row) hooks.row(row);
-  };
+  own.row = hooks.row;
+  if (csv || hooks.lines) {
+    own.lines = [&](std::string_view lines) {
+      if (csv) csv->add_lines(lines);
+      if (hooks.lines) hooks.lines(lines);
+    };
+  }
   own.progress = [&](const SweepResult& so_far) {
     if (Clock::now() - written >= std::chrono::duration<double>(files.interval)) {
       write(so_far);

@@ -2,10 +2,10 @@
 /// @file The runs of a sweep as CSV.
 #pragma once
 
+#include "articula/sweep/row_text.hpp"
 #include "articula/sweep/sampling/sweep_parameter.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_result.hpp"
-#include "articula/text/numbers.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,13 +17,6 @@
 
 namespace articula {
 
-/// The word for a run's end in files: stable, unstable or non_finite.
-[[nodiscard]] constexpr std::string_view to_string(FutureEnd end) noexcept {
-  return end == FutureEnd::stable     ? "stable"
-         : end == FutureEnd::unstable ? "unstable"
-                                      : "non_finite";
-}
-
 /// The names of a table of runs: run, seed, end, the parameters, the metrics.
 [[nodiscard]] inline std::vector<std::string> sweep_columns(
     const std::vector<SweepParameter>& parameters, const std::vector<SweepMetric>& metrics) {
@@ -33,8 +26,7 @@ namespace articula {
   return names;
 }
 
-/// Writes runs to a CSV file: a header, then a line for each run in the order of their numbers. Each
-/// number reads back as the same double; an undefined metric is nan.
+/// Writes runs to a CSV file: a header, then a line for each run in the order of their numbers.
 class SweepCsv {
  public:
   /// Opens a file, or goes on with one.
@@ -55,12 +47,13 @@ class SweepCsv {
 
   /// Adds a run. Real-time: no (writes a file).
   void add(const SweepRow& row) {
-    line_ = std::to_string(row.number) + ',' + std::to_string(row.seed) + ',';
-    line_ += to_string(row.end);
-    for (const auto* values : {&row.parameters, &row.metrics}) {
-      for (const double value : *values) line_ += ',' + detail::number_text(value);
-    }
-    file_ << line_ << '\n';
+    line_.clear();
+    append_row(line_, row);
+    add_lines(line_);
+  }
+  /// Adds runs that append_row has written. Real-time: no (writes a file).
+  void add_lines(std::string_view lines) {
+    file_.write(lines.data(), static_cast<std::streamsize>(lines.size()));
   }
   /// Hands all lines to the system.
   /// @throws std::runtime_error naming the file, if it cannot be written

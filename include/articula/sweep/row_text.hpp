@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file One run of a sweep as a line of CSV.
+#pragma once
+
+#include "articula/futures/future_end.hpp"
+#include "articula/sweep/sweep_result.hpp"
+
+#include <charconv>
+#include <string>
+#include <string_view>
+
+namespace articula {
+
+/// The word for a run's end in files: stable, unstable or non_finite.
+[[nodiscard]] constexpr std::string_view to_string(FutureEnd end) noexcept {
+  return end == FutureEnd::stable     ? "stable"
+         : end == FutureEnd::unstable ? "unstable"
+                                      : "non_finite";
+}
+
+/// Appends a run as a line of CSV: number, seed, end, parameters, metrics. Each number reads back as
+/// the same double; an undefined metric is nan.
+/// Real-time: no (allocates).
+inline void append_row(std::string& text, const SweepRow& row) {
+  char digits[32];
+  const auto add = [&](auto number, char before) {
+    if (before != 0) text += before;
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+  };
+  add(row.number, '\0');
+  add(row.seed, ',');
+  text += ',';
+  text += to_string(row.end);
+  for (const auto* values : {&row.parameters, &row.metrics}) {
+    for (const double value : *values) add(value, ',');
+  }
+  text += '\n';
+}
+
+}  // namespace articula
