@@ -62,9 +62,9 @@ inline void write_checkpoint(const std::filesystem::path& path, const SweepResul
   std::ofstream file(fresh, std::ios::trunc);
   const auto put = [&](auto number) { file << ' ' << number; };
   const auto put_bits = [&](double x) { put(std::bit_cast<std::uint64_t>(x)); };
-  const auto put_classes = [&](const QuantileSketch::Classes& classes) {
+  const auto put_classes = [&](const ClassCounts& classes) {
     put(classes.size());
-    for (const auto& [place, count] : classes) put(place), put(count);
+    classes.for_each([&](std::int32_t place, std::uint64_t count) { put(place), put(count); });
   };
   file << "articula-sweep-checkpoint-1 " << identity;
   put(result.runs_within());
@@ -133,11 +133,13 @@ class CheckpointReader {
     return value;
   }
   [[nodiscard]] double bits() { return std::bit_cast<double>(count()); }
-  [[nodiscard]] QuantileSketch::Classes classes() {
-    QuantileSketch::Classes classes;
-    for (std::uint64_t k = count_up_to(1'000'000); k > 0; --k) {
+  [[nodiscard]] ClassCounts classes() {
+    ClassCounts classes;
+    for (std::uint64_t k = count_up_to(2 * ClassCounts::most + 1); k > 0; --k) {
       const auto place = number<std::int32_t>();
-      classes[place] = count();
+      if (place < -ClassCounts::most || place > ClassCounts::most)
+        refuse("a class is out of range");
+      classes.add(place, count());
     }
     return classes;
   }

@@ -2,9 +2,11 @@
 /// @file Quantiles of many numbers in little memory.
 #pragma once
 
+#include "articula/sweep/statistics/class_counts.hpp"
+
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <utility>
 
 namespace articula {
 
@@ -18,8 +20,6 @@ class QuantileSketch {
   static constexpr double accuracy = 0.005;  ///< relative [1]
   static constexpr double zero = 1e-15;      ///< numbers not above it count as 0
 
-  using Classes = std::map<std::int32_t, std::uint64_t>;  ///< counts by class
-
   /// Adds numbers of one value.
   /// @param x  finite
   /// Real-time: no (allocates).
@@ -27,50 +27,41 @@ class QuantileSketch {
     if (std::fabs(x) <= zero) {
       zeros_ += count;
     } else {
-      (x < 0 ? negative_ : positive_)[class_of(std::fabs(x))] += count;
+      (x < 0 ? negative_ : positive_).add(class_of(std::fabs(x)), count);
     }
-    count_ += count;
   }
   void merge(const QuantileSketch& other) {
-    for (const auto& [place, count] : other.negative_) negative_[place] += count;
-    for (const auto& [place, count] : other.positive_) positive_[place] += count;
+    for (const auto& [own, more] :
+         {std::pair(&negative_, &other.negative_), std::pair(&positive_, &other.positive_)}) {
+      more->for_each([own](std::int32_t place, std::uint64_t count) { own->add(place, count); });
+    }
     zeros_ += other.zeros_;
-    count_ += other.count_;
   }
 
-  [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+  [[nodiscard]] std::uint64_t count() const noexcept {
+    return negative_.count() + zeros_ + positive_.count();
+  }
 
   /// The number of a rank in ascending order.
   /// @param rank  0 .. count() - 1
   [[nodiscard]] double at_rank(std::uint64_t rank) const noexcept {
-    std::uint64_t seen = 0;
-    for (auto item = negative_.rbegin(); item != negative_.rend(); ++item) {
-      seen += item->second;
-      if (rank < seen) return -value_of(item->first);
-    }
-    seen += zeros_;
-    if (rank < seen) return 0;
-    for (const auto& [place, count] : positive_) {
-      seen += count;
-      if (rank < seen) return value_of(place);
-    }
-    return std::nan("");
+    const std::uint64_t below = negative_.count();
+    if (rank < below) return -value_of(negative_.at_rank(below - 1 - rank));
+    if (rank < below + zeros_) return 0;
+    return value_of(positive_.at_rank(rank - below - zeros_));
   }
 
   // The counts, for files and histograms.
-  [[nodiscard]] const Classes& negative() const noexcept { return negative_; }
-  [[nodiscard]] const Classes& positive() const noexcept { return positive_; }
+  [[nodiscard]] const ClassCounts& negative() const noexcept { return negative_; }
+  [[nodiscard]] const ClassCounts& positive() const noexcept { return positive_; }
   [[nodiscard]] std::uint64_t zeros() const noexcept { return zeros_; }
   /// A sketch of these counts.
-  [[nodiscard]] static QuantileSketch from_counts(Classes negative, std::uint64_t zeros,
-                                                  Classes positive) {
+  [[nodiscard]] static QuantileSketch from_counts(ClassCounts negative, std::uint64_t zeros,
+                                                  ClassCounts positive) {
     QuantileSketch sketch;
     sketch.negative_ = std::move(negative);
     sketch.positive_ = std::move(positive);
-    sketch.zeros_ = sketch.count_ = zeros;
-    for (const Classes* classes : {&sketch.negative_, &sketch.positive_}) {
-      for (const auto& [place, count] : *classes) sketch.count_ += count;
-    }
+    sketch.zeros_ = zeros;
     return sketch;
   }
   /// The number that stands for a class: its relative distance from both ends is the same.
@@ -90,8 +81,8 @@ class QuantileSketch {
     return static_cast<std::int32_t>(std::ceil(std::log(x) / step()));
   }
 
-  Classes negative_{}, positive_{};
-  std::uint64_t zeros_ = 0, count_ = 0;
+  ClassCounts negative_{}, positive_{};
+  std::uint64_t zeros_ = 0;
 };
 
 }  // namespace articula
