@@ -3,7 +3,8 @@
 # resume.sh SWEEPER FOLDER [MPIRUN...]
 #
 # A sweep that SIGKILL ends goes on when it is started again, and has the same bits as one without
-# interruption. With MPIRUN, ranks compute it, and one of them is killed.
+# interruption. With MPIRUN, ranks compute it, and one of them is killed. Its memory does not grow with
+# the number of runs.
 set -eu
 
 sweeper=$1 folder=$2
@@ -43,3 +44,18 @@ grep -q 'lines of runs' "$folder/log"
 head -n 3 "$folder/whole/checkpoint" >"$folder/other/checkpoint"
 if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "half a checkpoint was used"; fi
 grep -q 'not complete' "$folder/log"
+
+# Memory does not grow with the number of runs. The rows of 200 000 runs would take more than 25 MB.
+# A sanitizer keeps freed memory; here it keeps 1 MB.
+peak() {
+  rm -rf "$folder/memory"
+  mkdir "$folder/memory"
+  ASAN_OPTIONS="${ASAN_OPTIONS:-}:quarantine_size_mb=1" "$@" "$folder/memory" 2 --runs $runs |
+    awk -v runs=$runs '$1 == runs && $2 == "runs" { print $3 }'
+}
+runs=1000
+few=$(peak "$@" "$sweeper")
+runs=200000
+many=$(peak "$@" "$sweeper")
+echo "peak memory: $few kB for 1000 runs, $many kB for 200 000 runs"
+[ "$many" -lt $((few + 8000)) ] || fail "memory grows with the number of runs"

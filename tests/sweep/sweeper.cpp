@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A sweep for tests of resumption and MPI: sweeper <folder> <threads> [--kill <run>]
+/// @file A sweep for tests of resumption, MPI and memory:
 ///
-/// Writes rows.csv and checkpoint. With --kill, the process that computes this run kills itself,
-/// unless <folder>/killed exists.
+///     sweeper <folder> <threads> [--kill <run> | --fail | --runs <number>]
+///
+/// Writes rows.csv and checkpoint, and prints the number of runs and the most memory that the process
+/// had [kB]. With --kill, the process that computes this run kills itself, unless <folder>/killed
+/// exists. With --runs, there are so many runs, each of which is short.
 #include <articula/sweep/jobs/resumable_sweep.hpp>
 #ifdef ARTICULA_TEST_MPI
 #include <articula/sweep/jobs/mpi_session.hpp>
 #include <articula/sweep/jobs/mpi_sweep.hpp>
 #endif
+
+#include <sys/resource.h>
 
 #include <chrono>
 #include <cmath>
@@ -32,6 +37,7 @@ struct Chaos {
   std::filesystem::path folder{};
   std::uint64_t kill = never;
   bool fails = false;
+  int steps = 2000;
 
   [[nodiscard]] std::vector<SweepParameter> parameters() const {
     return {{"rate", "1", 3.6, 4}, {"start", "1", 0.1, 0.9}};
@@ -45,7 +51,7 @@ struct Chaos {
     }
     if (fails && run.number == failing) throw std::runtime_error("it fails");
     double x = run.parameters[1], sum = 0;
-    for (int k = 0; k < 2000; ++k) {
+    for (int k = 0; k < steps; ++k) {
       x = run.parameters[0] * x * (1 - x);
       sum += std::log(x);
     }
@@ -66,7 +72,13 @@ int main(int count, char** words) try {
   options.worst_metric = "log";
   if (count > 4 && arguments[3] == "--kill") chaos.kill = std::stoull(arguments[4]);
   chaos.fails = count > 3 && arguments[3] == "--fail";
-  const SweepFiles files{chaos.folder / "rows.csv", chaos.folder / "checkpoint", 0.001, "chaos"};
+  double interval = 0.001;
+  if (count > 4 && arguments[3] == "--runs") {
+    options.sampling.runs = std::stoull(arguments[4]);
+    chaos.steps = 10;
+    interval = 1;
+  }
+  const SweepFiles files{chaos.folder / "rows.csv", chaos.folder / "checkpoint", interval, "chaos"};
 #ifdef ARTICULA_TEST_MPI
   const MpiSession mpi;
   if (mpi.rank() > 0) {
@@ -83,7 +95,10 @@ int main(int count, char** words) try {
 #else
   const SweepResult result = resumable_sweep(chaos, options, files);
 #endif
-  std::printf("%llu runs\n", static_cast<unsigned long long>(result.runs()));
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::printf("%llu runs %ld kB\n", static_cast<unsigned long long>(result.runs()),
+              usage.ru_maxrss);
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "sweeper: %s\n", error.what());
