@@ -336,6 +336,176 @@ TEST_CASE("The other controllers command each arm of a pack as it would be alone
   check(DriveImpedance<TiltedQ2d>(springs), DriveImpedance<TiltedQ2d, Pack>(springs));
 }
 
+namespace {
+
+template <class R, class S>
+using Careful = Limited<R, PidPlusGravity<R, S>>;
+template <class R, class S>
+using Modes = Switch<R, PidPlusGravity<R, S>, ComputedTorque<R, S>, JointImpedance<R, S>>;
+
+CommandLimits<2> tight_limits() {
+  CommandLimits<2> limits = command_limits(TiltedQ2d());
+  limits.lower = {-0.6, -0.4};
+  limits.upper = {0.6, 0.4};
+  limits.velocity = {1.5, 2};
+  limits.acceleration = {20, 40};
+  limits.jerk = {2000, 4000};
+  limits.effort_rate = {2000, 500};
+  return limits;
+}
+
+/// Lets a controller of a pack and controllers of single arms follow measured arms whose motion does
+/// not depend on them, which serves every kind of command.
+template <class Single, class Packed>
+void follow(const Single& single, Packed together, const auto& disturb) {
+  std::vector<Single> alone(Pack::lanes, single);
+  JointState<2, Pack> states;
+  JointReference<2, Pack> references;
+  Applied<2, Pack> applied;
+  int changed = 0;  // cycles in which the limits or the transfer change the command of an arm
+  for (int cycle = 0; cycle < 400; ++cycle) {
+    for (int k = 0; k < Pack::lanes; ++k) {
+      const double phase = 4e-3 * (k + 2) * cycle;
+      const JointVector<2> rate(4.0 * (k + 2), -4.0 * (k + 2));
+      set_lane(states.position, k, JointVector<2>(0.2 * std::sin(phase), 0.3 * std::cos(phase)));
+      set_lane(states.velocity, k,
+               JointVector<2>(0.2 * rate[0] * std::cos(phase), 0.3 * rate[1] * std::sin(phase)));
+      const JointReference<2> own = asked(k + 2, 7 * cycle);
+      set_lane(references.position, k, own.position);
+      set_lane(references.velocity, k, own.velocity);
+      set_lane(references.effort, k, own.effort);
+    }
+    disturb(together, cycle);
+    for (Single& own : alone) disturb(own, cycle);
+    const ControlInput<2, Pack> in{states, references, 1e-3, applied};
+    if (cycle == 0) start_controller(together, in);
+    const auto outcome = update_controller(together, in);
+    const JointVector<2, Pack> numbers = numbers_of(outcome.command, states);
+    bool any = false;
+    for_each_lane(in, [&](int k, const ControlInput<2>& own_in) {
+      Single& own_controller = alone[static_cast<std::size_t>(k)];
+      if (cycle == 0) start_controller(own_controller, own_in);
+      const auto own = update_controller(own_controller, own_in);
+      CAPTURE(cycle, k);
+      CHECK(own.verdict == outcome.verdict);
+      const auto of_lane = lane_of(outcome.command, k);
+      for (std::size_t part = 0; part < parts_of(own.command).size(); ++part) {
+        CAPTURE(part);
+        REQUIRE(agree(*parts_of(of_lane)[part].values, *parts_of(own.command)[part].values));
+      }
+      if constexpr (requires { own_controller.report(); }) {
+        for (int j = 0; j < 2; ++j) {
+          const JointLimitReport& report = own_controller.report()[j];
+          CHECK(together.report(k)[j].position == report.position);
+          CHECK(together.report(k)[j].any() == report.any());
+          CHECK(std::abs(together.report(k)[j].asked - report.asked) <= tolerance);
+        }
+        any = any || own_controller.report()[0].any();
+      } else if constexpr (requires { own_controller.carried(); }) {
+        any = any || own_controller.carried()[0] != 0;
+      } else {
+        any = true;
+      }
+    });
+    if (any) ++changed;
+    applied = {numbers, Held::load};
+  }
+  CHECK(changed > 10);
+}
+
+}  // namespace
+
+TEST_CASE("Each arm of a pack within limits of motion moves as it would alone") {
+  const auto own = gains<TiltedQ2d>(AntiWindup::conditional_integration);
+  Arms<Careful, TiltedQ2d> all({tight_limits(), PidPlusGravity<TiltedQ2d>(own)},
+                               {tight_limits(), PidPlusGravity<TiltedQ2d, Pack>(own)});
+  int parted = 0;  // cycles in which the limits hold some arms back, and others not
+  for (int cycle = 0; cycle < 1200; ++cycle) {
+    for (int arm = 0; arm < arms; ++arm) all.ask(arm, asked(arm, cycle));
+    const bool bad = cycle >= 700 && cycle < 720;  // the arm brakes within its limits
+    if (bad) {
+      for (auto& loop : all.alone) loop.reference().position[1] = not_a_number;
+      for (auto& loop : all.packs) loop.reference().position[1].set(Pack::lanes - 1, not_a_number);
+    }
+    all.update(bad ? Status::non_finite_reference : Status::ok);
+    all.compare();
+    int held = 0;
+    for (auto& loop : all.alone) held += loop.controller().report()[0].any() ? 1 : 0;
+    if (held > 0 && held < arms) ++parted;
+  }
+  CHECK(parted > 100);
+}
+
+TEST_CASE("Each arm of a pack moves as it would alone when its controllers switch") {
+  const auto own = gains<TiltedQ2d>(AntiWindup::back_calculation);
+  const auto stiff = ComputedTorque<TiltedQ2d>::critically_damped(20);
+  const JointImpedanceGains<2> springs{{{20, 2}, {10, 1}}};
+  const SwitchOptions<2> options{.fallbacks = {{"computed_torque", {"joint_impedance"}}}};
+  const auto modes = [&]<class S>(S) {
+    return Modes<TiltedQ2d, S>(options, PidPlusGravity<TiltedQ2d, S>(own),
+                               ComputedTorque<TiltedQ2d, S>(stiff),
+                               JointImpedance<TiltedQ2d, S>(springs));
+  };
+  Arms<Modes, TiltedQ2d> all(modes(0.0), modes(Pack(0)));
+  int carrying = 0;
+  for (int cycle = 0; cycle < 1200; ++cycle) {
+    SwitchRequest request{.replace = true};
+    if (cycle == 200) request.start = {"computed_torque"};
+    if (cycle == 250) request.start = {"joint_impedance"};
+    if (cycle == 600) request.stop = {"joint_impedance"};  // none is active: standby
+    if (cycle == 800) request.start = {"pid_plus_gravity"};
+    for (auto& loop : all.alone) loop.controller().request(request);
+    for (auto& loop : all.packs) loop.controller().request(request);
+    for (int arm = 0; arm < arms; ++arm) all.ask(arm, asked(arm, cycle));
+    all.update();
+    all.compare();
+    for (int arm = 0; arm < arms; ++arm) {
+      const auto& single = all.alone[static_cast<std::size_t>(arm)].controller();
+      const auto& packed = all.packs[static_cast<std::size_t>(arm / Pack::lanes)].controller();
+      REQUIRE(packed.active() == single.active());
+      REQUIRE(agree(lane_of(packed.carried(), arm % Pack::lanes), single.carried()));
+      if (single.carried()[0] != 0) ++carrying;
+    }
+  }
+  CHECK(carrying > 100);
+}
+
+TEST_CASE(
+    "Limits and switches of the other commands treat each arm of a pack as they would alone") {
+  const CommandLimits<2> limits = tight_limits();
+  const JointImpedanceGains<2> springs{{{20, 2}, {10, 1}}}, stiffer{{{90, 4}, {60, 2}}};
+  using R = TiltedQ2d;
+  const auto leave = [](auto&, int) {};
+  follow(Limited(R(), limits, ForwardPosition<R>()),
+         Limited(R(), limits, ForwardPosition<R, Pack>()), leave);
+  follow(Limited(R(), limits, ForwardVelocity<R>()),
+         Limited(R(), limits, ForwardVelocity<R, Pack>()), leave);
+  follow(Limited(R(), limits, DriveImpedance<R>(springs)),
+         Limited(R(), limits, DriveImpedance<R, Pack>(springs)), leave);
+  const auto toggle = [](auto& controllers, int cycle) {
+    if (cycle % 50 != 49) return;
+    const bool first = controllers.active() == controllers.name_of(0);
+    const Name next = controllers.name_of(first ? 1 : 0);
+    controllers.request({.start = {next}, .replace = true});
+  };
+  const auto both = [&]<class S>(S) {
+    return Switch<R, DriveImpedance<R, S>, DriveImpedance<R, S>>(
+        SwitchOptions<2>{}, DriveImpedance<R, S>(springs), DriveImpedance<R, S>(stiffer));
+  };
+  follow(both(0.0), both(Pack(0)), toggle);
+}
+
+TEST_CASE("Groups of joints command each arm of a pack as it would be alone") {
+  using R = TiltedQ2d;
+  const auto parts = std::array{JointGroup{"upper", {"shoulder_active_joint"}},
+                                JointGroup{"lower", {"elbow_active_joint"}, 3}};
+  const JointImpedanceGains<2> springs{{{20, 2}, {10, 1}}};
+  const auto own = gains<R>(AntiWindup::conditional_integration);
+  follow(Groups(R(), parts, PidPlusGravity<R>(own), JointImpedance<R>(springs)),
+         Groups(R(), parts, PidPlusGravity<R, Pack>(own), JointImpedance<R, Pack>(springs)),
+         [](auto&, int) {});
+}
+
 TEST_CASE("A loop of a pack is written as that of one arm") {
   Loop<Simulator<Q2d, Pack>, PidPlusGravity> loop;
   for (int k = 0; k < Pack::lanes; ++k) {

@@ -4,12 +4,14 @@
 #include <articula/control/limits/limited.hpp>
 #include <articula/control/pid.hpp>
 #include <articula/control/pid_plus_gravity.hpp>
+#include <articula/control/switching/groups.hpp>
 #include <articula/control/switching/switch.hpp>
 #include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/loop/exchange/gains_exchange.hpp>
 #include <articula/loop/loop.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include <array>
 #include <concepts>
 
 using namespace articula;
@@ -107,6 +109,32 @@ int main() {
 #endif
 #ifdef LIMITED_WITHOUT_CONTROLLER
   Limited<Bare, PidPlusGravity<Bare>> mistake(command_limits(Bare()));
+#endif
+  // A part of a composition has to be a controller, too.
+  const auto rest = [](const ControlInput<2>&) noexcept { return EffortCommand<2>(); };
+#ifdef PART_MAY_THROW
+  const auto part = [](const ControlInput<2>&) { return EffortCommand<2>(); };
+#elif defined(PART_OF_A_STATE)
+  const auto part = [](const JointState<2>&) noexcept { return EffortCommand<2>(); };
+#else
+  const auto part = rest;
+#endif
+#if !defined(IN_SWITCH) && !defined(IN_GROUPS)
+  CommandLimits<2> limits = command_limits(Q2d());
+  limits.acceleration = {20, 20};
+  Limited careful(Q2d(), limits, part);
+  static_assert(Controller<decltype(careful), 2>);
+#endif
+#if !defined(IN_LIMITED) && !defined(IN_GROUPS)
+  Switch<Q2d, decltype(rest), decltype(part)> either(Q2d(), {}, rest, part);
+  static_assert(Controller<decltype(either), 2>);
+#endif
+#if !defined(IN_LIMITED) && !defined(IN_SWITCH)
+  Groups groups(Q2d(),
+                std::array{JointGroup{"a", {"shoulder_active_joint"}},
+                           JointGroup{"b", {"elbow_active_joint"}}},
+                rest, part);
+  static_assert(Controller<decltype(groups), 2>);
 #endif
 #ifdef ROBOT_AS_HARDWARE
   Loop<Q2d, PidPlusGravity> mistake;

@@ -21,6 +21,7 @@ class DriveImpedance {
  public:
   static constexpr std::string_view name = "drive_impedance";
   static constexpr int joint_count = articula::joint_count<R>;
+  using Scalar = S;
 
   /// @param robot  whose weight is carried and whose effort limits hold for what is added
   /// @param gains  of each joint

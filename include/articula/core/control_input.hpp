@@ -5,6 +5,7 @@
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/core/joint_vector.hpp"
+#include "articula/core/scalar.hpp"
 
 namespace articula {
 
@@ -52,5 +53,25 @@ struct ControlInput {
   /// exactly 0 where nothing was cut off, after a start, and after a failed command.
   JointVector<N, Scalar> cut = JointVector<N, Scalar>::Zero();
 };
+
+/// Calls function(lane, input) with the ControlInput<N> of the robot in each lane. Use it where a
+/// controller consists of decisions, which differ by lane, so that `select` does not serve. For
+/// double the function gets the input itself, with lane 0.
+/// @param in        of all robots
+/// @param function  callable with (int, const ControlInput<N>&)
+/// Real-time: yes, if the function is.
+template <int N, class S>
+void for_each_lane(const ControlInput<N, S>& in, auto&& function) noexcept {
+  if constexpr (PackedScalar<S>) {
+    for (int k = 0; k < lanes<S>; ++k) {
+      const JointState<N> state = lane_of(in.state, k);
+      const JointReference<N> reference = lane_of(in.reference, k);
+      const Applied<N> applied{lane_of(in.applied.numbers, k), in.applied.held};
+      function(k, ControlInput<N>{state, reference, in.period, applied, lane_of(in.cut, k)});
+    }
+  } else {
+    function(0, in);
+  }
+}
 
 }  // namespace articula

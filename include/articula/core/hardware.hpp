@@ -4,32 +4,13 @@
 
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/core/status.hpp"
 
 #include <chrono>
 #include <concepts>
 
 namespace articula {
-
-namespace detail {
-
-/// The type of a number of a hardware: its Scalar, else double.
-template <class H>
-struct ScalarIn {
-  using Type = double;
-};
-template <class H>
-  requires requires { typename H::Scalar; }
-struct ScalarIn<H> {
-  using Type = typename H::Scalar;
-};
-
-}  // namespace detail
-
-/// The type of a number that a hardware measures: double, or a pack with the numbers of several
-/// robots, for a simulator of those.
-template <class H>
-using ScalarOf = typename detail::ScalarIn<H>::Type;
 
 /// The sensors and drives of a robot, real or simulated. Implement it to connect drives that the
 /// library does not know to a Loop. To test a program without drives, use MockHardware or

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "articula/core/joint_command.hpp"
+#include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/core/lane_mask.hpp"
 
@@ -29,6 +30,26 @@ inline constexpr int lanes<S> = S::lanes;
 /// A scalar that holds the numbers of several robots.
 template <class S>
 concept PackedScalar = lanes<S> > 1;
+
+namespace detail {
+
+/// The type of a number of a hardware or controller: its Scalar, else double.
+template <class T>
+struct ScalarIn {
+  using Type = double;
+};
+template <class T>
+  requires requires { typename T::Scalar; }
+struct ScalarIn<T> {
+  using Type = typename T::Scalar;
+};
+
+}  // namespace detail
+
+/// The type of a number that a hardware measures or a controller computes with: its member type
+/// `Scalar`, else double. A simulator or controller of several robots names its pack by it.
+template <class T>
+using ScalarOf = typename detail::ScalarIn<T>::Type;
 
 /// The result of a comparison of two scalars: bool, or a mask with a truth value for each lane.
 template <class S>
@@ -85,6 +106,11 @@ template <int N, class S>
   return {lane_of(x.position, lane), lane_of(x.velocity, lane), lane_of(x.effort, lane)};
 }
 template <int N, class S>
+[[nodiscard]] JointReference<N> lane_of(const JointReference<N, S>& x, int lane) noexcept {
+  return {lane_of(x.position, lane), lane_of(x.velocity, lane), lane_of(x.acceleration, lane),
+          lane_of(x.effort, lane)};
+}
+template <int N, class S>
 [[nodiscard]] EffortCommand<N> lane_of(const EffortCommand<N, S>& x, int lane) noexcept {
   return {lane_of(x.effort, lane)};
 }
@@ -114,6 +140,26 @@ constexpr void set_lane(S& x, [[maybe_unused]] int lane, double number) noexcept
 template <int N, class S>
 void set_lane(JointVector<N, S>& x, int lane, const JointVector<N>& numbers) noexcept {
   for (int j = 0; j < N; ++j) set_lane(x[j], lane, numbers[j]);
+}
+template <int N, class S>
+void set_lane(EffortCommand<N, S>& x, int lane, const EffortCommand<N>& own) noexcept {
+  set_lane(x.effort, lane, own.effort);
+}
+template <int N, class S>
+void set_lane(PositionCommand<N, S>& x, int lane, const PositionCommand<N>& own) noexcept {
+  set_lane(x.position, lane, own.position);
+}
+template <int N, class S>
+void set_lane(VelocityCommand<N, S>& x, int lane, const VelocityCommand<N>& own) noexcept {
+  set_lane(x.velocity, lane, own.velocity);
+}
+template <int N, class S>
+void set_lane(MultiModeCommand<N, S>& x, int lane, const MultiModeCommand<N>& own) noexcept {
+  set_lane(x.position, lane, own.position);
+  set_lane(x.velocity, lane, own.velocity);
+  set_lane(x.stiffness, lane, own.stiffness);
+  set_lane(x.damping, lane, own.damping);
+  set_lane(x.effort, lane, own.effort);
 }
 
 }  // namespace articula

@@ -8,7 +8,7 @@
 #include "articula/core/scalar.hpp"
 #include "articula/lanes/lane_simulator.hpp"
 #include "articula/loop/command_history.hpp"
-#include "articula/loop/controller_check.hpp"
+#include "articula/loop/loop_parts.hpp"
 
 #include <cstdint>
 #include <span>

@@ -12,7 +12,12 @@ namespace articula {
 ///     loop.reference().position = {-1.0, 1.0};
 ///     while (loop.update() == Status::ok) { ... }
 ///
-/// A controller that is no template, or a function, goes in by `Loop loop{hardware, Mine{}}`.
+/// The second argument is a template. A plain struct `Mine`, a type such as `Pid<Q2d>`, or a
+/// function does not fit there; two spellings take one:
+///
+///     Loop loop{Q2dSim(), Mine{}};      // deduced from the values
+///     ControlLoop<Q2dSim, Mine> loop;   // by name, for a member of a class
+///
 /// @tparam HardwareType        satisfies Hardware
 /// @tparam ControllerTemplate  makes a Controller of the hardware's robot; for hardware of several
 ///                             robots, of the robot and the type of a number

@@ -4,7 +4,7 @@
 
 #include "articula/core/refuse.hpp"
 #include "articula/futures/future_end.hpp"
-#include "articula/loop/controller_check.hpp"
+#include "articula/loop/loop_parts.hpp"
 #include "articula/reference/joint_signals.hpp"
 #include "articula/sim/simulator_options.hpp"
 #include "articula/sweep/lane_runs.hpp"

@@ -8,7 +8,7 @@
 #include "articula/core/scalar.hpp"
 #include "articula/lanes/lane_simulator.hpp"
 #include "articula/loop/control_loop.hpp"
-#include "articula/loop/controller_check.hpp"
+#include "articula/loop/loop_parts.hpp"
 #include "articula/sweep/delayed_commands.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/varied_loop.hpp"

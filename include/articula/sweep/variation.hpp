@@ -61,7 +61,10 @@ inline constexpr auto varied_quantities = std::to_array<VariedTraits>({
 
 [[nodiscard]] inline const VariedTraits& traits_of(VariedQuantity quantity) {
   const auto place = static_cast<std::size_t>(quantity);
-  if (place >= varied_quantities.size()) detail::refuse({"sweep: no such varied quantity"});
+  if (place >= varied_quantities.size()) {
+    detail::refuse({"sweep: quantity ", place, " is no value of VariedQuantity, whose last is ",
+                    varied_quantities.back().name, ", ", varied_quantities.size() - 1});
+  }
   return varied_quantities[place];
 }
 

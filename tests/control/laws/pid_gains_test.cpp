@@ -74,6 +74,15 @@ TEST_CASE("the message names the first bad joint") {
   CHECK_THROWS_WITH(Pid<Q2d>(gains), Contains("'shoulder_active_joint'"));
 }
 
+TEST_CASE("a value that no enumerator has is named together with those that exist") {
+  CHECK_THROWS_WITH(
+      Pid<Q2d>({PidGains{.anti_windup = static_cast<AntiWindup>(7)}, PidGains{}}),
+      Contains("anti_windup 7 is no value of AntiWindup: write none, back_calculation or"));
+  CHECK_THROWS_WITH(
+      Pid<Q2d>({PidGains{.derivative_of = static_cast<DerivativeOf>(2)}, PidGains{}}),
+      Contains("derivative_of 2 is no value of DerivativeOf: write measured_velocity"));
+}
+
 TEST_CASE("gains that look odd but work are accepted") {
   CHECK_NOTHROW(Pid<Q2d>({PidGains{}, PidGains{}}));  // clamps at -inf, inf: none
   CHECK_NOTHROW(Pid<Q2d>({PidGains{.proportional = 0.0, .integral_clamp_max = 0},
@@ -83,7 +92,8 @@ TEST_CASE("gains that look odd but work are accepted") {
 TEST_CASE("back-calculation without a time to compute is refused where it has an integral") {
   PidGains alone{.integral = 5, .anti_windup = AntiWindup::back_calculation};
   CHECK_THROWS_WITH(Pid<Q2d>({alone, PidGains{}}),
-                    Contains("'shoulder_active_joint'") && Contains("tracking_time"));
+                    Contains("'shoulder_active_joint': tracking_time 0 with back_calculation") &&
+                        Contains("Set a tracking_time > 0 [s]"));
   PidGains told = alone;
   told.tracking_time = 0.1;
   CHECK_NOTHROW(Pid<Q2d>({told, PidGains{}}));

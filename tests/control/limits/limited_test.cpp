@@ -680,8 +680,13 @@ TEST_CASE("limits that make no sense are refused, naming joint, limit and value"
   CommandLimits<1> limits = command_limits(robot);
   limits.acceleration[0] = 1;
   limits.deceleration[0] = 2;
-  CHECK_THROWS_WITH(Positions(robot, limits, ForwardPosition<Slider>(robot)),
-                    Catch::Matchers::Contains("deceleration 2 is above the limit 1"));
+  CHECK_THROWS_WITH(
+      Positions(robot, limits, ForwardPosition<Slider>(robot)),
+      Catch::Matchers::Contains("deceleration 2 is above the limit 1 of acceleration"));
+  CHECK_THROWS_WITH(
+      (Limited<Q2d, ForwardPosition<Q2d>>(CommandLimits<2>{.acceleration = {20, 20}})),
+      Catch::Matchers::Contains("lower -inf is below the limit -") &&
+          Catch::Matchers::Contains("begin with command_limits(robot)"));
   CHECK_NOTHROW(Limited<Q2d, ForwardPosition<Q2d>>());  // the description's
 
   // Soft limits that are all beyond the others leave no way.

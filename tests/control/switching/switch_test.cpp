@@ -99,7 +99,9 @@ TEST_CASE("what makes no sense is refused at set-up, by name") {
   CHECK_THROWS_WITH(three({.names = {"a", "b", "a"}}), Contains("two controllers are named 'a'"));
   CHECK_THROWS_WITH(three({.names = {"a", "", "c"}}), Contains("has no name"));
   CHECK_THROWS_WITH(three({.names = {"a", "b", "c"}, .active = "d"}),
-                    Contains("no controller 'd'"));
+                    Contains("no controller 'd'; controllers: a, b, c"));
+  CHECK_THROWS_WITH(three({.names = {"pid", "gravity", "c"}, .active = "pidd"}),
+                    Contains("no controller 'pidd'; did you mean 'pid'?"));
   CHECK_THROWS_WITH(three({.names = {"a", "b", "c"}, .fallbacks = {{"a", {"b", "x"}}}}),
                     Contains("no controller 'x'"));
   CHECK_THROWS_WITH(three({.names = {"a", "b", "c"}, .fallbacks = {{"y", {"b"}}}}),

@@ -112,16 +112,22 @@ void validate(const std::array<PidGains, N>& gains, const std::array<std::string
               g.output_clamp_max});
     }
     if (g.anti_windup > AntiWindup::conditional_integration) {
-      refuse({"anti_windup is none of these"});
+      refuse(
+          {"anti_windup ", static_cast<int>(g.anti_windup),
+           " is no value of AntiWindup: write none, back_calculation or conditional_integration"});
     }
     check_not_negative("tracking_time", g.tracking_time);
     if (g.anti_windup == AntiWindup::back_calculation && g.tracking_time == 0 && g.integral != 0 &&
         g.proportional == 0 && g.derivative == 0) {
-      refuse({"back_calculation needs a tracking_time: integral ", g.integral,
-              " is alone, and sqrt(d/i) and p/i are 0"});
+      refuse({"tracking_time 0 with back_calculation, integral ", g.integral,
+              " and neither proportional nor derivative: its default p/i or sqrt(d/i) is 0. Set a "
+              "tracking_time > 0 [s], or choose conditional_integration"});
     }
     check_not_negative("error_deadband", g.error_deadband);
-    if (g.derivative_of > DerivativeOf::error) refuse({"derivative_of is none of these"});
+    if (g.derivative_of > DerivativeOf::error) {
+      refuse({"derivative_of ", static_cast<int>(g.derivative_of),
+              " is no value of DerivativeOf: write measured_velocity or error"});
+    }
     check_not_negative("derivative_filter_time", g.derivative_filter_time);
     check_weight("position_weight", g.position_weight);
     check_weight("velocity_weight", g.velocity_weight);

@@ -85,6 +85,15 @@ template <Robot R>
           .soft_rate = of(&JointLimits::soft_rate)};
 }
 
+namespace detail {
+
+/// The end of a message about limits beyond the description's. As CommandLimits are unlimited by
+/// default, a list of a few limits lacks the others.
+inline constexpr std::string_view within_description =
+    " of the robot's description; begin with command_limits(robot) and change single limits";
+
+}  // namespace detail
+
 /// Checks that limits can be kept and do not exceed those of the robot's description.
 /// @throws std::invalid_argument naming limit, joint, value and bound
 /// Real-time: no (throws).
@@ -102,12 +111,16 @@ void validate(const R& robot, const CommandLimits<joint_count<R>>& limits) {
           upper == -CommandLimits<1>::infinity) {
         refuse({soft, "lower ", lower, " and ", soft, "upper ", upper, " leave no position"});
       }
-      if (lower < lowest) refuse({soft, "lower ", lower, " is below the limit ", lowest});
-      if (upper > highest) refuse({soft, "upper ", upper, " is above the limit ", highest});
+      if (lower < lowest)
+        refuse({soft, "lower ", lower, " is below the limit ", lowest, detail::within_description});
+      if (upper > highest)
+        refuse(
+            {soft, "upper ", upper, " is above the limit ", highest, detail::within_description});
     };
-    const auto check = [&](std::string_view what, double value, double most) {
+    const auto check = [&](std::string_view what, double value, double most,
+                           std::string_view reason = detail::within_description) {
       if (!(value > 0)) refuse({what, " ", value, " is not a number > 0"});
-      if (value > most) refuse({what, " ", value, " is above the limit ", most});
+      if (value > most) refuse({what, " ", value, " is above the limit ", most, reason});
     };
     constexpr double infinity = CommandLimits<1>::infinity;
     check_range("", limits.lower[j], limits.upper[j], joint.limits.lower, joint.limits.upper);
@@ -121,7 +134,7 @@ void validate(const R& robot, const CommandLimits<joint_count<R>>& limits) {
     check("acceleration", limits.acceleration[j], joint.limits.acceleration);
     const bool has_deceleration = is_finite(limits.deceleration[j]);
     check("deceleration", limits.deceleration[j],
-          has_deceleration ? limits.acceleration[j] : infinity);
+          has_deceleration ? limits.acceleration[j] : infinity, " of acceleration");
     check("jerk", limits.jerk[j], joint.limits.jerk);
     if (limits.effort[j] != 0) check("effort", limits.effort[j], joint.limits.effort);
     check("effort_rate", limits.effort_rate[j], infinity);

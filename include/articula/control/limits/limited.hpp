@@ -4,8 +4,9 @@
 
 #include "articula/control/laws/command_numbers.hpp"
 #include "articula/control/laws/valid_gains.hpp"
-#include "articula/control/limits/command_limiter.hpp"
-#include "articula/core/controller.hpp"
+#include "articula/control/limits/lane_limiters.hpp"
+#include "articula/core/controller_check.hpp"
+#include "articula/core/scalar.hpp"
 
 #include <cmath>
 #include <concepts>
@@ -34,15 +35,20 @@ namespace articula {
 /// the command that held the joints.
 ///
 /// Limits of effort alone need no Limited: loops and SumController keep those.
+///
+/// The robots of a pack have the same limits, and each keeps them by itself. They share the verdict:
+/// where the controller fails for one robot, all robots brake.
 /// @tparam R  the robot
-/// @tparam C  the controller
-template <Robot R, Controller<joint_count<R>> C>
+/// @tparam C  the controller, satisfies Controller
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <Robot R, class C, class S = ScalarOf<C>>
 class Limited {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using ControllerType = C;
-  using Command = CommandOf<C, joint_count>;
-  using Input = ControlInput<joint_count>;
+  using Scalar = S;
+  using Command = typename detail::CheckedController<C, joint_count, S>::Command;
+  using Input = ControlInput<joint_count, S>;
 
   /// The limits of the robot's description. (For efforts it does not say enough.)
   Limited()
@@ -56,7 +62,7 @@ class Limited {
   /// @throws std::invalid_argument naming joint, limit and value if a limit makes no sense, is
   ///         beyond what the description says, or is missing (see EffortLimiter)
   Limited(const R& robot, const CommandLimits<articula::joint_count<R>>& limits, C controller)
-      : controller_(std::move(controller)), limiter_((validate(robot, limits), robot), limits) {}
+      : controller_(std::move(controller)), limiters_((validate(robot, limits), robot), limits) {}
   /// With a controller that is made from the robot, or by default where none can be.
   Limited(const R& robot, const CommandLimits<articula::joint_count<R>>& limits)
       : Limited(robot, limits, controller_of(robot)) {}
@@ -73,7 +79,7 @@ class Limited {
   /// effort that was applied last. Real-time: yes, if the controller's is.
   void start(const Input& in) noexcept {
     start_controller(controller_, in);
-    limiter_.start(in);
+    limiters_.start(in);
     clip_.setZero();
     passes_cut_ = false;
     braked_cycles_ = 0;
@@ -91,13 +97,13 @@ class Limited {
     braked_cycles_ = 0;
     const Outcome<Command> own = update_controller(controller_, inner);
     const Vector asked = numbers_of(own.command, in.state);
-    passes_cut_ = own.verdict != Verdict::failed && is_finite(asked);
+    passes_cut_ = own.verdict != Verdict::failed && all_of(is_finite(asked));
     if (!passes_cut_) {
       clip_.setZero();
       return {braked(in, asked), Verdict::degraded};
     }
     Command command = own.command;
-    note(asked, limiter_.limit(in, command, report_));
+    note(asked, limiters_.limit(in, command));
     clip_ = asked - limited_;
     return {command, own.verdict};
   }
@@ -110,10 +116,14 @@ class Limited {
     return braked(in, Vector::Constant(std::numeric_limits<double>::quiet_NaN()));
   }
 
-  /// What the last update changed. Real-time: yes.
-  [[nodiscard]] const LimitReport<joint_count>& report() const noexcept { return report_; }
+  /// What the last update changed.
+  /// @param lane  of a pack, the robot whose command it is
+  /// Real-time: yes.
+  [[nodiscard]] const LimitReport<joint_count>& report(int lane = 0) const noexcept {
+    return limiters_.report(lane);
+  }
   [[nodiscard]] const CommandLimits<joint_count>& limits() const noexcept {
-    return limiter_.limits;
+    return limiters_.limits();
   }
   [[nodiscard]] C& controller() noexcept { return controller_; }
   [[nodiscard]] const C& controller() const noexcept { return controller_; }
@@ -130,7 +140,7 @@ class Limited {
   }
 
  private:
-  using Vector = JointVector<joint_count>;
+  using Vector = JointVector<joint_count, S>;
 
   [[nodiscard]] static C controller_of(const R& robot) {
     if constexpr (std::constructible_from<C, const R&>) {
@@ -147,30 +157,33 @@ class Limited {
 
   [[nodiscard]] Command braked(const Input& in, const Vector& asked) noexcept {
     Command command;
-    note(asked, limiter_.brake(in, command, report_));
+    note(asked, limiters_.brake(in, command));
     return command;
   }
 
   /// Notes the numbers of a command and what became of them.
   void note(const Vector& asked, const Vector& limited) noexcept {
-    for (int j = 0; j < joint_count; ++j) {
-      JointLimitReport& report = report_[j];
-      // A change by rounding is not reported. What is no number always is, and so is a stiffness or
-      // damping that has changed, though it may pull nothing at this state.
-      if (std::abs(asked[j] - limited[j]) <= 1e-12 * (1 + std::abs(limited[j]))) {
-        report = {.stiffness = report.stiffness,
-                  .damping = report.damping,
-                  .non_finite = report.non_finite};
+    for (int k = 0; k < lanes<S>; ++k) {
+      for (int j = 0; j < joint_count; ++j) {
+        note(limiters_.report(k)[j], lane_of(asked[j], k), lane_of(limited[j], k));
       }
-      report.asked = asked[j];
-      report.limited = limited[j];
     }
     limited_ = limited;
   }
+  static void note(JointLimitReport& report, double asked, double limited) noexcept {
+    // A change by rounding is not reported. What is no number always is, and so is a stiffness or
+    // damping that has changed, though it may pull nothing at this state.
+    if (std::abs(asked - limited) <= 1e-12 * (1 + std::abs(limited))) {
+      report = {.stiffness = report.stiffness,
+                .damping = report.damping,
+                .non_finite = report.non_finite};
+    }
+    report.asked = asked;
+    report.limited = limited;
+  }
 
   C controller_;
-  detail::CommandLimiter<R, Command> limiter_;
-  LimitReport<joint_count> report_{};
+  detail::LaneLimiters<R, Command, S> limiters_;
   Vector limited_ = Vector::Zero();  ///< numbers of the last command, at which the joints are held
   Vector clip_ = Vector::Zero();     ///< of the controller's last command, by these limits
   bool passes_cut_ = false;          ///< the last command was the controller's, within limits

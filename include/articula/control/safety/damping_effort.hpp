@@ -17,13 +17,13 @@ namespace articula {
 /// @param position  q [rad or m], N x 1
 /// @param velocity  v [rad/s or m/s], N x 1
 /// @param time      T [s], > 0
-/// @return          [N m or N], N x 1, not limited
+/// @return          [N m or N], N x 1, not limited; of packs for each robot
 /// Real-time: yes.
-template <Robot R>
-[[nodiscard]] JointVector<joint_count<R>> damping_effort(
-    const R& robot, const JointVector<joint_count<R>>& position,
-    const JointVector<joint_count<R>>& velocity, double time) noexcept {
-  return gravity(robot, position) - mass_matrix(robot, position) * velocity / time;
+template <Robot R, class S>
+[[nodiscard]] JointVector<joint_count<R>, S> damping_effort(
+    const R& robot, const JointVector<joint_count<R>, S>& position,
+    const JointVector<joint_count<R>, S>& velocity, double time) noexcept {
+  return gravity(robot, position) - product(mass_matrix(robot, position), velocity) / S(time);
 }
 
 }  // namespace articula

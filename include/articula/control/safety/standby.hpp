@@ -8,9 +8,9 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/core/scalar.hpp"
 
 #include <algorithm>
-#include <concepts>
 #include <string_view>
 
 namespace articula {
@@ -24,12 +24,15 @@ namespace articula {
 ///
 /// A Switch does this while no controller is active. It can be one of its controllers, too.
 /// @tparam R  the robot
-/// @tparam C  the command
-template <Robot R, JointCommand<joint_count<R>> C = EffortCommand<joint_count<R>>>
+/// @tparam C  the command, over double or a pack with the numbers of several robots
+template <Robot R, class C = EffortCommand<joint_count<R>>>
+  requires JointCommand<C, joint_count<R>, typename detail::CommandScalar<C>::Type>
 class Standby {
  public:
   static constexpr std::string_view name = "standby";
   static constexpr int joint_count = articula::joint_count<R>;
+  using Scalar = typename detail::CommandScalar<C>::Type;
+  using Input = ControlInput<joint_count, Scalar>;
 
   Standby()
     requires DescribedRobot<R>
@@ -49,31 +52,33 @@ class Standby {
 
   /// Takes the position to hold: the one that was commanded last, or else the measured one, which
   /// would creep. Real-time: yes.
-  void start(const ControlInput<joint_count>& in) noexcept {
+  void start(const Input& in) noexcept {
     position_ = in.applied.reached_drives() ? in.applied.numbers : in.state.position;
   }
 
   /// The safe command for the coming period. Real-time: yes.
-  [[nodiscard]] C update(const ControlInput<joint_count>& in) noexcept {
+  [[nodiscard]] C update(const Input& in) noexcept {
     C command;
     if constexpr (requires { command.effort; }) {
       const double time = std::max(damping_time_, 2 * in.period);
       command.effort = damping_effort(robot_, in.state.position, in.state.velocity, time);
-      if (!is_finite(command.effort)) command.effort.setZero();
+      const MaskOf<Scalar> overflows = not_of(is_finite(command.effort));
+      for (int j = 0; j < joint_count; ++j) replace_where(overflows, command.effort[j], 0);
       return within_effort_limits(robot_, command);
     } else {
-      if constexpr (std::same_as<C, PositionCommand<joint_count>>) command.position = position_;
+      if constexpr (requires { command.position; }) command.position = position_;
       return command;
     }
   }
 
   /// Does the same: it uses no reference. Real-time: yes.
-  [[nodiscard]] C brake(const ControlInput<joint_count>& in) noexcept { return update(in); }
+  [[nodiscard]] C brake(const Input& in) noexcept { return update(in); }
 
  private:
   [[no_unique_address]] R robot_;
   double damping_time_;
-  JointVector<joint_count> position_ = JointVector<joint_count>::Zero();  ///< [rad or m]
+  JointVector<joint_count, Scalar> position_ =
+      JointVector<joint_count, Scalar>::Zero();  ///< [rad or m]
 };
 
 }  // namespace articula

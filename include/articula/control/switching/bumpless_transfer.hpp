@@ -8,6 +8,7 @@
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
@@ -34,18 +35,21 @@ namespace articula {
 /// effort that it makes at the measured state, and the difference is added to its effort. Beyond
 /// the drives' limit, the drive's references are drawn towards the state as far as needed.
 /// @tparam R  the robot
-/// @tparam C  the command
-template <Robot R, JointCommand<joint_count<R>> C>
+/// @tparam C  the command, over double or a pack with the numbers of several robots
+template <Robot R, class C>
+  requires JointCommand<C, joint_count<R>, typename detail::CommandScalar<C>::Type>
 class BumplessTransfer {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
-  using Vector = JointVector<joint_count>;
-  using State = JointState<joint_count>;
+  using Scalar = typename detail::CommandScalar<C>::Type;
+  using Vector = JointVector<joint_count, Scalar>;
+  using Slew = JointVector<joint_count>;
+  using State = JointState<joint_count, Scalar>;
 
   /// @param robot  within whose limits commands are kept
   /// @param slew   r, how fast differences decay [unit of the command per s], N x 1
   /// @throws std::invalid_argument naming the joint whose slew is not a number > 0
-  BumplessTransfer(const R& robot, const Vector& slew)
+  BumplessTransfer(const R& robot, const Slew& slew)
       : slew_(slew), range_(detail::command_range<C>(robot, huge)) {
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(slew[j]) && slew[j] > 0) continue;
@@ -58,8 +62,8 @@ class BumplessTransfer {
   /// quarter of the velocity limit for positions. It is infinite for a joint without such a limit,
   /// whose slew must be given.
   /// Real-time: yes.
-  [[nodiscard]] static Vector default_slew(const R& robot) noexcept {
-    if constexpr (std::same_as<C, PositionCommand<joint_count>>) {
+  [[nodiscard]] static Slew default_slew(const R& robot) noexcept {
+    if constexpr (std::same_as<C, PositionCommand<joint_count, Scalar>>) {
       return joint_values(robot, [](const JointProperties& j) { return j.limits.velocity / 4; });
     } else {
       const auto range = detail::command_range<C>(robot);
@@ -80,9 +84,10 @@ class BumplessTransfer {
   /// Sets what was applied in the end in place of the last command, finite, N x 1. Real-time: yes.
   void set_applied(const Vector& numbers) noexcept { applied_ = bounded(numbers); }
 
-  /// Whether a command can be passed on: whether its numbers are finite. Real-time: yes.
+  /// Whether a command can be passed on: whether its numbers are finite, those of all robots.
+  /// Real-time: yes.
   [[nodiscard]] static bool passable(const C& command, const State& state) noexcept {
-    return is_finite(command) && is_finite(numbers_of(command, state));
+    return all_of(is_finite(command)) && all_of(is_finite(numbers_of(command, state)));
   }
 
   /// The command after the transfer.
@@ -95,8 +100,10 @@ class BumplessTransfer {
     if (takes_over_) {
       carried_ = applied_ - own;
     } else {
-      const Vector step = slew_ * period;
-      carried_ -= carried_.cwiseMax(-step).cwiseMin(step);
+      for (int j = 0; j < joint_count; ++j) {
+        const double step = slew_[j] * period;
+        carried_[j] -= clamp(carried_[j], -step, step);
+      }
     }
     takes_over_ = false;
     applied_ = bounded(own + carried_);
@@ -109,7 +116,7 @@ class BumplessTransfer {
   /// c, what is still carried, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& carried() const noexcept { return carried_; }
   /// r, N x 1. Real-time: yes.
-  [[nodiscard]] const Vector& slew() const noexcept { return slew_; }
+  [[nodiscard]] const Slew& slew() const noexcept { return slew_; }
   /// The controller's own command that is cut off by the robot's limits, N x 1. Real-time: yes.
   [[nodiscard]] Vector excess(const C& command, const State& state) const noexcept {
     const Vector own = numbers_of(command, state);
@@ -120,16 +127,22 @@ class BumplessTransfer {
   static constexpr double huge = 1e300;  ///< in place of infinite limits: no sum overflows
 
   [[nodiscard]] Vector bounded(const Vector& values) const noexcept {
-    return for_each_joint<joint_count>([&](int j) { return range_.clamp(values[j], j); });
+    return for_each_joint<joint_count, Scalar>([&](int j) { return range_.clamp(values[j], j); });
   }
 
   /// The command with the transferred numbers in place of its own.
   [[nodiscard]] C with_total(C command, const Vector& own, const State& state) const noexcept {
     if constexpr (requires { command.stiffness; }) {
-      for (int j = 0; j < joint_count; ++j) {
-        if (applied_[j] == own[j]) continue;
-        command.effort[j] += applied_[j] - numbers_of(command, state)[j];
-        limit_total(command, state, j, range_.highest[j]);
+      for (int k = 0; k < lanes<Scalar>; ++k) {
+        auto of_lane = lane_of(command, k);
+        const JointState<joint_count> measured = lane_of(state, k);
+        for (int j = 0; j < joint_count; ++j) {
+          const double total = lane_of(applied_[j], k);
+          if (total == lane_of(own[j], k)) continue;
+          of_lane.effort[j] += total - numbers_of(of_lane, measured)[j];
+          limit_total(of_lane, measured, j, range_.highest[j]);
+        }
+        set_lane(command, k, of_lane);
       }
       return command;
     } else {
@@ -137,7 +150,7 @@ class BumplessTransfer {
     }
   }
 
-  Vector slew_;
+  Slew slew_;
   detail::CommandRange<joint_count> range_;
   Vector applied_ = Vector::Zero();  ///< y
   Vector carried_ = Vector::Zero();  ///< c

@@ -6,11 +6,9 @@
 #include "articula/control/switching/controller_tuple.hpp"
 #include "articula/control/switching/switch_board.hpp"
 #include "articula/control/switching/switch_options.hpp"
-#include "articula/core/controller.hpp"
 
 #include <array>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -20,15 +18,13 @@ namespace articula {
 /// a failure changes about that. (The other half is BumplessTransfer.)
 /// @tparam R            the robot
 /// @tparam Controllers  one or more, all with the same type of command
-template <Robot R, Controller<joint_count<R>>... Controllers>
+template <Robot R, class... Controllers>
 class ControllerSelector : public ControllerTuple<Controllers...> {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr std::size_t controller_count = sizeof...(Controllers);
-  using Command =
-      CommandOf<std::tuple_element_t<0, std::tuple<Controllers...>>, articula::joint_count<R>>;
-  static_assert((std::same_as<CommandOf<Controllers, joint_count>, Command> && ...),
-                "the controllers of a Switch have the same type of command");
+  using Scalar = detail::ScalarOfAll<Controllers...>;
+  using Command = detail::CommandOfAll<articula::joint_count<R>, Controllers...>;
 
   /// Requests that controllers start and stop with the next update. In the thread of the update.
   /// Real-time: yes.

@@ -3,12 +3,44 @@
 #pragma once
 
 #include "articula/control/laws/valid_gains.hpp"
+#include "articula/core/controller_check.hpp"
+#include "articula/core/scalar.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <tuple>
 #include <utility>
 
 namespace articula {
+
+namespace detail {
+
+template <class... Controllers>
+using FirstOf = std::tuple_element_t<0, std::tuple<Controllers...>>;
+
+/// The type of a number of several controllers: that of the first.
+template <class... Controllers>
+using ScalarOfAll = ScalarOf<FirstOf<Controllers...>>;
+
+/// At least one of several controllers brakes.
+template <int N, class... Controllers>
+concept AnyBrakes = (Brakes<Controllers, N, ScalarOfAll<Controllers...>> || ...);
+
+/// Asserts that several types are controllers with the same type of command.
+template <int N, class... Controllers>
+struct CheckedControllers {
+  using S = ScalarOfAll<Controllers...>;
+  using Command = typename CheckedController<FirstOf<Controllers...>, N, S>::Command;
+  static_assert((std::same_as<typename CheckedController<Controllers, N, S>::Command, Command> &&
+                 ...),
+                "the controllers of a Switch or of Groups must have the same type of command");
+};
+
+/// The command of several controllers for N joints.
+template <int N, class... Controllers>
+using CommandOfAll = typename CheckedControllers<N, Controllers...>::Command;
+
+}  // namespace detail
 
 /// The controllers of a Switch or of Groups.
 template <class... Controllers>

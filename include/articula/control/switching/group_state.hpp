@@ -9,12 +9,13 @@ namespace articula::detail {
 
 /// One group of joints between two cycles.
 /// @tparam N  number of joints of the robot
-template <int N>
+/// @tparam S  type of a number
+template <int N, class S>
 struct GroupState {
-  using Vector = JointVector<N>;
+  using Vector = JointVector<N, S>;
 
-  Vector joints = Vector::Zero();  ///< 1 for the group's joints
-  Vector cut = Vector::Zero();     ///< of the controller's command in the cycle of its last call
+  JointVector<N> joints = JointVector<N>::Zero();  ///< 1 for the group's joints
+  Vector cut = Vector::Zero();  ///< of the controller's command in the cycle of its last call
   int divisor = 1;
   int since = 1;            ///< cycles since the last call
   int braked_cycles = 0;    ///< in a row without a reference or brake
@@ -30,7 +31,7 @@ struct GroupState {
 
   /// The reference of the group's joints; the other joints are to stay as they are measured.
   /// Real-time: yes.
-  [[nodiscard]] JointReference<N> reference(const ControlInput<N>& in) const noexcept {
+  [[nodiscard]] JointReference<N, S> reference(const ControlInput<N, S>& in) const noexcept {
     const auto& [position, velocity, acceleration, effort] = in.reference;
     return {select(position, in.state.position), select(velocity, in.state.velocity),
             select(acceleration), select(effort)};

@@ -10,8 +10,8 @@
 #include "articula/control/switching/group_state.hpp"
 #include "articula/control/switching/joint_group.hpp"
 #include "articula/control/switching/switch_board.hpp"
-#include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
@@ -20,7 +20,6 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -49,8 +48,9 @@ namespace articula {
 ///
 /// For laws that differ from joint to joint OnJoints is enough.
 /// @tparam R            the robot
-/// @tparam Controllers  one per group, all with the same type of command
-template <Robot R, Controller<joint_count<R>>... Controllers>
+/// @tparam Controllers  one per group, which satisfy Controller and have the same type of command;
+///                      of packs, the first has a type `Scalar`
+template <Robot R, class... Controllers>
 class Groups : public ControllerTuple<Controllers...> {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
@@ -58,11 +58,9 @@ class Groups : public ControllerTuple<Controllers...> {
   /// How many controllers can be switched.
   static constexpr std::size_t controller_count =
       (detail::switch_size<Controllers> + ... + std::size_t{0});
-  using Input = ControlInput<joint_count>;
-  using Command =
-      CommandOf<std::tuple_element_t<0, std::tuple<Controllers...>>, articula::joint_count<R>>;
-  static_assert((std::same_as<CommandOf<Controllers, joint_count>, Command> && ...),
-                "the controllers of Groups have the same type of command");
+  using Scalar = detail::ScalarOfAll<Controllers...>;
+  using Input = ControlInput<joint_count, Scalar>;
+  using Command = detail::CommandOfAll<articula::joint_count<R>, Controllers...>;
 
   /// @param robot        whose joints these are
   /// @param groups       of the joints
@@ -113,7 +111,7 @@ class Groups : public ControllerTuple<Controllers...> {
   /// Brakes the groups whose reference is not finite; the others go on. A group that cannot brake
   /// gets its safe command. Real-time: yes, if the controllers' are.
   [[nodiscard]] Outcome<Command> brake(const Input& in) noexcept
-    requires(Brakes<Controllers, articula::joint_count<R>> || ...)
+    requires detail::AnyBrakes<articula::joint_count<R>, Controllers...>
   {
     return cycle<false>(in);
   }
@@ -166,9 +164,9 @@ class Groups : public ControllerTuple<Controllers...> {
   }
 
  private:
-  using Vector = JointVector<joint_count>;
-  using Reference = JointReference<joint_count>;
-  using Group = detail::GroupState<joint_count>;
+  using Vector = JointVector<joint_count, Scalar>;
+  using Reference = JointReference<joint_count, Scalar>;
+  using Group = detail::GroupState<joint_count, Scalar>;
 
   [[nodiscard]] PartScope<joint_count> scope(std::size_t g) const noexcept {
     return {.joints = groups_[g].joints, .divisor = groups_[g].divisor};
@@ -184,7 +182,7 @@ class Groups : public ControllerTuple<Controllers...> {
       if (group.due || group.since >= group.divisor) {
         const Reference own = group.reference(in);
         const Input inner{in.state, own, group.since * in.period, in.applied, group.cut};
-        const bool updates = has_reference || is_finite(own);
+        const bool updates = has_reference || all_of(is_finite(own));
         const Outcome<Command> outcome =
             updates ? updated(controller, group, inner) : brake_controller(controller, inner);
         group.cut.setZero();
@@ -222,11 +220,13 @@ class Groups : public ControllerTuple<Controllers...> {
   /// carry the weight: the motion of its own joints, and no others', decays as in Standby.
   [[nodiscard]] Command safe(const Group& group, const Input& in) const noexcept {
     Command command = safe_command(robot_, in.state.position, command_);
-    if constexpr (std::same_as<Command, EffortCommand<joint_count>>) {
+    if constexpr (std::same_as<Command, EffortCommand<joint_count, Scalar>>) {
       const double time = std::max(damping_time, 2 * in.period);
       const Vector effort =
           damping_effort(robot_, in.state.position, group.select(in.state.velocity), time);
-      if (is_finite(effort)) command = within_effort_limits(robot_, Command{effort});
+      const MaskOf<Scalar> damps = is_finite(effort);
+      for (int j = 0; j < joint_count; ++j) replace_where(damps, command.effort[j], effort[j]);
+      command = within_effort_limits(robot_, command);
     }
     return command;
   }

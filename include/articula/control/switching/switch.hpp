@@ -34,9 +34,13 @@ namespace articula {
 /// One cycle calls one controller, with the fallbacks after a failure as many more. All commands
 /// are within what the robot's description allows, as SumController's are. For controllers that act
 /// on different joints at the same time see Groups.
+///
+/// The robots of a pack switch together. The difference that is carried over, and its decay, are
+/// those of each robot. A verdict that is not fine is that of all robots.
 /// @tparam R            the robot
-/// @tparam Controllers  one or more, all with the same type of command
-template <Robot R, Controller<joint_count<R>>... Controllers>
+/// @tparam Controllers  one or more, which satisfy Controller and have the same type of command; of
+///                      packs, the first has a type `Scalar`
+template <Robot R, class... Controllers>
 class Switch : public ControllerSelector<R, Controllers...> {
   using Selector = ControllerSelector<R, Controllers...>;
   using Selector::none;
@@ -44,8 +48,9 @@ class Switch : public ControllerSelector<R, Controllers...> {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using typename Selector::Command;
-  using Input = ControlInput<joint_count>;
-  using Vector = JointVector<joint_count>;
+  using typename Selector::Scalar;
+  using Input = ControlInput<joint_count, Scalar>;
+  using Vector = JointVector<joint_count, Scalar>;
 
   /// The controllers as they are by default.
   explicit Switch(const SwitchOptions<articula::joint_count<R>>& options = {})
@@ -105,7 +110,7 @@ class Switch : public ControllerSelector<R, Controllers...> {
 
   /// Lets the active controller brake, if it can. Real-time: yes, if the controllers' are.
   [[nodiscard]] Outcome<Command> brake(const Input& in) noexcept
-    requires(Brakes<Controllers, articula::joint_count<R>> || ...)
+    requires detail::AnyBrakes<articula::joint_count<R>, Controllers...>
   {
     Outcome<Command> outcome;
     const Input inner = inner_input(in);
@@ -116,7 +121,7 @@ class Switch : public ControllerSelector<R, Controllers...> {
 
   /// How fast differences decay [unit of the command per s], N x 1: a switch changes the command by
   /// this times the period in a cycle at most. Real-time: yes.
-  [[nodiscard]] const Vector& slew() const noexcept { return transfer_.slew(); }
+  [[nodiscard]] const JointVector<joint_count>& slew() const noexcept { return transfer_.slew(); }
   /// The difference that is still carried over, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& carried() const noexcept { return transfer_.carried(); }
 

@@ -4,6 +4,7 @@
 
 #include "articula/control/switching/switch_request.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <array>
 #include <concepts>
@@ -35,7 +36,8 @@ class SwitchBoard {
   /// @throws std::invalid_argument if there are not as many, or one is empty or there twice
   void set_names(const std::vector<Name>& names, const std::array<Name, Count>& defaults) {
     if (!names.empty() && names.size() != Count) {
-      detail::refuse({"switch: ", names.size(), " names for ", Count, " controllers"});
+      detail::refuse({"switch: SwitchOptions::names has ", names.size(), " names for ", Count,
+                      " controllers; name each of them, or leave the list empty"});
     }
     for (std::size_t i = 0; i < Count; ++i) {
       Name name = names.empty() ? defaults[i] : names[i];
@@ -66,8 +68,11 @@ class SwitchBoard {
   /// @throws std::invalid_argument if none has this name
   [[nodiscard]] std::size_t known(const Name& name) const {
     const std::size_t i = find(name);
-    if (i == Count) refuse("there is no controller ", name);
-    return i;
+    if (i != Count) return i;
+    std::vector<std::string_view> names;
+    for (const Entry& entry : entries) names.push_back(entry.name.view());
+    detail::refuse({"switch: there is no controller '", name.view(), "'",
+                    detail::choice_of(name.view(), "controllers", names)});
   }
 
   /// The index of a controller, or Count if none has this name. Real-time: yes.

@@ -1,44 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Compile-time messages for hardware and controllers that do not fit a loop.
+/// @file Compile-time messages for hardware and controllers that do not make a loop.
 #pragma once
 
-#include "articula/core/controller.hpp"
+#include "articula/core/controller_check.hpp"
 #include "articula/model/robot.hpp"
 
 #include <concepts>
 #include <exception>
 
 namespace articula::detail {
-
-/// What is asserted of a type that can be called.
-/// @tparam N  number of joints
-/// @tparam S  type of a number
-template <class C, int N, class S, bool = HasUpdate<C, N, S> || IsCallable<C, N, S>>
-struct CheckedUpdate {
-  using Command = CommandOf<C, N, S>;
-  static_assert(update_is_noexcept<C, N, S>(), "update of the controller must be noexcept");
-  static_assert(JointCommand<Command, N, S>,
-                "update of the controller must return a command for N joints by value, such as "
-                "EffortCommand<N>, or an Outcome of one, see core/controller.hpp");
-};
-template <class C, int N, class S>
-struct CheckedUpdate<C, N, S, false> {
-  using Command = EffortCommand<N, S>;  // so that the message below is the first
-  static_assert(HasUpdate<C, N, S>,
-                "the controller has no update(const ControlInput<N>&) for the N joints of this "
-                "robot, see core/controller.hpp");
-};
-
-/// Asserts all that the concept Controller demands, one thing at a time.
-/// @tparam N  number of joints
-/// @tparam S  type of a number
-template <class C, int N, class S = double>
-struct CheckedController : CheckedUpdate<C, N, S> {
-  static_assert(StartFits<C, N, S>,
-                "start of the controller must take a const ControlInput<N>& for the N joints of "
-                "this robot, see core/controller.hpp");
-  static_assert(start_is_noexcept<C, N, S>(), "start of the controller must be noexcept");
-};
 
 /// Hardware that is written such commands, whatever else it may lack.
 template <class H, class Command>

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Compile-time messages for types that are no controllers.
+///
+/// Loops and compositions (Limited, Switch, Groups) take any type and name its command by
+/// `CheckedController<C, N, S>::Command`. So a mistake gives one message that says what is wrong. A
+/// constraint would list every alternative that does not hold.
+#pragma once
+
+#include "articula/core/controller.hpp"
+
+#include <type_traits>
+
+namespace articula::detail {
+
+/// What is asserted of a type that can be called.
+/// @tparam N  number of joints
+/// @tparam S  type of a number
+template <class C, int N, class S, bool = HasUpdate<C, N, S> || IsCallable<C, N, S>>
+struct CheckedUpdate {
+  using Result = CommandOf<C, N, S>;
+  static constexpr bool gives_command = JointCommand<Result, N, S>;
+  // One that is no command is replaced, so that the message below is the first.
+  using Command = std::conditional_t<gives_command, Result, EffortCommand<N, S>>;
+  static_assert(update_is_noexcept<C, N, S>(), "update of the controller must be noexcept");
+  static_assert(gives_command,
+                "update of the controller must return a command for N joints by value, such as "
+                "EffortCommand<N>, or an Outcome of one, see core/controller.hpp");
+};
+template <class C, int N, class S>
+struct CheckedUpdate<C, N, S, false> {
+  using Command = EffortCommand<N, S>;  // so that the message below is the first
+  static_assert(HasUpdate<C, N, S>,
+                "the controller has no update(const ControlInput<N>&) for the N joints of this "
+                "robot, see core/controller.hpp");
+};
+
+/// Asserts all that the concept Controller demands, one thing at a time.
+/// @tparam N  number of joints
+/// @tparam S  type of a number
+template <class C, int N, class S = double>
+struct CheckedController : CheckedUpdate<C, N, S> {
+  static_assert(StartFits<C, N, S>,
+                "start of the controller must take a const ControlInput<N>& for the N joints of "
+                "this robot, see core/controller.hpp");
+  static_assert(start_is_noexcept<C, N, S>(), "start of the controller must be noexcept");
+};
+
+}  // namespace articula::detail
