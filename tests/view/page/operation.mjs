@@ -35,11 +35,17 @@ export async function futures(browser, url) {
   const robot = await openPage(browser, url);
   await robot.tab('gains');
   const field = 'input[aria-label^="pid_plus_gravity.shoulder_active_joint.p "]';
+  // Bluish pixels, as those of the first joint, at times that are still to come.
   const pixels = () =>
     robot.page.evaluate(() => {
-      const canvas = document.querySelector('.pane canvas');
-      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-      return data.reduce((count, x, k) => count + (k % 4 === 3 && x > 0), 0);
+      const {plot} = articula.plots.panes[0];
+      const now = Math.ceil(plot.valToPos(articula.session.samples.lastTime, 'x', true));
+      const {left, top, width, height} = plot.bbox;
+      const ahead = Math.max(1, left + width - now);
+      const {data} = plot.ctx.getImageData(now, top, ahead, height);
+      let count = 0;
+      for (let k = 0; k < data.length; k += 4) count += data[k + 2] > data[k] + 40;
+      return count;
     });
   const shows = (text) =>
     robot.until(
@@ -48,7 +54,7 @@ export async function futures(browser, url) {
       text,
     );
   await robot.type(field, 500);
-  await shows('100 simulated robots with these gains: no drive swings between its limits');
+  await shows('100 simulated robots with these gains, after a step of 0.10 rad: no drive swings between its limits');
   await robot.until('the margins are shown', () =>
     [...document.querySelectorAll('.margins')].some((line) => /gain .*phase/.test(line.textContent)),
   );
@@ -56,8 +62,9 @@ export async function futures(browser, url) {
     const {futures, samples} = articula.session;
     return futures && futures.time + futures.horizon > samples.lastTime;
   });
-  await new Promise((resolve) => setTimeout(resolve, 1000)); // some redraws
+  await pause(1000); // some redraws
   const withFan = await pixels();
+  check(withFan > 50, `the fan is drawn, not ${withFan} pixels of it`);
   await robot.picture('futures');
   await robot.type('input[aria-label^="pid_plus_gravity.shoulder_active_joint.d "]', 1000);
   await shows('unstable');
@@ -66,13 +73,69 @@ export async function futures(browser, url) {
   const isGone = () =>
     articula.session.futures === null && document.querySelector('.fan').textContent === '';
   await robot.until('the fan is gone after Revert', isGone);
-  await new Promise((resolve) => setTimeout(resolve, 1000));
-  const without = await pixels();
-  check(withFan > without, `the fan is drawn: ${withFan} pixels with it, ${without} without`);
   await robot.type(field, 2000);
   await shows('no drive swings');
   await robot.page.keyboard.press('Enter');
   await robot.until('the fan is gone when the gain is set', isGone);
+}
+
+export async function gain_slider(browser, url) {
+  const robot = await openPage(browser, url);
+  const watcher = await openPage(browser, url);
+  await robot.tab('gains');
+  await watcher.tab('gains');
+  const name = 'pid_plus_gravity.shoulder_active_joint.p ';
+  const field = `input[aria-label^="${name}"]`;
+  const slider = await robot.page.waitForSelector(`input[aria-label^="Slider of ${name}"]`);
+  const valueOf = () => robot.page.$eval(field, ({valueAsNumber}) => valueAsNumber);
+  const before = await valueOf();
+  const {x, y, width, height} = await slider.boundingBox();
+  await robot.page.mouse.move(x + width / 2, y + height / 2);
+  await robot.page.mouse.down();
+  await robot.page.mouse.move(x + width / 4, y + height / 2, {steps: 5});
+  // A quarter of two decades, but for the width of the thumb.
+  await robot.until(
+    'the slider makes about a third of the gain',
+    (selector, before) => {
+      const {valueAsNumber} = document.querySelector(selector);
+      return valueAsNumber > before / 5 && valueAsNumber < before / 2;
+    },
+    field,
+    before,
+  );
+  const after = await valueOf();
+  await robot.until('the fan is drawn while the slider is held, and is not flat', () => {
+    const median = articula.session.futures?.joints[0].quantiles[2];
+    return median && Math.abs(median.at(-1) - median[0] - 0.1) < 0.02;
+  });
+  await robot.until('with the margins', () =>
+    /gain .*phase/.test(document.querySelector('.margins').textContent),
+  );
+  await robot.picture('gain_slider');
+  await robot.page.mouse.up();
+  const held = await watcher.page.$eval(field, ({valueAsNumber}) => valueAsNumber);
+  check(held === before, `the loop keeps its gain ${before} until Apply, not ${held}`);
+  await robot.page.select('select[aria-label="Number of simulated robots"]', '1000');
+  // A slow machine completes less than a thousand in the time of an answer.
+  await robot.until('more robots', () => articula.session.futures?.count > 100);
+  await robot.page.focus(`input[aria-label^="Slider of ${name}"]`);
+  await robot.page.keyboard.press('ArrowLeft');
+  const less = await valueOf();
+  check(Math.abs(less / after - 10 ** -0.01) < 3e-3, `an arrow key makes 2.3 % less of ${after}: ${less}`);
+  await robot.page.keyboard.press('Home');
+  check((await valueOf()) === 0, 'the left end is 0');
+  await robot.type(field, before * 100);
+  const place = await slider.evaluate((input) => input.valueAsNumber);
+  check(place === 0, `a typed gain beyond the slider becomes its middle, not ${place}`);
+  await robot.type(field, before / 2);
+  await robot.click('.primary::-p-text(Apply)');
+  await watcher.until(
+    'the gain is set by Apply',
+    (selector, value) => document.querySelector(selector).valueAsNumber === value,
+    field,
+    before / 2,
+  );
+  await robot.until('the fan is gone', () => articula.session.futures === null);
 }
 
 export async function gains(browser, url) {
@@ -90,7 +153,7 @@ export async function gains(browser, url) {
       const gain = document.querySelector(selector);
       return (
         gain.getAttribute('aria-invalid') === 'true' &&
-        gain.closest('.gain').querySelector('.refusal').textContent.length > 10
+        gain.closest('fieldset').querySelector('.refusal').textContent.length > 10
       );
     },
     field,
@@ -250,4 +313,12 @@ export async function simulation(browser, url) {
     'the elbow is at 0',
     () => Math.abs(articula.session.samples.latest('position')[1]) < 1e-3,
   );
+  await robot.type('input[aria-label="Goal of elbow_active_joint [rad]"]', -0.7);
+  await robot.page.keyboard.press('Tab');
+  await robot.click('button::-p-text(Place)');
+  await robot.until('the robot rests at the sliders, without a motion', () => {
+    const {samples} = articula.session;
+    const isThere = (row) => Math.abs(samples.value('position/1', row) + 0.7) < 1e-3;
+    return isThere(samples.end - 1) && isThere(samples.first) && samples.lastTime > 0.2;
+  });
 }

@@ -178,7 +178,7 @@ export async function what_if(browser, url) {
   // An arm that rests shows its gains by a step, which only the simulation makes.
   await robot.click('button::-p-text(Revert)');
   await robot.click('.timeline button::-p-text(Live)');
-  await robot.page.select('select[aria-label="Joint of the test step"]', 'shoulder_active_joint');
+  await robot.page.select('select[aria-label="Joint of the test step"]', 'joint shoulder_active_joint');
   await robot.until('the median makes the step', () => {
     const {futures, samples} = articula.session;
     const median = futures?.joints[0].quantiles[2] ?? [NaN];
@@ -203,8 +203,8 @@ export async function mock(browser, url) {
       (text) => document.querySelector('.fan').textContent.includes(text),
       text,
     );
-  await robot.page.select('select[aria-label="Joint of the test step"]', 'shoulder_active_joint');
-  await shows('100 simulated robots with these gains: no drive swings between its limits');
+  await robot.page.select('select[aria-label="Joint of the test step"]', 'joint shoulder_active_joint');
+  await shows('100 simulated robots with these gains, after a step of 0.10 rad: no drive swings between its limits');
   await robot.until('the margins are shown', () =>
     [...document.querySelectorAll('.margins')].some((line) => /phase/.test(line.textContent)),
   );

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // node run.mjs <scenario>: one scenario in a browser of its own against a server of its own.
 import {missing, pictureAll, startBrowser, startServer} from './browser.mjs';
+import * as homework from './homework.mjs';
 import * as look from './look.mjs';
 import * as motion from './motion.mjs';
 import * as operation from './operation.mjs';
 import * as playback from './playback.mjs';
 
-const scenarios = {...look, ...motion, ...operation, ...playback};
+const scenarios = {...homework, ...look, ...motion, ...operation, ...playback};
 const name = process.argv[2];
 const reason = missing();
 if (reason) {
@@ -20,8 +21,9 @@ if (!scenarios[name]) {
 const server = {current: await startServer()};
 const browser = await startBrowser();
 let failure = null;
+let skipped = ''; // why, if it is
 try {
-  await scenarios[name](browser, server.current.url, server);
+  skipped = await scenarios[name](browser, server.current.url, server);
 } catch (error) {
   failure = error;
   await pictureAll(`${name}_failed`);
@@ -32,4 +34,4 @@ if (failure) {
   console.error(failure);
   process.exit(1);
 }
-console.log(`${name}: passed`);
+console.log(skipped ? `Skipped: ${skipped}` : `${name}: passed`);

@@ -106,3 +106,8 @@ export function formatTime(seconds: number | null | undefined): string {
   if (Math.abs(seconds) >= 1e-3) return `${(seconds * 1e3).toFixed(seconds < 0.1 ? 1 : 0)} ms`;
   return `${(seconds * 1e6).toFixed(1)} µs`;
 }
+
+/** A unit as it is printed: "N m s^2/rad" becomes "N m s²/rad". */
+export function unitText(unit: string): string {
+  return unit.replaceAll(/\^([0-9])/g, (_, digit: string) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(digit)]);
+}

@@ -16,6 +16,7 @@ async function start(): Promise<void> {
   startPage(
     () => socket,
     (now) => socket.frame(now),
+    true,
   );
 }
 start().catch((error: Error) => tell(`The loop does not start: ${error.message}`));

@@ -2,6 +2,7 @@
 import 'uplot/dist/uPlot.min.css';
 import './page.css';
 import {element} from './dom';
+import {addHomework} from './homework';
 import {addNotices} from './panels/notices';
 import {ControllersPanel} from './panels/controllers_panel';
 import {addDivider} from './panels/divider';
@@ -27,8 +28,13 @@ const at = (id: string) => document.getElementById(id) as HTMLElement;
  * Builds the page.
  * @param open makes a connection to the loop
  * @param before called before each picture, with its time
+ * @param isOwn   the loop belongs to this page alone: a link may set what it likes
  */
-export function startPage(open: () => Socket, before: (now: number) => void = () => {}): void {
+export function startPage(
+  open: () => Socket,
+  before: (now: number) => void = () => {},
+  isOwn = false,
+): void {
   startTheme();
   const session = new Session(open);
   addDivider(at('divider'), document.querySelector('main') as HTMLElement);
@@ -41,14 +47,17 @@ export function startPage(open: () => Socket, before: (now: number) => void = ()
   const timeline = addTimeline(at('plots'), session, playback);
   const joints = new JointsPanel(session, playback);
   const poses = new PosesPanel(session, joints);
+  const experiments = new ExperimentsPanel(session);
   const move = element('div', {}, joints.box, poses.box);
   addTabs(at('side'), [
     ['Move', move],
     ['Controllers', new ControllersPanel(session).box],
     ['Gains', new GainsPanel(session, playback).box],
-    ['Experiments', new ExperimentsPanel(session).box],
+    ['Experiments', experiments.box],
     ['Log', new LogPanel(session).box],
   ]);
+
+  if (isOwn) addHomework(at('top'), session, poses, experiments);
 
   function frame(now: number): void {
     before(now);

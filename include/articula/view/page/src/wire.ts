@@ -132,6 +132,8 @@ export interface Futures {
   count: number;
   unstable: number; // of them
   non_finite: number; // likewise
+  steps: Record<string, number>; // added to references, by joint [rad or m]: the page's, as is the next
+  goals: Record<string, number>; // of joints with a step; NaN of others
   shares: number[]; // of the futures below each quantile
   joints: {name: string; quantiles: (number | null)[][]; curves: (number | null)[][]}[];
   margins: {

@@ -12,6 +12,14 @@ const kinds: [Kind, string][] = [
   ['chirp', 'Chirp'],
 ];
 
+/** What the fields hold. */
+export interface Experiment {
+  kind: string;
+  joint: string;
+  target: string;
+  numbers: Record<string, number>; // amplitude, frequency, last frequency, duration
+}
+
 /** Excites a joint by one click and says what the joint made of it. */
 export class ExperimentsPanel {
   readonly box = element('div', {class: 'panel'});
@@ -66,6 +74,30 @@ export class ExperimentsPanel {
     session.on('situation', () => this.enable());
     session.on('connection', () => this.enable());
     this.choose('step');
+  }
+
+  get experiment(): Experiment {
+    const numbers = this.fields.map(({name, valueAsNumber}): [string, number] => [name, valueAsNumber]);
+    return {
+      kind: this.kind,
+      joint: this.joint.value,
+      target: this.target.value,
+      numbers: Object.fromEntries(numbers),
+    };
+  }
+
+  /** What does not exist here stays as it is. */
+  set experiment({kind, joint, target, numbers}: Experiment) {
+    const known = kinds.find(([own]) => own === kind);
+    if (known) this.choose(known[0]);
+    for (const [box, value] of [[this.joint, joint], [this.target, target]] as const)
+      if ([...box.options].some((option) => option.value === value)) box.value = value;
+    for (const field of this.fields) if (field.name in numbers) field.value = String(numbers[field.name]);
+    this.unitChanged();
+  }
+
+  private get fields(): HTMLInputElement[] {
+    return [this.amplitude, this.frequency, this.last, this.duration].map(({input}) => input);
   }
 
   private load(sheet: RobotSheet): void {

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-import {element} from '../dom';
+import {element, unitText} from '../dom';
 import type {Parameter} from '../wire';
+import {GainSlider} from './gain_slider';
 
-/** The field of one gain, with its unit and range. */
+/** The field of one gain, with its slider, unit and range. */
 export class GainField {
   readonly box: HTMLElement;
   readonly isShort: boolean; // as p, i, d: they stand side by side
   private readonly input: HTMLInputElement;
-  private readonly refusal = element('span', {class: 'refusal', role: 'alert'});
+  private readonly slider: GainSlider;
+  readonly refusal = element('p', {class: 'refusal', role: 'alert'}); // below the fields
 
   constructor(
     readonly parameter: Parameter,
@@ -22,21 +24,27 @@ export class GainField {
       step: 'any',
       placeholder: 'none',
       'aria-label': `${name} [${unit}]`,
-      title: `${description}\n${name}, ${range} ${unit}`,
+      title: `${description}\n${name}, ${range} ${unitText(unit)}`,
       input: () => {
+        this.slider.show(this.value);
         this.mark();
         changed();
       },
+    });
+    this.slider = new GainSlider(parameter, (value) => {
+      this.input.value = String(value);
+      this.mark();
+      changed();
     });
     const bound = lowest !== null && highest === null ? `≥ ${lowest}` : range;
     this.box = element(
       'label',
       {class: this.isShort ? 'gain' : 'gain long'},
-      element('span', {class: 'label'}, label),
+      element('span', {class: 'label'}, ...breakable(label)),
       this.input,
-      element('span', {class: 'unit'}, `${unit || '1'}`),
+      this.slider.input,
+      element('span', {class: 'unit'}, unitText(unit || '1')),
       element('span', {class: 'bound'}, bound),
-      this.refusal,
     );
     this.reset();
   }
@@ -60,21 +68,27 @@ export class GainField {
 
   reset(): void {
     this.input.value = String(this.parameter.value ?? ''); // a field cannot hold infinity
+    this.slider.around(this.parameter.value ?? NaN);
     this.refuse('');
     this.mark();
   }
 
   refuse(reason: string): void {
     this.refusal.textContent = reason;
-    if (reason) this.box.closest('details')?.setAttribute('open', '');
+    if (reason) this.refusal.closest('details')?.setAttribute('open', '');
     this.input.setAttribute('aria-invalid', String(reason !== ''));
   }
 
   enable(on: boolean): void {
-    this.input.disabled = !on;
+    this.input.disabled = this.slider.input.disabled = !on;
   }
 
   private mark(): void {
     this.box.classList.toggle('changed', this.isChanged);
   }
+}
+
+/** A name that may go on in a second line after each underscore. */
+function breakable(name: string): (string | Node)[] {
+  return name.split(/(?<=_)/).flatMap((part, k) => (k > 0 ? [element('wbr'), part] : [part]));
 }

@@ -9,7 +9,8 @@ const rest = 100; // ms between two questions: the fan follows the loop, and a c
 /** What to simulate. */
 export interface Proposal {
   gains: Record<string, number>; // that differ from the loop's
-  steps: Record<string, number>; // added to the reference of joints [rad or m]
+  steps: () => Record<string, number>; // added to the reference of joints, when it is asked [rad or m]
+  count: number; // of simulated robots
 }
 
 /** Asks for futures while gains are typed that the loop does not have, or a test step is chosen. */
@@ -52,10 +53,15 @@ export class GainFutures {
   private async answer(proposal: Proposal, sheet: RobotSheet | null): Promise<boolean> {
     const {past} = this.playback;
     const start = past && sheet ? recordedStart(past, sheet) : {};
-    const answer = await this.session.askQuietly('/futures', {...proposal, ...start});
+    const steps = proposal.steps();
+    const reference = this.session.samples?.latest('reference_position') ?? [];
+    const goals = Object.fromEntries(
+      (sheet?.joints ?? []).map(({name}, k) => [name, reference[k] + (steps[name] ?? NaN)]),
+    );
+    const answer = await this.session.askQuietly('/futures', {...proposal, steps, ...start});
     if (this.proposal === null) return false;
     if (answer.success) {
-      const futures = answer as unknown as Futures;
+      const futures = {...answer, steps, goals: past ? {} : goals} as unknown as Futures;
       this.session.showFutures(futures);
       this.show(futures, '');
     } else {

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-import {button, element} from '../dom';
+import {button, element, format, select} from '../dom';
 import type {Playback} from '../playback';
 import type {Session} from '../session';
-import type {Futures, Parameter} from '../wire';
+import {type Futures, type Parameter, positionUnit} from '../wire';
 import {GainField} from './gain_field';
 import {GainFutures} from './gain_futures';
 import {marginText} from './margin_text';
 import {StepField} from './step_field';
+
+/** The joint in "<controller>.<joint>.<gain>". */
+function jointOf({name}: Parameter): string {
+  return name.split('.').at(-2) ?? '';
+}
 
 /** Gains by controller and joint. All changed ones are applied together, or none of them. */
 export class GainsPanel {
@@ -22,6 +27,14 @@ export class GainsPanel {
   private margins = new Map<string, HTMLElement>(); // by controller and joint
   private readonly futures: GainFutures;
   private readonly step: StepField;
+  private readonly count = select(
+    'Number of simulated robots',
+    [
+      ['100', '100 robots'],
+      ['1000', '1000 robots'],
+    ],
+    () => this.propose(),
+  );
   private readonly fan = element('p', {class: 'hint fan', role: 'status'});
   private readonly list = element('div', {});
   private readonly applyButton = element(
@@ -42,11 +55,14 @@ export class GainsPanel {
   ) {
     this.step = new StepField(session, () => this.propose());
     this.box.append(
-      this.step.box,
+      element('div', {class: 'row futures'}, this.step.box, this.count),
       this.list,
-      element('div', {class: 'row'}, this.applyButton, this.revert),
-      this.outcome,
-      this.fan,
+      element(
+        'div',
+        {class: 'foot'},
+        this.fan,
+        element('div', {class: 'row'}, this.applyButton, this.revert, this.outcome),
+      ),
     );
     this.futures = new GainFutures(session, playback, (futures, refusal) =>
       this.tell(futures, refusal),
@@ -64,8 +80,8 @@ export class GainsPanel {
     this.fields = parameters.map((parameter) => {
       const parts = parameter.name.split('.');
       const gain = parts.pop() ?? '';
-      const joint = parts.pop() ?? '';
-      const controller = parts.join('.');
+      const joint = jointOf(parameter);
+      const controller = parts.slice(0, -1).join('.');
       const field = new GainField(parameter, gain, () => this.propose());
       const joints = groups.get(controller) ?? new Map<string, GainField[]>();
       joints.set(joint, [...(joints.get(joint) ?? []), field]);
@@ -94,15 +110,17 @@ export class GainsPanel {
       'details',
       {class: 'more'},
       element('summary', {}, `${long.length} more`),
-      ...long.map(({box}) => box),
+      ...long.flatMap(({box, refusal}) => [box, refusal]),
     );
+    const short = fields.filter(({isShort}) => isShort);
     const margins = element('p', {class: 'margins'});
     this.margins.set(key, margins);
     return element(
       'fieldset',
       {},
       element('legend', {}, joint),
-      ...fields.filter(({isShort}) => isShort).map(({box}) => box),
+      ...short.map(({box}) => box),
+      ...short.map(({refusal}) => refusal),
       margins,
       long.length > 0 ? rest : null,
     );
@@ -141,11 +159,15 @@ export class GainsPanel {
     this.enable();
     const changed = this.fields.filter((field) => field.isChanged);
     const complete = changed.every((field) => !Number.isNaN(field.value));
-    const {steps} = this.step;
-    const differs = changed.length > 0 || Object.keys(steps).length > 0;
-    const asks = differs && complete && this.session.mayOperate;
+    const differs = changed.length > 0 || this.step.isChosen;
+    if (!differs || !complete || !this.session.mayOperate) return this.futures.propose(null);
     const entries = changed.map((field) => [field.parameter.name, field.value]);
-    this.futures.propose(asks ? {gains: Object.fromEntries(entries), steps} : null);
+    const tuned = new Set(changed.map(({parameter}) => jointOf(parameter)));
+    this.futures.propose({
+      gains: Object.fromEntries(entries),
+      steps: () => this.step.steps(tuned, this.isMoving),
+      count: Number(this.count.value),
+    });
   }
 
   private tell(futures: Futures | null, refusal: string): void {
@@ -156,7 +178,7 @@ export class GainsPanel {
     }
     const bad = futures ? futures.unstable + futures.non_finite : 0;
     this.fan.textContent = futures
-      ? `${futures.count} simulated robots with these gains${this.from(futures)}: ${bad === 0 ? 'no drive swings between its limits' : `${bad} unstable`}.`
+      ? `${futures.count} simulated robots with these gains${this.from(futures)}${this.after(futures)}: ${bad === 0 ? 'no drive swings between its limits' : `${bad} unstable`}.`
       : refusal;
     this.fan.classList.toggle('bad', bad > 0 || refusal !== '');
     for (const field of this.refusedInFan) field.refuse('');
@@ -166,6 +188,19 @@ export class GainsPanel {
 
   private from({time}: Futures): string {
     return this.playback.past ? `, from ${time.toFixed(3)} s on` : '';
+  }
+
+  private after({steps}: Futures): string {
+    const texts = Object.entries(steps).map(([name, height]) => {
+      const joint = this.session.sheet?.joints.find((own) => own.name === name);
+      return `${format(height, 3)} ${joint ? positionUnit(joint) : ''}`;
+    });
+    return texts.length > 0 ? `, after a step of ${[...new Set(texts)].join(' and ')}` : '';
+  }
+
+  // A recording is compared with what the gains would have made of it: a step would disturb that.
+  private get isMoving(): boolean {
+    return this.playback.past !== null || this.session.situation?.motion !== 'rest';
   }
 
   private enable(): void {

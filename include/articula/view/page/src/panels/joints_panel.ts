@@ -31,6 +31,7 @@ export class JointsPanel {
   private readonly live = toggle('Live drag', false, (on) => this.setLive(on), {
     title: 'The reference follows the sliders at once, at most at the chosen speed',
   });
+  private readonly place: HTMLButtonElement;
   private readonly others: HTMLButtonElement[];
 
   constructor(
@@ -43,7 +44,10 @@ export class JointsPanel {
     const undo = button('Undo', () => this.all((row) => row.giveUp()), {
       title: 'Set the sliders to the present reference',
     });
-    this.others = [zero, undo];
+    this.place = button('Place', () => void this.reset(), {
+      title: 'Reset the simulation: the robot is at rest at the positions of the sliders',
+    });
+    this.others = [zero, undo, this.place];
     const share = element('output', {class: 'unit'});
     const showShare = () => {
       share.textContent = `${Math.round(100 * this.speed.valueAsNumber)} %`;
@@ -58,6 +62,7 @@ export class JointsPanel {
         this.go,
         zero,
         undo,
+        this.place,
         element('span', {class: 'stretch'}),
         this.live,
       ),
@@ -102,6 +107,11 @@ export class JointsPanel {
     if (answer.success)
       for (const row of touched) if (row.goal === positions[row.joint.name]) row.giveUp();
     this.enable();
+  }
+
+  private async reset(): Promise<void> {
+    const answer = await this.session.ask('/reset', {positions: this.goals()});
+    if (answer.success) this.all((row) => row.giveUp());
   }
 
   /** To be called once per frame of the display. */
@@ -152,6 +162,7 @@ export class JointsPanel {
     this.rows = sheet.joints.map((joint, index) => new JointRow(joint, index, () => this.enable()));
     this.list.replaceChildren(...this.rows.map(({box}) => box));
     this.following = [];
+    this.place.hidden = !sheet.is_simulated;
     this.enable();
   }
 

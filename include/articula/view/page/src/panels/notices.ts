@@ -7,8 +7,9 @@ const lifetime = 6000; // ms
 /** Short messages at the bottom: refusals and messages of the server. */
 export function addNotices(box: HTMLElement, session: Session): void {
   session.on('notice', ({text, isError}) => {
-    const same = [...box.children].find((child) => child.textContent === text);
-    same?.remove(); // a refusal that repeats is shown once
+    const kind = (words: string | null) => words?.replaceAll(/[0-9]+/g, '');
+    const same = [...box.children].find((child) => kind(child.textContent) === kind(text));
+    same?.remove(); // what repeats, perhaps with other numbers, is shown once
     const notice = element(
       'div',
       {class: isError ? 'notice error' : 'notice', role: isError ? 'alert' : 'status'},

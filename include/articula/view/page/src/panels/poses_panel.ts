@@ -3,7 +3,7 @@ import {button, element} from '../dom';
 import type {Session} from '../session';
 import type {JointsPanel} from './joints_panel';
 
-interface Pose {
+export interface Pose {
   positions: Record<string, number>;
   duration: number; // from the pose before [s]
 }
@@ -45,6 +45,16 @@ export class PosesPanel {
     session.on('robot', () => this.read());
     session.on('situation', () => this.enable());
     session.on('connection', () => this.enable());
+  }
+
+  /** The poses in the list. Those that are set are kept by the browser when the user changes one. */
+  get content(): Pose[] {
+    return this.poses;
+  }
+
+  set content(poses: Pose[]) {
+    this.poses = poses;
+    this.show();
   }
 
   private get key(): string {

@@ -22,7 +22,7 @@ export function addSimulationBar(view: HTMLElement, session: Session): {draw: ()
     (value) => void session.ask('/set_speed', {factor: Number(value)}),
   );
   const reset = button('Reset', () => void session.ask('/reset', {positions: {}}), {
-    title: 'Put the robot at rest into its zero position',
+    title: 'Put the robot at rest into its zero position. Place, beside the sliders, puts it elsewhere',
   });
   const hint = element('span', {class: 'muted hint'}, 'Drag the robot to pull at it.');
   const parts = [pause, step, speed, reset];

@@ -47,6 +47,7 @@ function common(): uPlot.Axis {
 
 // As many digits as the distance between two numbers needs.
 function tickTexts(ticks: number[], step: number): string[] {
-  const digits = Math.min(8, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+  let digits = 0;
+  while (digits < 8 && Math.abs(step * 10 ** digits - Math.round(step * 10 ** digits)) > 1e-6) ++digits;
   return ticks.map((tick) => tick.toFixed(digits).replace('-', '−'));
 }

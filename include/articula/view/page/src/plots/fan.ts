@@ -17,8 +17,9 @@ export function withFan(
   let [least, most] = [low ?? Infinity, high ?? -Infinity];
   for (const own of joints) {
     if (own.unit !== unit) continue;
-    for (const x of futures?.joints[own.joint]?.quantiles.flat() ?? []) {
-      if (x === null) continue;
+    const fan = futures?.joints[own.joint];
+    for (const x of [...(fan?.quantiles.flat() ?? []), futures?.goals[fan?.name ?? '']]) {
+      if (x === null || x === undefined || !Number.isFinite(x)) continue;
       least = Math.min(least, x);
       most = Math.max(most, x);
     }
@@ -26,13 +27,14 @@ export function withFan(
   return [least, most];
 }
 
-/** Draws futures: a light band of all, a darker one of most, and some curves. */
+/** Draws futures: a light band of all, a darker one of most, some curves, and the goals. */
 export function drawFan(plot: uPlot, futures: Futures, joints: FanJoints): void {
   const {ctx, bbox} = plot;
   ctx.save();
   ctx.beginPath();
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
+  ctx.setLineDash([]); // that of the line before is still set
   const step = futures.horizon / futures.samples;
   const x = (k: number) => plot.valToPos(futures.time + k * step, 'x', true);
   for (const {joint, unit} of joints) {
@@ -56,6 +58,18 @@ export function drawFan(plot: uPlot, futures: Futures, joints: FanJoints): void 
       draw(path(curve));
       ctx.stroke();
     }
+  }
+  ctx.globalAlpha = 1;
+  ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
+  for (const {joint, unit} of joints) {
+    const goal = futures.goals[futures.joints[joint]?.name];
+    if (!Number.isFinite(goal)) continue;
+    const y = plot.valToPos(goal, unit, true);
+    ctx.strokeStyle = jointColour(joint);
+    ctx.beginPath();
+    ctx.moveTo(x(0), y);
+    ctx.lineTo(x(futures.samples), y);
+    ctx.stroke();
   }
   ctx.restore();
 }

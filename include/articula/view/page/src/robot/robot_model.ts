@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import {Box3, LoadingManager, Mesh, MeshBasicMaterial, type Object3D, Sphere} from 'three';
+import {Box3, LoadingManager, Mesh, MeshBasicMaterial, type Object3D, Vector3} from 'three';
 import URDFLoader, {type URDFRobot} from 'urdf-loader';
+import {drawsInSoftware} from '../graphics';
 import type {RobotSheet} from '../wire';
 import {addBones} from './bones';
 import {MeshLoader} from './mesh_loader';
@@ -27,11 +28,13 @@ export class RobotModel {
     const meshes = new MeshLoader(query);
     const arrived = () => {
       this.cast(this.reference);
+      castShadows(this.measured);
       changed(meshes.failures);
     };
     this.measured = parse(sheet.urdf, meshes, arrived);
     this.reference = parse(sheet.urdf, meshes, arrived);
     this.cast(this.reference);
+    castShadows(this.measured);
   }
 
   /** Moves robot and shadow. False if both stay where they are, but for less than can be seen. */
@@ -55,10 +58,14 @@ export class RobotModel {
 
   showsReference = true;
 
-  /** The sphere around the robot, in the root link's frame. */
-  bounds(): Sphere {
-    const box = new Box3().setFromObject(this.measured);
-    return box.isEmpty() ? new Sphere(undefined, 0.5) : box.getBoundingSphere(new Sphere());
+  /** The box around the robot, in the root link's frame. */
+  bounds(): Box3 {
+    const box = new Box3();
+    this.measured.updateMatrixWorld(true);
+    this.measured.traverse((part) => {
+      if (part instanceof Mesh && !isExtra(part)) box.expandByObject(part);
+    });
+    return box.isEmpty() ? new Box3().setFromCenterAndSize(new Vector3(), new Vector3(0.5, 0.5, 0.5)) : box;
   }
 
   /** The link that ends the longest chain of joints. */
@@ -84,6 +91,28 @@ export class RobotModel {
       part.renderOrder = 1;
     });
   }
+}
+
+const extra = 'articula_extra';
+
+/** Marks what is drawn on a robot and is no part of it: it has no shadow, and cannot be pulled. */
+export function markExtra(object: Object3D): void {
+  object.traverse((part) => {
+    part.userData[extra] = true;
+    part.castShadow = false;
+    part.raycast = () => {};
+  });
+}
+
+function isExtra(part: Object3D): boolean {
+  return part.userData[extra] === true;
+}
+
+function castShadows(robot: URDFRobot): void {
+  robot.traverse((part) => {
+    part.castShadow = part instanceof Mesh && !isExtra(part);
+    part.receiveShadow = part.castShadow && !drawsInSoftware(); // a processor alone has the ground's
+  });
 }
 
 function parse(urdf: string, meshes: MeshLoader, arrived: () => void): URDFRobot {

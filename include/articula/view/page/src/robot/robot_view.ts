@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import {AxesHelper, Box3, Color, type Object3D} from 'three';
+import {Color, type Object3D, Sphere} from 'three';
 import {element, format, select, toggle} from '../dom';
 import type {Playback} from '../playback';
 import type {Session} from '../session';
@@ -7,8 +7,9 @@ import {colour, onTheme} from '../theme';
 import type {RobotSheet} from '../wire';
 import {inertiaEllipsoids} from './inertia_ellipsoids';
 import {jointAxes} from './joint_axes';
+import {linkFrames} from './link_frames';
 import {PullTool} from './pull_tool';
-import {RobotModel} from './robot_model';
+import {markExtra, RobotModel} from './robot_model';
 import {Stage} from './stage';
 import {Trail} from './trail';
 
@@ -20,6 +21,7 @@ export class RobotView {
   private readonly trail = new Trail();
   private readonly force = element('output', {class: 'force', hidden: true});
   private readonly past = element('output', {class: 'past', hidden: true});
+  private readonly scale = element('output', {class: 'scale muted', title: 'The ground'});
   private readonly tool = select('Link of the trail', [], () => this.restartTrail());
   private readonly shown = {frames: false, axes: false, inertia: false};
   private extras: Record<keyof RobotView['shown'], Object3D[]> = {
@@ -43,7 +45,8 @@ export class RobotView {
       (request) => void session.askQuietly('/pull', request),
       (newtons) => this.showForce(newtons),
     );
-    box.append(this.toolbar(), this.force, this.past);
+    const corner = element('div', {class: 'corner'}, this.stage.compass.box, this.scale);
+    box.append(this.toolbar(), this.force, this.past, corner);
     session.on('robot', (sheet) => this.load(sheet));
     session.on('situation', () => this.situationChanged());
     playback.on('changed', () => this.playbackChanged());
@@ -92,11 +95,11 @@ export class RobotView {
 
   fit(): void {
     if (!this.model) return;
-    this.model.measured.updateMatrixWorld(true);
-    const sphere = this.model.bounds();
-    this.radius = sphere.radius;
-    const box = new Box3().setFromObject(this.model.measured);
-    this.stage.fit(sphere, box.isEmpty() ? 0 : Math.min(0, box.min.z));
+    const box = this.model.bounds();
+    this.radius = box.getBoundingSphere(new Sphere()).radius;
+    this.stage.fit(box);
+    const {square} = this.stage.ground;
+    this.scale.textContent = `Squares of ${square < 1 ? `${Math.round(100 * square)} cm` : `${square} m`}`;
   }
 
   restartTrail(): void {
@@ -144,16 +147,12 @@ export class RobotView {
   private addExtras(sheet: RobotSheet): void {
     const robot = this.model?.measured;
     if (!robot) return;
-    const frames = Object.values(robot.links).map((link) => {
-      const axes = new AxesHelper(0.2 * this.radius);
-      link.add(axes);
-      return axes;
-    });
     this.extras = {
-      frames,
+      frames: linkFrames(robot, 0.16 * this.radius),
       axes: jointAxes(robot, sheet.joints, 0.25 * this.radius),
       inertia: inertiaEllipsoids(robot),
     };
+    Object.values(this.extras).flat().forEach(markExtra);
     for (const kind of ['frames', 'axes', 'inertia'] as const) this.show(kind, this.shown[kind]);
   }
 
@@ -190,6 +189,7 @@ export class RobotView {
         true,
         (on) => {
           this.stage.gridVisible = on;
+          this.scale.hidden = !on;
         },
         {title: 'Show the ground'},
       ),
