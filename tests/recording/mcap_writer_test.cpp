@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // MCAP files, read back by the specification: once from the front, once through the summary.
 #include <articula/recording/mcap_record_writer.hpp>
+#include <articula/recording/ros_record_writer.hpp>
 #include <articula/robots/q2d.hpp>
+#include <articula/ros2/cdr_decoder.hpp>
 
 #include <chrono>
 #include <cstddef>
@@ -9,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -405,4 +408,104 @@ TEST_CASE("an MCAP file without messages is one, too") {
 TEST_CASE("an MCAP file that cannot be written is an error") {
   CHECK_THROWS_WITH(McapWriter("/nowhere/a.mcap", "a", "A", "{}"),
                     "cannot write /nowhere/a.mcap: No such file or directory");
+}
+
+TEST_CASE("cycles are written as messages of ROS 2, on topics with an index each") {
+  const support::ScratchFile file("ros.mcap");
+  using States = ros2::sensor_msgs::msg::JointState<ros2::Jazzy>;
+  constexpr int cycles = 300;  // more than one chunk
+  auto record = support::some_record();
+  {
+    RosRecordWriter writer(file.path(), {"shoulder", "elbow"});
+    for (int k = 0; k < cycles; ++k) {
+      record.time = 1.25 + k;
+      writer.write(record);
+    }
+    writer.close();
+  }
+  const std::string bytes = content_of(file.path());
+  const auto records = records_of_file(bytes);
+  CHECK(Fields(records.at(0).content).text() == "ros2");  // the profile
+
+  std::vector<std::string> topics;
+  std::vector<std::vector<States>> messages(4);  // by channel, from 1
+  std::size_t chunks = 0;
+  std::vector<std::size_t> indexed(4);
+  for (const RawRecord& own : records) {
+    Fields fields(own.content);
+    if (own.opcode == 3 && topics.size() < 3) {
+      CHECK(fields.number(2) == topics.size() + 1);
+      CHECK(fields.text() == "sensor_msgs/msg/JointState");
+      CHECK(fields.text() == "ros2msg");
+      CHECK(
+          fields.text().starts_with("std_msgs/Header header\nstring[] name\nfloat64[] position\n"));
+    }
+    if (own.opcode == 4 && topics.size() < 3) {
+      CHECK(fields.number(2) == topics.size() + 1);
+      CHECK(fields.number(2) == topics.size() + 1);
+      topics.emplace_back(fields.text());
+      CHECK(fields.text() == "cdr");
+    }
+    if (own.opcode == 6) {
+      ++chunks;
+      for (const RawRecord& inner : records_of(chunk_of(own).messages)) {
+        Fields message(inner.content);
+        const std::size_t channel = message.number(2);
+        CHECK(message.number(4) == messages.at(channel).size());  // counted by channel
+        const std::uint64_t time = message.number(8);
+        message.number(8);
+        const std::string_view cdr = message.rest();
+        States states;
+        REQUIRE(ros2::decode(std::as_bytes(std::span(cdr)), states) == ros2::CdrError::none);
+        CHECK(static_cast<std::uint64_t>(states.header.stamp.sec) * 1'000'000'000 +
+                  states.header.stamp.nanosec ==
+              time);
+        messages.at(channel).push_back(states);
+      }
+    }
+    if (own.opcode == 7) {
+      const std::size_t channel = fields.number(2);
+      Fields places(fields.text());
+      while (!places.empty()) {
+        const std::uint64_t time = places.number(8), place = places.number(8);
+        ++indexed.at(channel);
+        // Where the index says, there is a message of this channel and time.
+        std::size_t chunk = 0;
+        for (const RawRecord& other : records) {
+          if (other.opcode == 6 && other.start < own.start) chunk = other.start;
+        }
+        Fields message(std::string_view(bytes).substr(chunk + 9 + 40 + place, 9 + 14));
+        CHECK(message.number(1) == 5);
+        message.number(8);
+        CHECK(message.number(2) == channel);
+        message.number(4);
+        CHECK(message.number(8) == time);
+      }
+    }
+    if (own.opcode == 11) {
+      CHECK(fields.number(8) == 3 * cycles);
+      CHECK(fields.number(2) == 3);
+      CHECK(fields.number(4) == 3);
+      fields.bytes(8);
+      CHECK(fields.number(4) == chunks);
+    }
+  }
+  CHECK(topics == std::vector<std::string>{"/joint_states", "/reference", "/command"});
+  CHECK(chunks > 1);
+  for (const std::size_t channel : {1U, 2U, 3U}) {
+    REQUIRE(messages.at(channel).size() == cycles);
+    CHECK(indexed.at(channel) == cycles);
+    CHECK(messages.at(channel)[0].name == std::vector<std::string>{"shoulder", "elbow"});
+  }
+  using Values = std::vector<double>;
+  const States& state = messages[1][2];
+  CHECK(state.header.stamp.sec == 3);
+  CHECK(state.header.stamp.nanosec == 250'000'000);
+  CHECK(state.position == Values{1.0 / 3, -0.2});
+  CHECK(state.velocity == Values{3.5, 4.5});
+  CHECK(state.effort == Values{5.5, 6.5});
+  CHECK(messages[2][2].position == Values{1.25, 2.25});
+  CHECK(messages[2][2].effort == Values{7.25, 8.25});
+  CHECK(messages[3][2].position.empty());
+  CHECK(messages[3][2].effort == Values{1e-17, -13.62});
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/server/client.hpp"
 
+#include "articula/ros2/cdr_decoder.hpp"
+#include "articula/ros2/messages/sensor_msgs.hpp"
 #include "articula/view/server/broadcast.hpp"
 #include "articula/view/server/futures_thread.hpp"
 #include "catch.hpp"
@@ -9,6 +11,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -17,6 +21,8 @@
 using namespace articula::view;
 using articula::ViewOptions;
 using support::FakePort;
+
+namespace ros2 = articula::ros2;
 
 namespace {
 
@@ -102,6 +108,45 @@ TEST_CASE("a new client gets the server's name, channels and services") {
   CHECK(texts[0]["name"] == "articula: fake arm");
   CHECK(texts[1]["channels"].size() == topic_count);
   CHECK(texts[2]["services"].size() == services().size());
+}
+
+TEST_CASE("a client that takes nothing but ROS 2 messages sees state, reference and command") {
+  FakePort port;
+  Talk talk(port);
+  std::map<std::string, int> taken;  // ids by topic, as PlotJuggler chooses them
+  const std::vector<Json> texts = talk.texts();
+  for (const Json& channel : texts.at(1).at("channels")) {
+    if (channel["encoding"] != "cdr" || channel["schemaEncoding"] != "ros2msg") continue;
+    CHECK(channel["schemaName"] == "sensor_msgs/msg/JointState");
+    CHECK(channel["schema"].get<std::string>().find("MSG: std_msgs/Header") != std::string::npos);
+    taken[channel["topic"]] = channel["id"];
+  }
+  REQUIRE(taken.size() == 3);
+  for (const auto& [topic, id] : taken) {
+    talk.text(R"({"op":"subscribe","subscriptions":[{"id":)" + std::to_string(100 + id) +
+              R"(,"channelId":)" + std::to_string(id) + "}]}");
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the port makes cycles
+  talk.tick();
+  std::map<int, ros2::sensor_msgs::msg::JointState<ros2::Jazzy>> states;
+  for (const Frame& frame : talk.sent()) {
+    for (const auto& [topic, id] : taken) {
+      if (!frame.head.starts_with("\x01" + number(static_cast<std::uint32_t>(100 + id)))) continue;
+      REQUIRE(ros2::decode(std::as_bytes(std::span(*frame.body)), states[id]) ==
+              ros2::CdrError::none);
+    }
+  }
+  REQUIRE(states.size() == 3);
+  const auto& state = states[taken["/ros/joint_states"]];
+  CHECK(state.header.stamp.sec >= 1'699'999'999);  // of the wall's time in `tick`
+  CHECK(state.name == std::vector<std::string>{"shoulder", "elbow", "finger"});
+  CHECK(state.position.size() == 3);
+  CHECK(state.effort.size() == 3);
+  const auto& command = states[taken["/ros/command"]];
+  CHECK(command.name == std::vector<std::string>{"shoulder", "elbow"});
+  CHECK(command.position.empty());
+  CHECK(command.effort.size() == 2);
+  CHECK(states[taken["/ros/reference"]].position.size() == 2);
 }
 
 TEST_CASE("futures are answered with quantiles, curves and margins") {

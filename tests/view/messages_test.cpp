@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/messages.hpp"
 
+#include "articula/ros2/cdr_decoder.hpp"
+#include "articula/ros2/messages/sensor_msgs.hpp"
 #include "articula/view/protocol/channels.hpp"
 #include "articula/view/protocol/requests.hpp"
 #include "catch.hpp"
@@ -9,11 +11,13 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 using namespace articula::view;
 namespace remote = articula::remote;
+namespace ros2 = articula::ros2;
 
 namespace {
 
@@ -113,6 +117,38 @@ TEST_CASE("joint states have the mimic joints, too") {
   CHECK(json["effort"] == Json{5.0, 6.0, 0.0});
 }
 
+TEST_CASE("a cycle as messages of ROS 2 has the numbers of its JSON") {
+  support::FakePort port;
+  const remote::Cycle own = cycle(2);
+  const auto decoded = [](const std::string& bytes) {
+    ros2::sensor_msgs::msg::JointState<ros2::Jazzy> message;
+    REQUIRE(ros2::decode(std::as_bytes(std::span(bytes)), message) == ros2::CdrError::none);
+    CHECK(message.header.stamp.sec == 1);
+    CHECK(message.header.stamp.nanosec == 500'000'000);
+    return message;
+  };
+  const Json json = Json::parse(joint_states_message(port.robot(), own, 1'500'000'000));
+  const auto states = decoded(ros_states_message(port.robot(), own, 1'500'000'000));
+  CHECK(Json(states.name) == json["name"]);
+  CHECK(Json(states.position) == json["position"]);
+  CHECK(Json(states.velocity) == json["velocity"]);
+  CHECK(Json(states.effort) == json["effort"]);
+  const auto reference = decoded(ros_reference_message(port.robot(), own, 1'500'000'000));
+  CHECK(reference.name == std::vector<std::string>{"shoulder", "elbow"});
+  CHECK(reference.position == own.reference_position);
+  CHECK(reference.velocity == own.reference_velocity);
+  CHECK(reference.effort == own.reference_effort);
+  const auto command = decoded(ros_command_message(port.robot(), own, 1'500'000'000));
+  CHECK(command.position.empty());
+  CHECK(command.effort == own.command[0]);
+
+  remote::Cycle bad = own;
+  bad.effort.clear();
+  bad.command.clear();
+  CHECK(std::isnan(decoded(ros_states_message(port.robot(), bad, 1'500'000'000)).effort[0]));
+  CHECK(decoded(ros_command_message(port.robot(), bad, 1'500'000'000)).effort.empty());
+}
+
 TEST_CASE("transforms place every link but the root in the root") {
   support::FakePort port;
   const Json json =
@@ -151,10 +187,12 @@ TEST_CASE("a robot has its limits, null where there are none") {
   CHECK(parameters["parameters"][0]["highest"] == 100.0);
 }
 
-TEST_CASE("the schemas of topics and services are JSON schemas") {
+TEST_CASE("the schemas of services, and of topics in JSON, are JSON schemas") {
   for (std::size_t i = 0; i < topic_count; ++i) {
     const Json entry = advertisement_of(static_cast<Topic>(i));
+    if (entry["encoding"] == "cdr") continue;
     CHECK(entry["encoding"] == "json");
+    CHECK(entry["schemaEncoding"] == "jsonschema");
     CHECK(Json::parse(entry["schema"].get<std::string>())["type"] == "object");
   }
   for (const Service& service : services()) {

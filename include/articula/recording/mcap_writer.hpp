@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Writes timed JSON messages to an MCAP file.
+/// @file Writes timed messages to an MCAP file.
 #pragma once
 
 #include "articula/recording/output_file.hpp"
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -16,7 +17,16 @@
 
 namespace articula {
 
-/// Writes JSON messages of one topic to an MCAP file, which PlotJuggler and Foxglove open.
+/// A topic of an MCAP file, and what its messages are.
+struct McapTopic {
+  std::string name{};
+  std::string type{};                          ///< name of the messages' type
+  std::string schema{};                        ///< of that type
+  std::string schema_encoding = "jsonschema";  ///< or "ros2msg"
+  std::string encoding = "json";               ///< of the messages, or "cdr"
+};
+
+/// Writes messages to an MCAP file, which PlotJuggler and Foxglove open.
 /// Source: [MCAP], the records Header, Schema, Channel, Chunk, Message, Message Index, Data End,
 /// Statistics, Chunk Index, Summary Offset and Footer. There is no compression and no checksum.
 ///
@@ -29,24 +39,38 @@ class McapWriter {
   /// Size of the messages at which a chunk is complete [bytes]. Readers load whole chunks.
   static constexpr std::uint64_t chunk_size = 1 << 16;
 
-  /// @param path         the file; not a pipe, since it must be seekable
+  /// @param path     the file; not a pipe, since it must be seekable
+  /// @param topics   at least one
+  /// @param profile  of all topics: "ros2", or none
+  /// @throws std::runtime_error if the file cannot be written
+  McapWriter(const std::filesystem::path& path, const std::vector<McapTopic>& topics,
+             std::string_view profile = {})
+      : file_(path), channels_(topics.size()) {
+    put(magic);
+    put(0x01, Bytes().text(profile).text("articula"));
+    for (std::size_t i = 0; i < topics.size(); ++i) {
+      const McapTopic& topic = topics[i];
+      Channel& channel = channels_[i];
+      channel.schema.number(id_of(i), 2).text(topic.type);
+      channel.schema.text(topic.schema_encoding).text(topic.schema);
+      channel.record.number(id_of(i), 2).number(id_of(i), 2);
+      channel.record.text(topic.name).text(topic.encoding).number(0, 4);
+      put(0x03, channel.schema);
+      put(0x04, channel.record);
+    }
+    file_.check();
+  }
+  /// With one topic, whose messages are JSON.
+  /// @param path         of the file
   /// @param topic        name of the topic
   /// @param schema_name  name of the messages' type
   /// @param schema       of the messages, as JSON Schema
   /// @throws std::runtime_error if the file cannot be written
   McapWriter(const std::filesystem::path& path, std::string_view topic,
              std::string_view schema_name, std::string_view schema)
-      : file_(path) {
-    Bytes header;
-    header.text("").text("articula");
-    schema_.number(id, 2).text(schema_name).text("jsonschema").text(schema);
-    channel_.number(id, 2).number(id, 2).text(topic).text("json").number(0, 4);
-    put(magic);
-    put(0x01, header);
-    put(0x03, schema_);
-    put(0x04, channel_);
-    file_.check();
-  }
+      : McapWriter(path, {{.name = std::string(topic),
+                           .type = std::string(schema_name),
+                           .schema = std::string(schema)}}) {}
   /// Completes the file if it is open. Call close() to get its errors.
   ~McapWriter() {
     try {
@@ -57,23 +81,29 @@ class McapWriter {
   McapWriter(McapWriter&&) noexcept = default;
   McapWriter& operator=(McapWriter&&) = delete;
 
-  /// Appends a message.
+  /// Appends a message of the first topic.
   /// @param time     since any moment, >= 0
-  /// @param message  JSON
+  /// @param message  its bytes
   /// @throws std::runtime_error if it cannot be written
-  void write(std::chrono::nanoseconds time, std::string_view message) {
+  void write(std::chrono::nanoseconds time, std::string_view message) { write(0, time, message); }
+  /// Appends a message.
+  /// @param topic  index in the topics of the constructor
+  void write(std::size_t topic, std::chrono::nanoseconds time, std::string_view message) {
     const auto stamp = static_cast<std::uint64_t>(time.count());
-    if (chunk_.index.data.empty()) {
-      chunk_.start = size_;
+    if (!is_chunk_open_) {
+      is_chunk_open_ = true;
+      chunk_start_ = size_;
       put(0x06, chunk_header({0, 0}, 0));
     }
-    chunk_.index.number(stamp, 8).number(size_ - content_start(), 8);
-    chunk_.times.add(stamp);
+    Channel& channel = channels_[topic];
+    channel.index.number(stamp, 8).number(size_ - content_start(), 8);
+    chunk_times_.add(stamp);
     times_.add(stamp);
     Bytes content;
-    content.number(id, 2).number(count_++, 4).number(stamp, 8).number(stamp, 8);
+    content.number(id_of(topic), 2).number(channel.count++, 4).number(stamp, 8).number(stamp, 8);
     content.data += message;
     put(0x05, content);
+    ++count_;
     if (size_ - content_start() >= chunk_size) complete_chunk();
     file_.check();
   }
@@ -86,10 +116,17 @@ class McapWriter {
     complete_chunk();
     put(0x0f, Bytes().number(0, 4));
     Bytes statistics;
-    statistics.number(count_, 8).number(1, 2).number(1, 4).number(0, 4).number(0, 4);
+    statistics.number(count_, 8).number(channels_.size(), 2).number(channels_.size(), 4);
+    statistics.number(0, 4).number(0, 4);
     statistics.number(chunk_indexes_.size(), 4);
     statistics.number(count_ == 0 ? 0 : times_.first, 8).number(times_.last, 8);
-    statistics.number(10, 4).number(id, 2).number(count_, 8);
+    statistics.number(10 * channels_.size(), 4);
+    std::vector<Bytes> schemas, channels;
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      statistics.number(id_of(i), 2).number(channels_[i].count, 8);
+      schemas.push_back(channels_[i].schema);
+      channels.push_back(channels_[i].record);
+    }
     const std::uint64_t summary = size_;
     Bytes offsets;
     const auto put_group = [&](unsigned char opcode, std::span<const Bytes> contents) {
@@ -99,8 +136,8 @@ class McapWriter {
       offsets.number(0x0e, 1).number(1 + 8 + 8, 8);
       offsets.number(opcode, 1).number(start, 8).number(size_ - start, 8);
     };
-    put_group(0x03, {&schema_, 1});
-    put_group(0x04, {&channel_, 1});
+    put_group(0x03, schemas);
+    put_group(0x04, channels);
     put_group(0x0b, {&statistics, 1});
     put_group(0x08, chunk_indexes_);
     const std::uint64_t summary_offsets = size_;
@@ -113,7 +150,9 @@ class McapWriter {
 
  private:
   static constexpr std::string_view magic{"\x89MCAP0\r\n", 8};
-  static constexpr std::uint64_t id = 1;  ///< of the one schema and the one channel
+
+  /// The number of a topic's channel and schema. 0 means none.
+  [[nodiscard]] static std::uint64_t id_of(std::uint64_t index) { return index + 1; }
 
   /// The content of a record: numbers with the least significant byte first, texts after their
   /// length.
@@ -145,14 +184,14 @@ class McapWriter {
     }
   };
 
-  /// The chunk that is being filled.
-  struct OpenChunk {
-    std::uint64_t start = 0;  ///< of its record in the file
-    Times times{};
-    Bytes index{};  ///< time and position of each message
+  /// A topic, and its messages in the chunk that is being filled.
+  struct Channel {
+    Bytes schema{}, record{};
+    std::uint64_t count = 0;  ///< messages in the file
+    Bytes index{};            ///< time and position of each message of the chunk
   };
 
-  [[nodiscard]] std::uint64_t content_start() const { return chunk_.start + chunk_prefix; }
+  [[nodiscard]] std::uint64_t content_start() const { return chunk_start_ + chunk_prefix; }
 
   /// The fields of a Chunk record before its messages.
   /// @param length  of the messages that belong to it [bytes]
@@ -164,20 +203,27 @@ class McapWriter {
 
   /// Sets the length of the chunk to contain the messages after it, and adds its index.
   void complete_chunk() {
-    if (chunk_.index.data.empty()) return;
-    const std::uint64_t content = size_ - content_start(), length = size_ - chunk_.start;
-    const auto& [first, last] = chunk_.times;
-    const Bytes header = chunk_header(chunk_.times, content);
+    if (!is_chunk_open_) return;
+    const std::uint64_t content = size_ - content_start(), length = size_ - chunk_start_;
+    const auto& [first, last] = chunk_times_;
+    const Bytes header = chunk_header(chunk_times_, content);
     file_.replace(length - 1, Bytes().number(length - 9, 8).data + header.data);
 
-    const std::uint64_t message_index = size_;
-    put(0x07, Bytes().number(id, 2).text(chunk_.index.data));
+    const std::uint64_t message_indexes = size_;
+    Bytes places;  // of the index of each channel
+    for (std::size_t i = 0; i < channels_.size(); ++i) {
+      if (channels_[i].index.data.empty()) continue;
+      places.number(id_of(i), 2).number(size_, 8);
+      put(0x07, Bytes().number(id_of(i), 2).text(channels_[i].index.data));
+      channels_[i].index = {};
+    }
     Bytes index;
-    index.number(first, 8).number(last, 8).number(chunk_.start, 8).number(length, 8);
-    index.number(2 + 8, 4).number(id, 2).number(message_index, 8);
-    index.number(size_ - message_index, 8).text("").number(content, 8).number(content, 8);
+    index.number(first, 8).number(last, 8).number(chunk_start_, 8).number(length, 8);
+    index.text(places.data).number(size_ - message_indexes, 8).text("");
+    index.number(content, 8).number(content, 8);
     chunk_indexes_.push_back(index);
-    chunk_ = {};
+    chunk_times_ = {};
+    is_chunk_open_ = false;
   }
 
   void put(std::string_view bytes) {
@@ -190,10 +236,11 @@ class McapWriter {
   }
 
   detail::OutputFile file_;
-  Bytes schema_;
-  Bytes channel_;
-  OpenChunk chunk_;
-  std::vector<Bytes> chunk_indexes_;
+  std::vector<Channel> channels_;
+  bool is_chunk_open_ = false;
+  std::uint64_t chunk_start_ = 0;  ///< of its record in the file
+  Times chunk_times_{};
+  std::vector<Bytes> chunk_indexes_{};
   std::uint64_t size_ = 0;   ///< of what was written [bytes]
   std::uint64_t count_ = 0;  ///< messages
   Times times_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Foxglove's own client (npm @foxglove/ws-protocol) against the view:
 //   node client_test.mjs <program that serves a fake arm and prints its address>
+import {parse} from '@foxglove/rosmsg';
+import {MessageReader} from '@foxglove/rosmsg2-serialization';
 import foxglove from '@foxglove/ws-protocol';
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
@@ -61,6 +63,20 @@ class Recorded {
     return decode(event.data);
   }
 
+  /** The first message of each channel that PlotJuggler's plug-in takes, by topic. */
+  async rosMessages() {
+    const messages = {};
+    for (const channel of await this.wait('advertise')) {
+      if (channel.encoding !== 'cdr' || channel.schemaEncoding !== 'ros2msg') continue;
+      const reader = new MessageReader(parse(channel.schema, {ros2: true}));
+      const subscriptionId = this.client.subscribe(channel.id);
+      const event = await this.wait('message', (e) => e.subscriptionId === subscriptionId);
+      messages[channel.topic] = reader.readMessage(event.data);
+      this.client.unsubscribe(subscriptionId);
+    }
+    return messages;
+  }
+
   async call(name, request) {
     const services = await this.wait('advertiseServices');
     const service = services.find((entry) => entry.name === name);
@@ -89,6 +105,13 @@ async function check(url, subprotocol, gain) {
   const state = await recorded.message('/joint_states');
   assert.deepEqual(state.name, ['shoulder', 'elbow', 'finger']);
   assert.equal(state.position.length, 3);
+  const ros = await recorded.rosMessages();
+  assert.deepEqual(Object.keys(ros), ['/ros/joint_states', '/ros/reference', '/ros/command']);
+  assert.deepEqual(ros['/ros/joint_states'].name, ['shoulder', 'elbow', 'finger']);
+  assert.equal(ros['/ros/joint_states'].position.length, 3);
+  assert.deepEqual(ros['/ros/command'].name, ['shoulder', 'elbow']);
+  assert.equal(ros['/ros/command'].position.length, 0);
+  assert.equal(ros['/ros/command'].effort.length, 2);
   const {transforms} = await recorded.message('/tf');
   assert.deepEqual(transforms.map((t) => t.child_frame_id), ['upper_arm', 'forearm']);
   assert.match((await recorded.message('/robot_description')).data, /^<robot/);
@@ -118,6 +141,7 @@ async function check(url, subprotocol, gain) {
   const channel = client.advertise({topic: '/reference', encoding: 'json', schemaName: 'any'});
   client.sendMessage(channel, encode({name: ['elbow'], position: [-0.75]}));
   await recorded.wait('message', (event) => {
+    if (event.data.getUint8(0) !== '{'.charCodeAt(0)) return false; // CDR
     const message = decode(event.data);
     return message.name?.[1] === 'elbow' && message.position[1] === -0.75;
   });

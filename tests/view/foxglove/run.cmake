@@ -5,13 +5,13 @@
 # fetched, as without a network, the test is skipped.
 
 file(COPY ${SOURCE}/ DESTINATION ${WORK})
-if(NOT EXISTS ${WORK}/node_modules/@foxglove/ws-protocol/package.json)
+if(NOT EXISTS ${WORK}/node_modules/@foxglove/rosmsg2-serialization/package.json)
   execute_process(
     COMMAND ${NPM} ci --no-audit --no-fund --ignore-scripts
     WORKING_DIRECTORY ${WORK}
     RESULT_VARIABLE status)
   if(NOT status EQUAL 0)
-    message("Skipped: npm cannot fetch @foxglove/ws-protocol")
+    message("Skipped: npm cannot fetch Foxglove's packages")
     return()
   endif()
 endif()

@@ -2,7 +2,7 @@
 /// @file Messages of one type out to a topic.
 #pragma once
 
-#include "articula/ros2/node/message_buffer.hpp"
+#include "articula/ros2/message_buffer.hpp"
 #include "articula/ros2/node/node.hpp"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/ros2/cdr_decoder.hpp"
-#include "articula/ros2/node/message_buffer.hpp"
+#include "articula/ros2/message_buffer.hpp"
 #include "articula/ros2/node/node.hpp"
 
 #include <memory>

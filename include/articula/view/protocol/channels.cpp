@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/channels.hpp"
 
+#include "articula/ros2/message_text.hpp"
+#include "articula/ros2/messages/sensor_msgs.hpp"
+
+#include <string>
+
 namespace articula::view {
 
 namespace {
@@ -55,27 +60,42 @@ constexpr std::string_view log_schema = R"({"type":"object","properties":{
 "level":{"type":"integer"},"message":{"type":"string"},"name":{"type":"string"},
 "file":{"type":"string"},"line":{"type":"integer"}}})";
 
-constexpr std::array<Channel, topic_count> channels{{
-    {"/joint_states", "sensor_msgs/JointState", joint_state_schema},
-    {"/tf", "foxglove.FrameTransforms", transforms_schema},
-    {"/robot_description", "std_msgs/String", text_schema},
-    {"/cycles", "articula.Cycles", cycles_schema},
-    {"/situation", "articula.Situation", situation_schema},
-    {"/statistics", "articula.Statistics", statistics_schema},
-    {"/log", "foxglove.Log", log_schema},
-}};
+// For clients that read nothing but messages of ROS 2, as PlotJuggler.
+Channel ros_channel(std::string_view topic) {
+  using Message = ros2::sensor_msgs::msg::JointState<ros2::Jazzy>;
+  static const std::string schema = ros2::message_text<Message>();
+  return {topic, Message::ros_type.view(), schema, "cdr", "ros2msg"};
+}
+
+std::array<Channel, topic_count> make_channels() {
+  return {{
+      {"/joint_states", "sensor_msgs/JointState", joint_state_schema},
+      {"/tf", "foxglove.FrameTransforms", transforms_schema},
+      {"/robot_description", "std_msgs/String", text_schema},
+      {"/cycles", "articula.Cycles", cycles_schema},
+      {"/situation", "articula.Situation", situation_schema},
+      {"/statistics", "articula.Statistics", statistics_schema},
+      {"/log", "foxglove.Log", log_schema},
+      ros_channel("/ros/joint_states"),
+      ros_channel("/ros/reference"),
+      ros_channel("/ros/command"),
+  }};
+}
 
 }  // namespace
 
-const Channel& channel_of(Topic topic) { return channels[static_cast<std::size_t>(topic)]; }
+const Channel& channel_of(Topic topic) {
+  static const std::array<Channel, topic_count> channels = make_channels();
+  return channels[static_cast<std::size_t>(topic)];
+}
 
 Json advertisement_of(Topic topic) {
   const Channel& channel = channel_of(topic);
   return {{"id", static_cast<int>(topic) + 1},
           {"topic", channel.topic},
-          {"encoding", "json"},
+          {"encoding", channel.encoding},
           {"schemaName", channel.schema_name},
-          {"schemaEncoding", "jsonschema"},
+          {"schemaEncoding", channel.schema_encoding},
           {"schema", channel.schema}};
 }
 

@@ -20,15 +20,20 @@ enum class Topic : unsigned char {
   situation,          ///< mode, operator, controllers
   statistics,         ///< of the run
   log,                ///< events
+  ros_joint_states,   ///< the newest state, as a message of ROS 2
+  ros_reference,      ///< the newest reference, likewise
+  ros_command,        ///< the newest command, likewise
 };
 
-inline constexpr std::size_t topic_count = 7;
+inline constexpr std::size_t topic_count = 10;
 
 /// What is published under a topic.
 struct Channel {
   std::string_view topic{};
   std::string_view schema_name{};
-  std::string_view schema{};  ///< JSON schema of its messages
+  std::string_view schema{};  ///< of its messages
+  std::string_view encoding = "json";
+  std::string_view schema_encoding = "jsonschema";
 };
 
 /// The channel of a topic.

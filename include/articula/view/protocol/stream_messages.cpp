@@ -2,9 +2,13 @@
 #include "articula/view/protocol/stream_messages.hpp"
 
 #include "articula/recording/change_json.hpp"
+#include "articula/ros2/message_buffer.hpp"
+#include "articula/ros2/messages/sensor_msgs.hpp"
 #include "articula/view/protocol/json.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <string_view>
 
 namespace articula::view {
@@ -94,7 +98,66 @@ void append_member(std::string& text, std::string_view before, double x) {
   append_number(text, x);
 }
 
+using RosStates = ros2::sensor_msgs::msg::JointState<ros2::Jazzy>;
+
+/// A message with the names of the joints that take commands.
+RosStates ros_states(const remote::RobotSheet& robot, WallTime stamp) {
+  RosStates message;
+  message.header.stamp = {static_cast<std::int32_t>(stamp / 1'000'000'000),
+                          static_cast<std::uint32_t>(stamp % 1'000'000'000)};
+  for (const remote::SheetJoint& joint : robot.joints) message.name.push_back(joint.name);
+  return message;
+}
+
+std::string ros_bytes(const RosStates& message) {
+  ros2::MessageBuffer buffer;
+  const ros2::Sample bytes = buffer.encode(message);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};  // NOLINT: bytes
+}
+
 }  // namespace
+
+std::string ros_states_message(const remote::RobotSheet& robot, const remote::Cycle& cycle,
+                               WallTime stamp) {
+  RosStates message = ros_states(robot, stamp);
+  // Readers want a number for each name. A number that the cycle lacks is NaN.
+  const auto of_all = [&](std::vector<double> values, auto&& of_mimic) {
+    values.resize(robot.joints.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const remote::SheetMimic& mimic : robot.mimics) {
+      values.push_back(of_mimic(mimic, values[static_cast<std::size_t>(mimic.joint)]));
+    }
+    return values;
+  };
+  using Mimic = const remote::SheetMimic&;
+  for (Mimic mimic : robot.mimics) message.name.push_back(mimic.name);
+  message.position = of_all(
+      cycle.position, [](Mimic mimic, double q) { return mimic.multiplier * q + mimic.offset; });
+  message.velocity =
+      of_all(cycle.velocity, [](Mimic mimic, double v) { return mimic.multiplier * v; });
+  message.effort = of_all(cycle.effort, [](Mimic, double) { return 0.0; });
+  return ros_bytes(message);
+}
+
+std::string ros_reference_message(const remote::RobotSheet& robot, const remote::Cycle& cycle,
+                                  WallTime stamp) {
+  RosStates message = ros_states(robot, stamp);
+  message.position = cycle.reference_position;
+  message.velocity = cycle.reference_velocity;
+  message.effort = cycle.reference_effort;
+  return ros_bytes(message);
+}
+
+std::string ros_command_message(const remote::RobotSheet& robot, const remote::Cycle& cycle,
+                                WallTime stamp) {
+  RosStates message = ros_states(robot, stamp);
+  for (std::size_t i = 0; i < std::min(robot.commands.size(), cycle.command.size()); ++i) {
+    const std::string& quantity = robot.commands[i];
+    if (quantity == "position") message.position = cycle.command[i];
+    if (quantity == "velocity") message.velocity = cycle.command[i];
+    if (quantity == "effort") message.effort = cycle.command[i];
+  }
+  return ros_bytes(message);
+}
 
 std::string joint_states_message(const remote::RobotSheet& robot, const remote::Cycle& cycle,
                                  WallTime stamp) {

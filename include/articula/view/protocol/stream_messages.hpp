@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The messages that a view publishes many times a second. They are written without a JSON
+/// @file The messages that a view publishes many times a second. Those in JSON are written without a JSON
 /// document in between, since a PR2 at 1 kHz has 400 000 numbers a second.
 #pragma once
 
@@ -20,6 +20,16 @@ using WallTime = std::uint64_t;
 /// sensor_msgs/JointState of a cycle, mimic joints included.
 [[nodiscard]] std::string joint_states_message(const remote::RobotSheet& robot,
                                                const remote::Cycle& cycle, WallTime stamp);
+
+/// sensor_msgs/msg/JointState of ROS 2 in CDR: the measured state of a cycle, mimic joints included.
+[[nodiscard]] std::string ros_states_message(const remote::RobotSheet& robot,
+                                             const remote::Cycle& cycle, WallTime stamp);
+/// Likewise the reference of a cycle.
+[[nodiscard]] std::string ros_reference_message(const remote::RobotSheet& robot,
+                                                const remote::Cycle& cycle, WallTime stamp);
+/// Likewise the command of a cycle. Quantities that are not commanded are empty.
+[[nodiscard]] std::string ros_command_message(const remote::RobotSheet& robot,
+                                              const remote::Cycle& cycle, WallTime stamp);
 
 /// foxglove.FrameTransforms: each link but the root in the root link's frame.
 [[nodiscard]] std::string transforms_message(const std::vector<remote::LinkPose>& poses,

@@ -70,6 +70,15 @@ void Broadcast::tell_newest(const remote::Cycle& cycle) {
   if (anybody_wants(Topic::joint_states)) {
     stream(Topic::joint_states, joint_states_message(port_.robot(), cycle, stamp));
   }
+  if (anybody_wants(Topic::ros_joint_states)) {
+    stream(Topic::ros_joint_states, ros_states_message(port_.robot(), cycle, stamp));
+  }
+  if (anybody_wants(Topic::ros_reference)) {
+    stream(Topic::ros_reference, ros_reference_message(port_.robot(), cycle, stamp));
+  }
+  if (anybody_wants(Topic::ros_command)) {
+    stream(Topic::ros_command, ros_command_message(port_.robot(), cycle, stamp));
+  }
   const auto& links = port_.robot().links;
   if (!links.empty() && anybody_wants(Topic::transforms)) {
     stream(Topic::transforms,

@@ -91,6 +91,9 @@ void Client::act(const Subscribed& action) {
     case Topic::joint_states:
     case Topic::transforms:
     case Topic::cycles:
+    case Topic::ros_joint_states:
+    case Topic::ros_reference:
+    case Topic::ros_command:
       return;
   }
 }

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A running loop as a robot behind two topics, which controllers in ROS 2 command.
+#pragma once
+
+#include "articula/core/finite.hpp"
+#include "articula/remote/port.hpp"
+#include "articula/ros2/hardware/topic_robot_options.hpp"
+#include "articula/ros2/hardware/topic_thread.hpp"
+#include "articula/ros2/messages/rosgraph_msgs.hpp"
+#include "articula/ros2/messages/sensor_msgs.hpp"
+#include "articula/ros2/node/publisher.hpp"
+#include "articula/ros2/node/ros_time.hpp"
+#include "articula/ros2/node/subscription.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace articula::ros2 {
+
+/// Publishes the states of a running loop's joints, and takes their commands, as the plugin
+/// topic_based_ros2_control of ROS 2 expects it from a simulator. It is the other side of
+/// TopicHardware. The loop's controller passes its reference on, as ForwardPosition and Bypass do:
+///
+///     Loop<Q2dSim, Bypass> arm;
+///     Remote remote(arm);
+///     ros2::TopicRobot topics(remote, std::make_unique<ros2::FastDdsTransport>(
+///                                         ros2::FastDdsOptions{}, ros2::Distribution::jazzy));
+///     remote.run(clock);
+///
+/// - A command is a sensor_msgs/msg/JointState with some of the joints. Its fields position, velocity
+///   and effort are taken as far as the loop commands them. NaN leaves a joint as it is.
+/// - A command becomes the request SetReference. So it keeps the robot's limits, and it needs the
+///   controls of the port.
+/// - States and /clock have the loop's time, which begins at 0. They come after each poll in which
+///   there was a new cycle. A loop that stands still publishes nothing.
+///
+/// Real-time: no (allocates, locks).
+class TopicRobot {
+ public:
+  using Message = sensor_msgs::msg::JointState<Jazzy>;
+
+  /// With a transport of its own, which a thread polls each millisecond until this is destroyed.
+  /// @param port  outlives this
+  /// @throws std::invalid_argument if an option makes no sense or there is no transport; what the
+  ///         transport throws if it cannot offer a topic
+  TopicRobot(remote::Port& port, std::unique_ptr<Transport> transport,
+             const TopicRobotOptions& options = {})
+      : TopicRobot(port, std::make_unique<detail::TopicThread>(std::move(transport)), options) {}
+  /// With a transport that the program polls; after each poll it calls `update`.
+  /// @param port       outlives this
+  /// @param transport  likewise
+  /// @throws std::invalid_argument if an option makes no sense
+  TopicRobot(remote::Port& port, Transport& transport, const TopicRobotOptions& options = {})
+      : port_(port),
+        options_((validate(options), options)),
+        session_(port.connect("ROS 2 topics", true)),
+        context_(transport, options.distribution),
+        node_(context_, options.node.empty() ? port.robot().name : options.node),
+        states_(node_, options.joint_states_topic, quality_of_service::states) {
+    if (options.publishes_clock) clock_.emplace(node_, "/clock", quality_of_service::clock);
+    for (const remote::SheetJoint& joint : port.robot().joints) state_.name.push_back(joint.name);
+    subscribe<Message>(node_, options.joint_commands_topic, quality_of_service::states,
+                       [this](const Message& message) { take(message); });
+  }
+  /// Ends the thread, if there is one.
+  ~TopicRobot() {
+    if (thread_ != nullptr) thread_->stop();
+  }
+  TopicRobot(const TopicRobot&) = delete;
+  TopicRobot& operator=(const TopicRobot&) = delete;
+
+  /// Publishes what is new, and ends what has lasted too long.
+  /// @param now  of a clock that never jumps
+  void update(std::chrono::nanoseconds now) {
+    const std::lock_guard lock(mutex_);
+    if (std::exchange(has_new_command_, false)) commanded_ = now;
+    while (const auto answer = session_->answer()) {
+      ++(answer->verdict == remote::Verdict::done ? statistics_.accepted : statistics_.refused);
+    }
+    statistics_.malformed = refused_messages_ + context_.dropped.malformed;
+    end_old_command(now);
+    publish_newest();
+  }
+  [[nodiscard]] TopicRobotStatistics statistics() const {
+    const std::lock_guard lock(mutex_);
+    return statistics_;
+  }
+
+ private:
+  TopicRobot(remote::Port& port, std::unique_ptr<detail::TopicThread> thread,
+             const TopicRobotOptions& options)
+      : TopicRobot(port, thread->transport(), options) {
+    thread_ = std::move(thread);
+    thread_->start([this] { update(std::chrono::steady_clock::now().time_since_epoch()); });
+  }
+
+  [[nodiscard]] bool commands(std::string_view quantity) const {
+    const auto& all = port_.robot().commands;
+    return std::find(all.begin(), all.end(), quantity) != all.end();
+  }
+
+  /// The numbers of a field by joint, without NaN.
+  static std::vector<remote::JointValue> named(const Message& message,
+                                               const std::vector<double>& values) {
+    std::vector<remote::JointValue> all;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (is_finite(values[i])) all.push_back({message.name[i], values[i]});
+    }
+    return all;
+  }
+
+  /// Leaves the robot's joints in a message.
+  /// @return whether there is any; nothing if the message is wrong
+  [[nodiscard]] std::optional<bool> keep_own_joints(Message& message) const {
+    const std::size_t size = message.name.size();
+    for (const std::vector<double>* field :
+         {&message.position, &message.velocity, &message.effort}) {
+      if (!field->empty() && field->size() != size) return std::nullopt;
+    }
+    Message own;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::string& name = message.name[i];
+      if (std::find(state_.name.begin(), state_.name.end(), name) == state_.name.end()) continue;
+      if (std::find(own.name.begin(), own.name.end(), name) != own.name.end()) return std::nullopt;
+      own.name.push_back(name);
+      for (auto field : {&Message::position, &Message::velocity, &Message::effort}) {
+        if (!(message.*field).empty()) (own.*field).push_back((message.*field)[i]);
+      }
+    }
+    message = std::move(own);
+    return !message.name.empty();
+  }
+
+  void take(Message message) {
+    const std::lock_guard lock(mutex_);
+    const std::optional<bool> has_joints = keep_own_joints(message);
+    if (!has_joints) {
+      ++refused_messages_;
+      return;
+    }
+    if (!*has_joints) {
+      ++statistics_.foreign;
+      return;
+    }
+    remote::SetReference reference;
+    if (commands("position")) reference.positions = named(message, message.position);
+    if (commands("velocity")) reference.velocities = named(message, message.velocity);
+    if (commands("effort")) reference.efforts = named(message, message.effort);
+    if (reference.positions.empty() && reference.velocities.empty() && reference.efforts.empty()) {
+      ++statistics_.refused;
+      return;
+    }
+    moves_ = !reference.velocities.empty();
+    pushes_ = !reference.efforts.empty();
+    has_new_command_ = true;
+    static_cast<void>(session_->ask(reference));
+  }
+
+  void end_old_command(std::chrono::nanoseconds now) {
+    if (!session_->has_controls()) return;
+    if (now - commanded_ <= to_duration(options_.command_lifetime)) return session_->keep_alive();
+    if (moves_ || pushes_) {
+      remote::SetReference rest;
+      for (const std::string& joint : state_.name) rest.efforts.push_back({joint, 0});
+      if (pushes_) static_cast<void>(session_->ask(rest));
+      if (moves_) static_cast<void>(session_->ask(remote::Stop{}));
+      moves_ = pushes_ = false;
+      ++statistics_.expired;
+      commanded_ = now;  // the controls are released when it is done
+    } else {
+      session_->release_controls();
+    }
+  }
+
+  void publish_newest() {
+    bool is_new = false;
+    while (session_->next(cycle_)) is_new = true;
+    while (session_->event()) {  // nobody is told of them here
+    }
+    if (!is_new) return;
+    state_.header.stamp =
+        to_message<builtin_interfaces::msg::Time>(to_duration(std::max(cycle_.time, 0.0)));
+    state_.position = cycle_.position;
+    state_.velocity = cycle_.velocity;
+    state_.effort = cycle_.effort;
+    if (clock_) clock_->publish({state_.header.stamp});
+    states_.publish(state_);
+  }
+
+  std::unique_ptr<detail::TopicThread> thread_{};  ///< none: the program polls
+  remote::Port& port_;
+  TopicRobotOptions options_;
+  std::unique_ptr<remote::Session> session_;
+  Context context_;
+  Node node_;
+  Publisher<Message> states_;
+  std::optional<Publisher<rosgraph_msgs::msg::Clock>> clock_{};
+  Message state_{};
+  remote::Cycle cycle_{};
+  std::chrono::nanoseconds commanded_{0};  ///< when the last command came
+  bool has_new_command_ = false;
+  bool moves_ = false, pushes_ = false;  ///< the last command has velocities, efforts
+  std::uint64_t refused_messages_ = 0;
+  mutable std::mutex mutex_{};
+  TopicRobotStatistics statistics_{};  ///< under the mutex
+};
+
+}  // namespace articula::ros2

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// A running loop is a robot behind topics.
+#include "articula/ros2/hardware/topic_robot.hpp"
+
+#include "bridged_arm.hpp"
+
+#include <chrono>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace articula::ros2;
+using support::bytes_of;
+using support::elbow_joint;
+using support::shoulder_joint;
+using States = sensor_msgs::msg::JointState<Jazzy>;
+
+namespace {
+
+// A Q2D that takes efforts, its topics, and a clock that a test moves.
+struct RobotBehindTopics {
+  explicit RobotBehindTopics(const TopicRobotOptions& options = {})
+      : topics(loop->port(), transport, options) {
+    run(1);
+  }
+  void run(int milliseconds) {
+    for (int k = 0; k < milliseconds; ++k) {
+      loop->cycles(1);
+      now += std::chrono::milliseconds(1);
+      topics.update(now);
+    }
+  }
+  void command(const States& message) {
+    transport.publish("/robot_joint_commands", bytes_of(message));
+  }
+  // The effort that the loop's reference has for a joint.
+  double reference_effort(std::size_t joint) {
+    while (watcher->next(cycle)) {
+    }
+    return cycle.reference_effort.at(joint);
+  }
+
+  articula::remote::Cycle cycle{};
+  support::MemoryTransport transport{};
+  std::unique_ptr<support::AnyLoop> loop = support::bypass_arm();
+  std::unique_ptr<articula::remote::Session> watcher = loop->port().connect("watcher", false);
+  TopicRobot topics;
+  std::chrono::nanoseconds now{1'000'000'000};
+};
+
+}  // namespace
+
+TEST_CASE("a robot behind topics publishes states and clock with the loop's time") {
+  RobotBehindTopics arm;
+  arm.run(20);
+  const auto states = arm.transport.last<States>("/robot_joint_states");
+  REQUIRE(states);
+  CHECK(states->name == std::vector<std::string>{shoulder_joint, elbow_joint});
+  CHECK(states->position.size() == 2);
+  CHECK(states->velocity.size() == 2);
+  CHECK(states->effort.size() == 2);
+  // The time is that of the loop, which begins at 0, not that of the clock.
+  CHECK(states->header.stamp.sec == 0);
+  CHECK(states->header.stamp.nanosec > 0);
+  const auto clock = arm.transport.last<rosgraph_msgs::msg::Clock>("/clock");
+  REQUIRE(clock);
+  CHECK(clock->clock.nanosec == states->header.stamp.nanosec);
+
+  const std::size_t sent = arm.transport.topics.at("/robot_joint_states").count;
+  arm.topics.update(arm.now);  // without a cycle
+  CHECK(arm.transport.topics.at("/robot_joint_states").count == sent);
+}
+
+TEST_CASE("a robot behind topics needs no clock topic") {
+  RobotBehindTopics arm({.publishes_clock = false});
+  CHECK_FALSE(arm.transport.topics.contains("/clock"));
+}
+
+TEST_CASE("commands by name become the loop's reference, until none follows") {
+  RobotBehindTopics arm;
+  States command;
+  command.name = {"a joint of another robot", elbow_joint, shoulder_joint};
+  command.effort = {9, 0.25, 0.5};
+  command.position = {9, 9, 9};  // which this loop does not command
+  arm.command(command);
+  arm.run(3);
+  CHECK(arm.reference_effort(0) == 0.5);
+  CHECK(arm.reference_effort(1) == 0.25);
+  CHECK(arm.loop->port().situation().operator_name == "ROS 2 topics");
+
+  command.effort[1] = std::numeric_limits<double>::quiet_NaN();
+  command.effort[2] = 0.75;
+  arm.command(command);
+  arm.run(3);
+  CHECK(arm.reference_effort(0) == 0.75);
+  CHECK(arm.reference_effort(1) == 0.25);  // NaN leaves it
+
+  arm.run(1010);  // command_lifetime is 1 s
+  CHECK(arm.reference_effort(0) == 0);
+  CHECK(arm.reference_effort(1) == 0);
+  CHECK(arm.topics.statistics().expired == 1);
+  arm.run(1010);
+  CHECK(arm.loop->port().situation().operator_name.empty());
+}
+
+TEST_CASE("commands that are wrong, foreign or refused change nothing") {
+  RobotBehindTopics arm;
+  const States good{.name = {shoulder_joint, elbow_joint}, .effort = {0.5, 0.25}};
+  States shorter = good, twice = good, foreign = good, other_quantity = good;
+  shorter.effort.pop_back();
+  twice.name[1] = twice.name[0];
+  foreign.name = {"a", "b"};
+  other_quantity.position = good.effort;
+  other_quantity.effort.clear();
+  for (const States& message : {shorter, twice, foreign, other_quantity}) arm.command(message);
+  arm.transport.publish("/robot_joint_commands", std::vector<std::byte>(3));
+  arm.run(3);
+  CHECK(arm.reference_effort(0) == 0);
+  TopicRobotStatistics statistics = arm.topics.statistics();
+  CHECK(statistics.malformed == 3);
+  CHECK(statistics.foreign == 1);
+  CHECK(statistics.refused == 1);
+  CHECK(statistics.accepted == 0);
+
+  const auto other = arm.loop->port().connect("another client", true);
+  REQUIRE(other->take_controls().empty());
+  arm.command(good);
+  arm.run(3);
+  CHECK(arm.reference_effort(0) == 0);
+  CHECK(arm.topics.statistics().refused == 2);
+  other->release_controls();
+  arm.command(good);
+  arm.run(3);
+  CHECK(arm.reference_effort(0) == 0.5);
+  CHECK(arm.topics.statistics().accepted == 1);
+}
+
+TEST_CASE("options of a robot behind topics are refused by name") {
+  const auto loop = support::bypass_arm();
+  support::MemoryTransport transport;
+  const auto make = [&](const TopicRobotOptions& options) {
+    const TopicRobot robot(loop->port(), transport, options);
+  };
+  CHECK_THROWS_WITH(make({.command_lifetime = 0}),
+                    "topic robot: command_lifetime 0 s is not within 0 .. 1000000 s");
+  CHECK_THROWS_WITH(make({.joint_states_topic = "states"}),
+                    "topic robot: topic 'states' is no full name, as /arm/joint_states");
+}
