@@ -109,10 +109,15 @@ ClosedLoopOptions<2> q2d_options() {
   return options;
 }
 
-/// A spring of one's own, which may overflow.
-constexpr auto make_spring = [](const JointPidGains<2>& gains) {
-  return [gains](const ControlInput<2>& in) noexcept {
-    EffortCommand<2> command;
+/// One controller for all lanes.
+constexpr auto make_for_lanes = []<class S>(const JointPidGains<2, S>& gains) {
+  return PidPlusGravity<Q2d, S>(gains);
+};
+
+/// A spring of one's own, which may overflow: one for all lanes.
+constexpr auto make_springs = []<class S>(const JointPidGains<2, S>& gains) {
+  return [gains](const ControlInput<2, S>& in) noexcept {
+    EffortCommand<2, S> command;
     for (int j = 0; j < 2; ++j) {
       command.effort[j] = gains[static_cast<std::size_t>(j)].proportional *
                           (in.reference.position[j] - in.state.position[j]);
@@ -120,6 +125,34 @@ constexpr auto make_spring = [](const JointPidGains<2>& gains) {
     return command;
   };
 };
+
+/// The same, one for each run.
+constexpr auto make_spring = [](const JointPidGains<2>& gains) { return make_springs(gains); };
+
+/// Checks runs of which every second one overflows.
+void check_overflows(const auto& make) {
+  ClosedLoopOptions<2> options = q2d_options();
+  options.target = JointVector<2>(0.3, 1.4);
+  options.vary = {
+      {VariedQuantity::damping, {}, 0.5, 2, Spacing::linear, 4},
+      {VariedQuantity::proportional, "elbow_active_joint", 1, 1.75e308 / 339, Spacing::linear, 2}};
+  const ClosedLoopExperiment experiment(Q2d(), Q2d::pid_gains, make, options);
+  const SweepOptions all{.sampling = {.method = SamplingMethod::grid}, .threads = 1, .chunk = 8};
+  const auto rows = rows_of(experiment, all);
+  REQUIRE(rows.size() == 8);
+  check_alone(experiment, rows);
+  options.vary[1].high = 1;
+  const auto healthy = rows_of(ClosedLoopExperiment(Q2d(), Q2d::pid_gains, make, options), all);
+  int overflows = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const bool bad = rows[k].parameters[1] > 1;
+    CHECK((rows[k].end == FutureEnd::non_finite) == bad);
+    CHECK(std::ranges::all_of(rows[k].metrics, [](double x) { return std::isnan(x); }) == bad);
+    overflows += bad ? 1 : 0;
+    if (!bad) CHECK(same_bits(rows[k].metrics, healthy[k].metrics));
+  }
+  CHECK(overflows == 4);
+}
 
 }  // namespace
 
@@ -134,8 +167,10 @@ TEST_CASE("runs have the same numbers in lanes as alone, and the same bits in an
                   {VariedQuantity::position_noise, {}, 0, 1e-4},
                   {VariedQuantity::encoder_resolution, "shoulder_active_joint", 0, 1e-3},
                   {VariedQuantity::initial_position, {}, -0.1, 0.1},
-                  {VariedQuantity::proportional, "elbow_active_joint", 0.5, 2}};
-  const auto experiment = experiment_of<Q2d>(Q2d::pid_gains, options);
+                  {VariedQuantity::proportional, "elbow_active_joint", 0.5, 2},
+                  {VariedQuantity::integral, {}, 0, 2},
+                  {VariedQuantity::derivative, {}, 0.5, 2}};
+  const ClosedLoopExperiment experiment(Q2d(), Q2d::pid_gains, make_for_lanes, options);
   const auto rows = rows_of(experiment, {.sampling = {.runs = 50}, .threads = 2, .chunk = 50});
   REQUIRE(rows.size() == 50);
   std::set<int> substeps;
@@ -155,35 +190,15 @@ TEST_CASE("runs have the same numbers in lanes as alone, and the same bits in an
 }
 
 TEST_CASE("a run that overflows in a lane is a result and changes no bit of the others") {
-  ClosedLoopOptions<2> options = q2d_options();
-  options.target = JointVector<2>(0.3, 1.4);
-  options.vary = {
-      {VariedQuantity::damping, {}, 0.5, 2, Spacing::linear, 4},
-      {VariedQuantity::proportional, "elbow_active_joint", 1, 1.75e308 / 339, Spacing::linear, 2}};
-  const ClosedLoopExperiment experiment(Q2d(), Q2d::pid_gains, make_spring, options);
-  const SweepOptions all{.sampling = {.method = SamplingMethod::grid}, .threads = 1, .chunk = 8};
-  const auto rows = rows_of(experiment, all);
-  REQUIRE(rows.size() == 8);
-  check_alone(experiment, rows);
-  options.vary[1].high = 1;
-  const auto healthy =
-      rows_of(ClosedLoopExperiment(Q2d(), Q2d::pid_gains, make_spring, options), all);
-  int overflows = 0;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    const bool bad = rows[k].parameters[1] > 1;
-    CHECK((rows[k].end == FutureEnd::non_finite) == bad);
-    CHECK(std::ranges::all_of(rows[k].metrics, [](double x) { return std::isnan(x); }) == bad);
-    overflows += bad ? 1 : 0;
-    if (!bad) CHECK(same_bits(rows[k].metrics, healthy[k].metrics));
-  }
-  CHECK(overflows == 4);
+  check_overflows(make_spring);
+  check_overflows(make_springs);
 }
 
 TEST_CASE("an unstable run in a lane leaves the bits of the others") {
   ClosedLoopOptions<2> options = q2d_options();
   options.vary = {{VariedQuantity::proportional, {}, 1, 1e6, Spacing::logarithmic, 4},
                   {VariedQuantity::delay, {}, 0, 0.02, Spacing::linear, 2}};
-  const auto experiment = experiment_of<Q2d>(Q2d::pid_gains, options);
+  const ClosedLoopExperiment experiment(Q2d(), Q2d::pid_gains, make_for_lanes, options);
   const auto rows = rows_of(experiment, {.sampling = {.method = SamplingMethod::grid}, .chunk = 8});
   int stable = 0, unstable = 0;
   for (const SweepRow& row : rows) {

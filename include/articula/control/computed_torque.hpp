@@ -34,8 +34,8 @@ class ComputedTorqueLaw {
   /// @param gains  of the feedback: proportional [1/s^2], integral [1/s^3], derivative [1/s],
   ///               clamps in rad/s^2 or m/s^2
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  ComputedTorqueLaw(const R& robot, const JointPidGains<joint_count>& gains)
-      : robot_(robot), feedback_(robot, gains) {}
+  template <PidGainsFor<joint_count, S> Gains = JointPidGains<joint_count>>
+  ComputedTorqueLaw(const R& robot, const Gains& gains) : robot_(robot), feedback_(robot, gains) {}
 
   /// Forgets the integral. If a command was applied, the integrals begin with the acceleration that
   /// the effort would cause beyond a_ref, see PidLaw.
@@ -73,7 +73,9 @@ class ComputedTorqueLaw {
   }
 
   /// Goes on with other gains of the feedback. Real-time: yes.
-  void set_gains(const ValidPidGains<joint_count>& gains) noexcept { feedback_.set_gains(gains); }
+  void set_gains(const ValidPidGains<joint_count, S>& gains) noexcept {
+    feedback_.set_gains(gains);
+  }
 
   /// Calls function(feedback, scope): the PID, whose output is an acceleration.
   void for_each_part(auto&& function) const {
@@ -112,12 +114,17 @@ class ComputedTorque
   /// @param gains  of the feedback: proportional [1/s^2], integral [1/s^3], derivative [1/s],
   ///               clamps in rad/s^2 or m/s^2
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  ComputedTorque(const R& robot, const JointPidGains<joint_count>& gains)
+  template <PidGainsFor<joint_count, S> Gains = JointPidGains<joint_count>>
+  ComputedTorque(const R& robot, const Gains& gains)
       : ComputedTorque::SumController(robot, {robot, gains}, FrictionCompensation<R, S>(robot),
                                       {}) {}
   /// For a robot known at compile time.
   explicit ComputedTorque(const JointPidGains<joint_count>& gains)
     requires DescribedRobot<R>
+      : ComputedTorque(R(), gains) {}
+  /// With gains of each lane.
+  explicit ComputedTorque(const JointPidGains<joint_count, S>& gains)
+    requires DescribedRobot<R> && PackedScalar<S>
       : ComputedTorque(R(), gains) {}
 
   /// Feedback gains for critically damped errors, the same for all joints: p = w^2, d = 2 w.

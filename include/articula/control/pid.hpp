@@ -6,7 +6,6 @@
 #include "articula/control/laws/pid_law.hpp"
 #include "articula/control/laws/sum_controller.hpp"
 
-#include <concepts>
 #include <initializer_list>
 #include <string_view>
 
@@ -29,11 +28,12 @@ class Pid : public SumController<R, EffortCommand<joint_count<R>, S>,
     requires HasPidGains<R>
       : Pid(R::pid_gains) {}
 
+  /// @param gains  JointPidGains<N>, or JointPidGains<N, S> with gains of each lane
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  Pid(const R& robot, const JointPidGains<joint_count>& gains)
-      : Pid::SumController(robot, {robot, gains}, {}) {}
+  template <PidGainsFor<joint_count, S> Gains = JointPidGains<joint_count>>
+  Pid(const R& robot, const Gains& gains) : Pid::SumController(robot, {robot, gains}, {}) {}
   /// For a robot known at compile time.
-  template <std::same_as<JointPidGains<joint_count>> Gains>
+  template <PidGainsFor<joint_count, S> Gains>
   explicit Pid(const Gains& gains)
     requires DescribedRobot<R>
       : Pid(R(), gains) {}

@@ -7,7 +7,6 @@
 #include "articula/control/laws/pid_law.hpp"
 #include "articula/control/laws/sum_controller.hpp"
 
-#include <concepts>
 #include <initializer_list>
 #include <string_view>
 
@@ -31,12 +30,14 @@ class PidPlusGravity
     requires HasPidGains<R>
       : PidPlusGravity(R::pid_gains) {}
 
+  /// @param gains  JointPidGains<N>, or JointPidGains<N, S> with gains of each lane
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  PidPlusGravity(const R& robot, const JointPidGains<joint_count>& gains)
+  template <PidGainsFor<joint_count, S> Gains = JointPidGains<joint_count>>
+  PidPlusGravity(const R& robot, const Gains& gains)
       : PidPlusGravity::SumController(robot, {robot, gains}, GravityCompensation<R, S>(robot), {}) {
   }
   /// For a robot known at compile time.
-  template <std::same_as<JointPidGains<joint_count>> Gains>
+  template <PidGainsFor<joint_count, S> Gains>
   explicit PidPlusGravity(const Gains& gains)
     requires DescribedRobot<R>
       : PidPlusGravity(R(), gains) {}

@@ -162,4 +162,10 @@ void set_lane(MultiModeCommand<N, S>& x, int lane, const MultiModeCommand<N>& ow
   set_lane(x.effort, lane, own.effort);
 }
 
+/// The same numbers in all lanes. Real-time: yes.
+template <class S, int N>
+[[nodiscard]] JointVector<N, S> in_all_lanes(const JointVector<N>& numbers) noexcept {
+  return for_each_joint<N, S>([&](int j) noexcept { return S(numbers[j]); });
+}
+
 }  // namespace articula

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -205,6 +207,17 @@ namespace detail {
 
 template <DescribedRobot R>
 inline constexpr bool is_model<VariedRobot<R>> = true;
+
+/// The robot of R's kind with the numbers of a model; none if VariedRobot<R> does not take them.
+/// Real-time: no (set-up).
+template <DescribedRobot R>
+[[nodiscard]] std::optional<VariedRobot<R>> robot_of_kind(const ModelOf<R>& model) {
+  try {
+    return VariedRobot<R>(model);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // a number of another kind: a model has no such bounds
+  }
+}
 
 }  // namespace detail
 

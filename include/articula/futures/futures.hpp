@@ -5,6 +5,7 @@
 #include "articula/control/safety/safe_command.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/futures/future_end.hpp"
 #include "articula/futures/future_options.hpp"
 #include "articula/futures/random_draw.hpp"
@@ -52,26 +53,33 @@ struct FutureStart {
 namespace detail {
 
 /// Counts how often drives swing from one effort limit to the other.
-template <int N>
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
+template <int N, class S = double>
 class LimitSwings {
  public:
-  explicit LimitSwings(const JointVector<N>& limits) : limits_(limits) {}
+  explicit LimitSwings(const JointVector<N, S>& limits) : limits_(limits) {}
 
-  void note(const JointVector<N>& effort) noexcept {
+  void note(const JointVector<N, S>& effort) noexcept {
+    using std::abs;
     for (int j = 0; j < N; ++j) {
-      if (!(std::abs(effort[j]) >= limits_[j])) continue;
-      const double side = effort[j] > 0 ? 1 : -1;
-      swings_[j] += sides_[j] * side < 0 ? 1 : 0;
-      sides_[j] = side;
+      const MaskOf<S> at_limit = abs(effort[j]) >= limits_[j];
+      if (!any_of(at_limit)) continue;
+      const S side = select(effort[j] > 0, S(1), S(-1));
+      replace_where(at_limit & (sides_[j] * side < 0), swings_[j], swings_[j] + 1);
+      replace_where(at_limit, sides_[j], side);
     }
   }
   /// A motion from rest to rest needs one swing.
-  [[nodiscard]] bool many() const noexcept { return swings_.maxCoeff() >= 4; }
+  [[nodiscard]] MaskOf<S> many() const noexcept {
+    MaskOf<S> any = mask_of<S>(false);
+    for (int j = 0; j < N; ++j) any = any | (swings_[j] >= 4);
+    return any;
+  }
 
  private:
-  JointVector<N> limits_;
-  JointVector<N> sides_ = JointVector<N>::Zero();
-  JointVector<N> swings_ = JointVector<N>::Zero();
+  JointVector<N, S> limits_;
+  JointVector<N, S> sides_ = JointVector<N, S>::Zero();
+  JointVector<N, S> swings_ = JointVector<N, S>::Zero();
 };
 
 /// Goes on always.

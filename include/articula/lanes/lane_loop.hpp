@@ -2,7 +2,6 @@
 /// @file Control loops of several robots that differ, one in each lane of a pack.
 #pragma once
 
-#include "articula/control/safety/safe_command.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/scalar.hpp"
@@ -36,7 +35,8 @@ struct LaneVerdict {
 /// The controller knows the described robot only. Each lane gives what
 /// `ControlLoop<Simulator<VariedRobot<R>>, C>` gives, up to rounding, as long as it runs. A lane
 /// whose state, reference or command is not finite ends: its verdict says why, its robot stands still
-/// from then on, and no other lane changes by a bit. All lanes share the controller's gains.
+/// from then on, and no other lane changes by a bit. Lanes have the gains of the controller, which may
+/// differ: `PidPlusGravity<Q2d, Pack>` takes a `JointPidGains<2, Pack>`.
 /// @tparam R  the kind of robot
 /// @tparam C  a controller over S that commands efforts
 /// @tparam S  a pack, which has one number for each lane
@@ -88,7 +88,7 @@ class LaneControlLoop {
     const bool failed = outcome.verdict == Verdict::failed && all_of(finite);
     end_lanes(failed ? mask_of<S>(false) : finite, Status::non_finite_command);
     if (!all_of(simulator_.moving())) outcome = Outcome<Command>(of_moving(outcome.command));
-    command_ = within_effort_limits(R{}, outcome.command);
+    command_ = simulator_.within_limits(outcome.command);
     static_cast<void>(simulator_.write(command_));
     history_.note_command(outcome, command_, state_);
     history_.note_cycle(true, true, Status::ok, Status::ok);

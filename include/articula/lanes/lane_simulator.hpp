@@ -4,9 +4,9 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
-#include "articula/core/refuse.hpp"
 #include "articula/core/scalar.hpp"
 #include "articula/dynamics/robot_lanes.hpp"
+#include "articula/lanes/filled_setups.hpp"
 #include "articula/lanes/lane_setup.hpp"
 #include "articula/sim/joint_dynamics.hpp"
 #include "articula/sim/joint_sensors.hpp"
@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 namespace articula {
@@ -38,6 +37,7 @@ class LaneSimulator {
   using Mask = MaskOf<S>;
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr int lane_count = lanes<S>;
+  using Vector = JointVector<joint_count, S>;
   using State = JointState<joint_count, S>;
   using Command = EffortCommand<joint_count, S>;
 
@@ -45,7 +45,7 @@ class LaneSimulator {
   /// @throws std::invalid_argument naming lane, option, value and limit, if a lane cannot be
   ///         simulated, if there are too many, or if their periods or substeps differ
   explicit LaneSimulator(std::span<const LaneSetup<R>> setups)
-      : LaneSimulator(setups, filled(setups)) {}
+      : LaneSimulator(setups, detail::filled_setups<R>(setups, lane_count)) {}
 
   /// Real-time: yes.
   [[nodiscard]] Status activate() noexcept { return active_ = true, Status::ok; }
@@ -69,15 +69,27 @@ class LaneSimulator {
   /// Real-time: yes. Costs `substeps` Runge-Kutta steps, and more for each lane with an event.
   [[nodiscard]] Status write(const Command& command) noexcept {
     const Mask finite = is_finite(command);
-    Vector effort;
+    Vector effort = within_limits(command).effort;
     for (int j = 0; j < joint_count; ++j) {
-      const S& most = robots_.joints[j].limits.effort;
-      effort[j] = select(finite, clamp(command.effort[j], -most, most), S(0));
-      if (!active_) effort[j] = S(0);
+      effort[j] = active_ ? select(finite, effort[j], S(0)) : S(0);
     }
     advance(longest_delay_ > 0 ? delayed(effort) : effort);
     if (!all_of(finite)) return Status::non_finite_command;
     return active_ ? Status::ok : Status::inactive;
+  }
+
+  /// The command within the effort limits of each lane's drives. Real-time: yes.
+  [[nodiscard]] Command within_limits(Command command) const noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      const S& most = robots_.joints[j].limits.effort;
+      command.effort[j] = clamp(command.effort[j], -most, most);
+    }
+    return command;
+  }
+  /// The effort limits of each lane's drives [N m or N], N x 1. Real-time: yes.
+  [[nodiscard]] Vector effort_limits() const noexcept {
+    return for_each_joint<joint_count, S>(
+        [&](int j) noexcept { return robots_.joints[j].limits.effort; });
   }
 
   /// Lets a lane stand still from now on: its state is that of its start, its efforts are 0.
@@ -91,6 +103,12 @@ class LaneSimulator {
     set_lane(external_, lane, lane_of(zero, lane));
     measured_ = choose(measured_, truth_);
   }
+  /// The same of some lanes. Real-time: yes.
+  void stop(const Mask& some) noexcept {
+    for (int k = 0; k < lane_count; ++k) {
+      if (is_true(some, k)) stop(k);
+    }
+  }
   /// The lanes that move. Real-time: yes.
   [[nodiscard]] const Mask& moving() const noexcept { return moving_; }
 
@@ -98,6 +116,10 @@ class LaneSimulator {
   /// @param effort  finite [N m or N], N x 1
   void set_external_effort(int lane, const JointVector<joint_count>& effort) noexcept {
     set_lane(external_, lane, effort);
+  }
+  /// The same in all lanes that move. Real-time: yes.
+  void set_external_effort(const JointVector<joint_count, S>& effort) noexcept {
+    for (int j = 0; j < joint_count; ++j) external_[j] = select(moving_, effort[j], S(0));
   }
 
   /// The exact state at this moment, without sensors. Real-time: yes.
@@ -110,7 +132,6 @@ class LaneSimulator {
   [[nodiscard]] R robot() const noexcept { return {}; }
 
  private:
-  using Vector = JointVector<joint_count, S>;
   using Setups = std::vector<LaneSetup<R>>;
   using Alone = JointDynamics<VariedRobot<R>>;
 
@@ -135,33 +156,6 @@ class LaneSimulator {
     measured_ = choose(sensors_.measure(truth_), truth_);
   }
 
-  /// The setups of all lanes, checked. Those that stand still get the first one.
-  [[nodiscard]] static Setups filled(std::span<const LaneSetup<R>> setups) {
-    if (setups.empty() || setups.size() > static_cast<std::size_t>(lane_count)) {
-      detail::refuse({"lanes: ", setups.size(), " setups are not within 1 .. ", lane_count});
-    }
-    const auto& first = setups.front().simulation;
-    for (std::size_t k = 0; k < setups.size(); ++k) {
-      const auto& [robot, options, delay] = setups[k];
-      const auto refuse = [k](detail::MessageParts parts) {
-        detail::refuse({"lane ", k, ": ", detail::message_of(parts)});
-      };
-      if (options.period != first.period || options.substeps != first.substeps) {
-        refuse({"period ", options.period, " s with ", options.substeps,
-                " substeps differs from lane 0, which has ", first.period, " s with ",
-                first.substeps});
-      }
-      if (delay < 0 || delay > 1000) refuse({"delay ", delay, " is not within 0 .. 1000 cycles"});
-      try {
-        validate(robot, options);
-      } catch (const std::invalid_argument& error) {
-        refuse({error.what()});
-      }
-    }
-    Setups all(setups.begin(), setups.end());
-    all.resize(static_cast<std::size_t>(lane_count), setups.front());
-    return all;
-  }
   [[nodiscard]] static RobotLanes<R, S> robots_of(const Setups& setups) {
     RobotLanes<R, S> robots;
     for (int k = 0; k < lane_count; ++k) robots.set(k, setups[static_cast<std::size_t>(k)].robot);
@@ -205,12 +199,13 @@ class LaneSimulator {
     for (int i = 0; i < substeps_; ++i) {
       const auto [next, event] = dynamics_.advance_smoothly(truth_, effort, step);
       const State before = truth_;
-      truth_ = choose(next, before);
+      truth_ = all_of(moving_) ? next : choose(next, before);
       const Mask parts = event & moving_;
       if (any_of(parts)) advance_alone(before, total, parts, step);
     }
     truth_.effort = drives;
-    measured_ = choose(sensors_.measure(truth_), truth_);
+    measured_ = sensors_.measure(truth_);
+    if (!all_of(moving_)) measured_ = choose(measured_, truth_);
   }
 
   /// Advances each lane with an event alone.

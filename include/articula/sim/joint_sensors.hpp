@@ -25,7 +25,8 @@ class JointSensors {
         position_noise_(options.position_noise.template cast<S>()),
         velocity_noise_(options.velocity_noise.template cast<S>()),
         effort_noise_(options.effort_noise.template cast<S>()),
-        has_noise_(is_noisy(options)) {
+        has_noise_(is_noisy(options)),
+        has_encoder_(!options.encoder_resolution.isZero(0)) {
     std::uint64_t seed = options.seed;
     for (NormalNoise& noise : noise_) noise = NormalNoise(seed++);
   }
@@ -33,7 +34,7 @@ class JointSensors {
   /// Sensors and seeds of each robot of a pack.
   explicit JointSensors(const JointArray<SimulatorOptions<N>, lanes<S>>& options)
       : JointSensors(options[0]) {
-    has_noise_ = false;
+    has_noise_ = has_encoder_ = false;
     for (int k = 0; k < lanes<S>; ++k) {
       const SimulatorOptions<N>& own = options[k];
       set_lane(resolution_, k, own.encoder_resolution);
@@ -41,6 +42,7 @@ class JointSensors {
       set_lane(velocity_noise_, k, own.velocity_noise);
       set_lane(effort_noise_, k, own.effort_noise);
       has_noise_ = has_noise_ || is_noisy(own);
+      has_encoder_ = has_encoder_ || !own.encoder_resolution.isZero(0);
       noise_[k] = NormalNoise(own.seed);
     }
   }
@@ -56,6 +58,7 @@ class JointSensors {
         measured.effort[j] += effort_noise_[j] * noise();
       }
     }
+    if (!has_encoder_) return measured;
     for (int j = 0; j < N; ++j) {
       const auto is_exact = resolution_[j] == 0;
       if (all_of(is_exact)) continue;
@@ -89,6 +92,7 @@ class JointSensors {
   JointVector<N, S> velocity_noise_;
   JointVector<N, S> effort_noise_;
   bool has_noise_;
+  bool has_encoder_;
   bool measured_before_ = false;
   JointVector<N, S> last_position_ = JointVector<N, S>::Zero();
   JointArray<NormalNoise, lanes<S>> noise_;

@@ -119,7 +119,7 @@ class ClosedLoopExperiment {
     if constexpr (in_lanes) {
       if (own.robot) {
         const VariedLoop<R>* const only = &own;
-        return detail::run_in_lanes<R>(plan_, {&only, 1}, make_)[0].result(metrics);
+        return detail::run_in_lanes<R>(plan_, {&only, 1}, make_).result(metrics);
       }
     }
     return run_alone(own, metrics);
@@ -139,8 +139,8 @@ class ClosedLoopExperiment {
     }
     if constexpr (in_lanes) {
       detail::run_in_packs<R>(plan_, loops, make_,
-                              [&](std::size_t place, const detail::RunWatch<R>& watch) {
-                                rows[place].end = watch.result(rows[place].metrics);
+                              [&](std::size_t place, const auto& watch, int lane) {
+                                rows[place].end = watch.result(rows[place].metrics, lane);
                               });
     }
   }

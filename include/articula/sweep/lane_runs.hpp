@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Runs of a sweep at once: a simulator in lanes, and a control loop of its own for each run.
+/// @file Runs of a sweep at once, in the lanes of a pack.
 #pragma once
 
+#include "articula/control/laws/pid_gains_lanes.hpp"
 #include "articula/core/controller.hpp"
-#include "articula/core/finite.hpp"
-#include "articula/core/hardware.hpp"
+#include "articula/core/controller_check.hpp"
 #include "articula/core/scalar.hpp"
-#include "articula/lanes/lane_simulator.hpp"
-#include "articula/loop/control_loop.hpp"
-#include "articula/loop/loop_parts.hpp"
-#include "articula/sweep/delayed_commands.hpp"
+#include "articula/lanes/lane_loop.hpp"
+#include "articula/sweep/lane_loops.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/varied_loop.hpp"
 #include "articula/symbolic/pack.hpp"
@@ -33,121 +31,93 @@ inline constexpr bool can_run_in_lanes<R, C> =
     std::same_as<typename CheckedController<C, articula::joint_count<R>, double>::Command,
                  EffortCommand<articula::joint_count<R>>>;
 
-/// What all lanes have measured, and their commands.
-template <int N, class S>
-struct LaneExchange {
-  JointState<N, S> measured{};
-  EffortCommand<N, S> command{};
-};
+/// True if a factory also makes one controller of efforts for all lanes, which cannot fail, of gains
+/// that differ from lane to lane.
+template <class Make, int N, class S>
+concept MakesLaneController =
+    requires(const Make& make, const JointPidGains<N, S>& gains,
+             std::remove_cvref_t<decltype(make(gains))>& made, const ControlInput<N, S>& input) {
+      { called(made, input) } -> std::same_as<EffortCommand<N, S>>;
+    };
 
-/// One lane as the hardware of a loop. The simulator moves when all loops have written.
-template <DescribedRobot R, class S = symbolic::Pack<>>
-class LanePort {
+/// Robots in lanes under one controller.
+template <DescribedRobot R, class Make, class S>
+class LanesOfOneLoop {
  public:
-  using RobotType = VariedRobot<R>;
   static constexpr int joint_count = articula::joint_count<R>;
-  using Exchange = LaneExchange<joint_count, S>;
+  using Gains = JointPidGains<joint_count, S>;
+  using Controller = std::remove_cvref_t<std::invoke_result_t<const Make&, const Gains&>>;
+  using Loops = std::span<const VariedLoop<R>* const>;
 
-  /// The arguments must outlive the port.
-  LanePort(const VariedRobot<R>& robot, double period, Exchange& exchange, int lane) noexcept
-      : robot_(&robot), period_(period), exchange_(&exchange), lane_(lane) {}
+  LanesOfOneLoop(const Loops& loops, const Make& make, double)
+      : loop_(setups_of(loops), make(gains_of(loops))) {}
 
-  [[nodiscard]] Status activate() noexcept { return Status::ok; }
-  [[nodiscard]] Status deactivate() noexcept { return Status::ok; }
-  /// Real-time: yes.
-  [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
-    state = lane_of(exchange_->measured, lane_);
-    return is_finite(state) ? Status::ok : Status::non_finite_state;
+  /// One cycle of the lanes that move. A lane with a number that is not finite stops.
+  void update(const JointReference<joint_count>& reference) noexcept {
+    loop_.reference() = {in_all_lanes<S>(reference.position), in_all_lanes<S>(reference.velocity),
+                         in_all_lanes<S>(reference.acceleration),
+                         in_all_lanes<S>(reference.effort)};
+    loop_.update();
   }
-  /// Real-time: yes.
-  [[nodiscard]] Status write(const EffortCommand<joint_count>& command) noexcept {
-    const bool finite = is_finite(command);
-    set_lane(exchange_->command.effort, lane_,
-             finite ? command.effort : JointVector<joint_count>(JointVector<joint_count>::Zero()));
-    return finite ? Status::ok : Status::non_finite_command;
-  }
-  [[nodiscard]] const VariedRobot<R>& robot() const noexcept { return *robot_; }
-  [[nodiscard]] double period() const noexcept { return period_; }
+  [[nodiscard]] LaneSimulator<R, S>& simulator() noexcept { return loop_.simulator(); }
 
  private:
-  const VariedRobot<R>* robot_;
-  double period_;
-  Exchange* exchange_;
-  int lane_;
+  [[nodiscard]] static std::vector<LaneSetup<R>> setups_of(const Loops& loops) {
+    std::vector<LaneSetup<R>> setups;
+    for (const VariedLoop<R>* each : loops) {
+      setups.push_back(
+          {.robot = *each->robot, .simulation = each->simulation, .delay = each->delay});
+    }
+    return setups;
+  }
+  [[nodiscard]] static Gains gains_of(const Loops& loops) {
+    Gains gains = in_all_lanes<S>(loops[0]->gains);
+    for (std::size_t k = 1; k < loops.size(); ++k) {
+      set_lane(gains, static_cast<int>(k), loops[k]->gains);
+    }
+    return gains;
+  }
+
+  LaneControlLoop<R, Controller, S> loop_;
 };
 
 /// Runs loops at once. Each gives what it gives alone; none changes a bit of another.
 /// @param loops    as many as there are lanes, or fewer; their substeps are equal, each has a robot
 /// @param make     makes the controller of gains
-/// @return         what was watched in each
+/// @return         what was watched, the runs in the order of the loops
 /// @throws std::invalid_argument if a loop cannot be simulated
-template <DescribedRobot R, class Make>
-[[nodiscard]] std::vector<RunWatch<R>> run_in_lanes(const RunPlan<R>& plan,
-                                                    std::span<const VariedLoop<R>* const> loops,
-                                                    const Make& make) {
-  using S = symbolic::Pack<>;
-  using Controller = std::remove_cvref_t<decltype(make(loops[0]->gains))>;
+template <DescribedRobot R, class Make, class S = symbolic::Pack<>>
+[[nodiscard]] RunWatch<R, S> run_in_lanes(const RunPlan<R>& plan,
+                                          std::span<const VariedLoop<R>* const> loops,
+                                          const Make& make) {
   constexpr int n = articula::joint_count<R>;
-  using Port = DelayedCommands<LanePort<R>, EffortCommand<n>>;
-  std::vector<LaneSetup<R>> setups;
-  for (const VariedLoop<R>* each : loops) {
-    setups.push_back({.robot = *each->robot, .simulation = each->simulation});
-  }
-  LaneSimulator<R, S> simulator(setups);
-  LaneExchange<n, S> exchange;
-  exchange.command.effort.setConstant(S(0));
-  static_cast<void>(simulator.read(exchange.measured));
-  std::vector<ControlLoop<Port, Controller>> arms;
-  std::vector<RunWatch<R>> watches;
-  arms.reserve(loops.size());
-  watches.reserve(loops.size());
-  for (std::size_t k = 0; k < loops.size(); ++k) {
-    const VariedLoop<R>& own = *loops[k];
-    const int lane = static_cast<int>(k);
-    arms.emplace_back(Port(LanePort<R>(*own.robot, plan.period, exchange, lane), own.delay),
-                      make(own.gains));
-    watches.emplace_back(plan, lane_of(simulator.start(), lane), effort_limits(*own.robot));
-  }
-  const auto runs = [&](std::size_t k) { return is_true(simulator.moving(), static_cast<int>(k)); };
-  const auto stop = [&](std::size_t k) {
-    simulator.stop(static_cast<int>(k));
-    set_lane(exchange.command.effort, static_cast<int>(k), JointVector<n>(JointVector<n>::Zero()));
-  };
+  using Arms = std::conditional_t<MakesLaneController<Make, n, S>, LanesOfOneLoop<R, Make, S>,
+                                  LaneLoops<R, Make, S>>;
+  Arms arms(loops, make, plan.period);
+  LaneSimulator<R, S>& simulator = arms.simulator();
+  RunWatch<R, S> watch(plan, simulator.start(), simulator.effort_limits());
   for (int cycle = 0; any_of(simulator.moving()); ++cycle) {
     const double time = plan.time(cycle);
     const JointReference<n> reference = plan.signals->sample(time);
-    for (std::size_t k = 0; k < arms.size(); ++k) {
-      if (!runs(k)) continue;
-      arms[k].reference() = reference;
-      const JointState<n> truth = lane_of(simulator.true_state(), static_cast<int>(k));
-      if (!watches[k].begin(cycle, truth, reference)) stop(k);
-    }
+    const MaskOf<S> moves = simulator.moving(),
+                    lost = moves &
+                           not_of(watch.begin(cycle, simulator.true_state(), reference, moves));
+    if (any_of(lost)) simulator.stop(lost);
     if (cycle == plan.cycles) break;
-    for (std::size_t k = 0; k < arms.size(); ++k) {
-      if (!runs(k)) continue;
-      if (arms[k].update() == Status::ok) continue;
-      watches[k].fail();
-      stop(k);
-    }
     if (plan.disturbances) {
-      const JointVector<n> effort = plan.disturbances->sample(time).effort;
-      for (std::size_t k = 0; k < arms.size(); ++k) {
-        if (runs(k)) simulator.set_external_effort(static_cast<int>(k), effort);
-      }
+      simulator.set_external_effort(in_all_lanes<S>(plan.disturbances->sample(time).effort));
     }
-    static_cast<void>(simulator.write(exchange.command));
-    static_cast<void>(simulator.read(exchange.measured));
-    for (std::size_t k = 0; k < arms.size(); ++k) {
-      if (!runs(k) || !plan.is_last_quarter(cycle)) continue;
-      watches[k].finish(cycle, lane_of(simulator.true_state(), static_cast<int>(k)));
-    }
+    const MaskOf<S> before = simulator.moving();
+    arms.update(reference);
+    watch.fail(before & not_of(simulator.moving()));
+    watch.finish(cycle, simulator.true_state());
   }
-  return watches;
+  return watch;
 }
 
 /// Runs all loops that have a robot, as many at once as there are lanes. The loops of a pack have the
 /// same substeps.
-/// @param done  called with the index of a loop, and what was watched in it
+/// @param done  called with the index of a loop, what was watched, and the lane
 /// @throws std::invalid_argument as above
 template <DescribedRobot R, class Make, class Done>
 void run_in_packs(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops, const Make& make,
@@ -162,8 +132,8 @@ void run_in_packs(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops, 
       const auto some = std::span(places).subspan(begin, std::min(most, places.size() - begin));
       std::vector<const VariedLoop<R>*> pack;
       for (const std::size_t place : some) pack.push_back(&loops[place]);
-      const auto watches = run_in_lanes<R>(plan, pack, make);
-      for (std::size_t k = 0; k < some.size(); ++k) done(some[k], watches[k]);
+      const auto watch = run_in_lanes<R>(plan, pack, make);
+      for (std::size_t k = 0; k < some.size(); ++k) done(some[k], watch, static_cast<int>(k));
     }
   }
 }

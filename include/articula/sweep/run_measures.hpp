@@ -5,10 +5,10 @@
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/core/joint_vector.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/tuning/step_metrics.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -34,22 +34,26 @@ struct OwnMetric {
 };
 
 /// Measures a run: for joints that make a step, its metrics; for all joints, errors and efforts.
-template <int N>
+/// @tparam S  type of a number: double, or a pack with the numbers of several runs
+template <int N, class S = double>
 class RunMeasures {
  public:
+  using Moves = std::array<bool, static_cast<std::size_t>(N)>;
+
   /// @param start   positions before the step [rad or m]
   /// @param target  positions to which the joints step [rad or m]
-  RunMeasures(const JointVector<N>& start, const JointVector<N>& target) {
+  /// @param moves   joints that make a step
+  RunMeasures(const JointVector<N, S>& start, const JointVector<N>& target, const Moves& moves) {
     for (int j = 0; j < N; ++j) {
-      steps_[static_cast<std::size_t>(j)].emplace(start[j], target[j]);
+      const auto place = static_cast<std::size_t>(j);
+      if (moves[place]) steps_[place].emplace(start[j], target[j]);
     }
   }
 
   /// Names and units of all metrics, joint by joint; the energy is the last.
   /// @param moves  joints that make a step
   [[nodiscard]] static std::vector<SweepMetric> metrics(
-      const std::array<std::string_view, static_cast<std::size_t>(N)>& joints,
-      const std::array<bool, static_cast<std::size_t>(N)>& moves) {
+      const std::array<std::string_view, static_cast<std::size_t>(N)>& joints, const Moves& moves) {
     std::vector<SweepMetric> all;
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const std::string prefix = std::string(joints[j]) + ".";
@@ -75,61 +79,65 @@ class RunMeasures {
   /// Adds a cycle.
   /// @param time       [s]
   /// @param state      the true one; the effort is that of the period before
-  /// @param reference  at this time
+  /// @param reference  at this time, of all runs
   /// @param period     [s]
   /// Real-time: yes.
-  void add(double time, const JointState<N>& state, const JointReference<N>& reference,
+  void add(double time, const JointState<N, S>& state, const JointReference<N>& reference,
            double period) noexcept {
+    using std::abs;
     ++cycles_;
     for (int j = 0; j < N; ++j) {
-      steps_[static_cast<std::size_t>(j)]->add(time, state.position[j]);
-      const double error = std::abs(reference.position[j] - state.position[j]);
-      const double effort = std::abs(state.effort[j]), speed = std::abs(state.velocity[j]);
+      auto& step = steps_[static_cast<std::size_t>(j)];
+      if (step) step->add(time, state.position[j]);
+      const S error = abs(reference.position[j] - state.position[j]);
+      const S effort = abs(state.effort[j]), speed = abs(state.velocity[j]);
       error_squares_[j] += error * error;
       effort_squares_[j] += effort * effort;
-      error_peak_[j] = std::max(error_peak_[j], error);
-      effort_peak_[j] = std::max(effort_peak_[j], effort);
-      speed_peak_[j] = std::max(speed_peak_[j], speed);
+      raise(error_peak_[j], error);
+      raise(effort_peak_[j], effort);
+      raise(speed_peak_[j], speed);
       energy_ += effort * speed * period;
     }
   }
 
-  /// The metrics in the order of `metrics`.
+  /// The metrics of a run in the order of `metrics`.
   /// @param values  receives them; those beyond are left as they are
   /// Real-time: yes.
-  void values(const std::array<bool, static_cast<std::size_t>(N)>& moves,
-              std::span<double> values) const noexcept {
+  void values(std::span<double> values, int lane = 0) const noexcept {
     std::size_t next = 0;
-    const auto put = [&](double value) { values[next++] = value; };
+    const auto put = [&](const S& value) { values[next++] = lane_of(value, lane); };
     const auto put_if_defined = [&](std::optional<double> value) {
-      put(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+      values[next++] = value.value_or(std::numeric_limits<double>::quiet_NaN());
+    };
+    const auto put_mean = [&](const S& squares) {
+      values[next++] = std::sqrt(lane_of(squares, lane) / cycles_);
     };
     for (int j = 0; j < N; ++j) {
-      const auto place = static_cast<std::size_t>(j);
-      const StepMetrics& step = *steps_[place];
-      if (moves[place]) {
-        put_if_defined(step.rise_time());
-        put_if_defined(step.overshoot());
-        put_if_defined(step.settling_time());
-        const auto error = step.steady_error();
+      if (const auto& step = steps_[static_cast<std::size_t>(j)]) {
+        put_if_defined(step->rise_time(lane));
+        put_if_defined(step->overshoot(lane));
+        put_if_defined(step->settling_time(lane));
+        const auto error = step->steady_error(lane);
         put_if_defined(error ? std::optional(std::abs(*error)) : error);
       }
-      put(std::sqrt(error_squares_[j] / cycles_));
+      put_mean(error_squares_[j]);
       put(error_peak_[j]);
       put(speed_peak_[j]);
       put(effort_peak_[j]);
-      put(std::sqrt(effort_squares_[j] / cycles_));
+      put_mean(effort_squares_[j]);
     }
     put(energy_);
   }
 
  private:
-  using Vector = JointVector<N>;
+  using Vector = JointVector<N, S>;
 
-  std::array<std::optional<StepMetrics>, static_cast<std::size_t>(N)> steps_{};
+  static void raise(S& peak, const S& value) noexcept { peak = select(peak < value, value, peak); }
+
+  std::array<std::optional<BasicStepMetrics<S>>, static_cast<std::size_t>(N)> steps_{};
   Vector error_squares_ = Vector::Zero(), effort_squares_ = Vector::Zero();
   Vector error_peak_ = Vector::Zero(), effort_peak_ = Vector::Zero(), speed_peak_ = Vector::Zero();
-  double energy_ = 0;
+  S energy_ = 0;
   double cycles_ = 0;
 };
 

@@ -34,7 +34,7 @@ template <DynamicRobot R, Robot Simulated, class Make>
     if (cycle == plan.cycles) break;
     if (plan.disturbances) simulator.set_external_effort(plan.disturbances->sample(time).effort);
     if (arm.update() != Status::ok) {
-      watch.fail();
+      watch.fail(true);
       break;
     }
     watch.finish(cycle, simulator.true_state());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/futures/futures.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/reference/joint_signals.hpp"
@@ -36,59 +37,77 @@ struct RunPlan {
   [[nodiscard]] bool is_last_quarter(int cycle) const noexcept { return 4 * cycle >= 3 * cycles; }
 };
 
-/// Measures one run and notes how it ends.
-template <DynamicRobot R>
+/// Measures one run, or the runs in the lanes of a pack, and notes how they end.
+/// @tparam S  double, or a pack
+template <DynamicRobot R, class S = double>
 class RunWatch {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
+  using State = JointState<joint_count, S>;
+  using Reference = JointReference<joint_count>;
+  using Mask = MaskOf<S>;
 
   /// @param plan    must outlive the watch
   /// @param start   positions at time 0 [rad or m]
   /// @param limits  effort limits [N m or N]
-  RunWatch(const RunPlan<R>& plan, const JointVector<joint_count>& start,
-           const JointVector<joint_count>& limits)
+  RunWatch(const RunPlan<R>& plan, const JointVector<joint_count, S>& start,
+           const JointVector<joint_count, S>& limits)
       : plan_(&plan),
-        measures_(start, plan.target),
-        own_values_(plan.own_metrics.size()),
+        measures_(start, plan.target, plan.moves),
+        own_values_(static_cast<std::size_t>(lanes<S>) * plan.own_metrics.size()),
         swings_(limits) {}
 
   /// Measures at the beginning of a cycle, and after the last one.
-  /// @return  false if the run has ended, since the motion is not finite
-  [[nodiscard]] bool begin(int cycle, const JointState<joint_count>& truth,
-                           const JointReference<joint_count>& reference) {
-    if (!is_finite(truth)) return fail(), false;
+  /// @param goes_on  the runs that have not ended
+  /// @return         those of them whose motion is finite; the others have ended
+  [[nodiscard]] Mask begin(int cycle, const State& truth, const Reference& reference,
+                           const Mask& goes_on = mask_of<S>(true)) {
+    const Mask good = goes_on & is_finite(truth);
+    fail(goes_on & not_of(good));
+    if (!any_of(good)) return good;
     measures_.add(plan_->time(cycle), truth, reference, plan_->period);
-    for (std::size_t k = 0; k < own_values_.size(); ++k) {
-      own_values_[k] = plan_->own_metrics[k].next(own_values_[k], truth, reference);
+    for (int k = 0; k < lanes<S> && !own_values_.empty(); ++k) {
+      if (is_true(good, k)) add_own(k, lane_of(truth, k), reference);
     }
-    return true;
+    return good;
   }
   /// Notes what the drives have given in a cycle.
-  void finish(int cycle, const JointState<joint_count>& truth) {
+  void finish(int cycle, const State& truth) noexcept {
     if (plan_->is_last_quarter(cycle)) swings_.note(truth.effort);
   }
-  /// The run has ended since a number is not finite.
-  void fail() noexcept { end_ = FutureEnd::non_finite; }
+  /// Runs have ended since a number is not finite.
+  void fail(const Mask& runs) noexcept { non_finite_ = non_finite_ | runs; }
 
   /// @param metrics  receives all; NaN if the run was not finite: those of its short life would
   ///                 make it look good
-  [[nodiscard]] FutureEnd result(std::span<double> metrics) const {
-    if (end_ == FutureEnd::non_finite) {
+  [[nodiscard]] FutureEnd result(std::span<double> metrics, int lane = 0) const {
+    if (is_true(non_finite_, lane)) {
       std::ranges::fill(metrics, std::numeric_limits<double>::quiet_NaN());
-      return end_;
+      return FutureEnd::non_finite;
     }
-    measures_.values(plan_->moves, metrics.first(plan_->standard_metrics));
-    std::copy(own_values_.begin(), own_values_.end(),
-              metrics.begin() + std::ptrdiff_t(plan_->standard_metrics));
-    return end_ == FutureEnd::stable && swings_.many() ? FutureEnd::unstable : end_;
+    measures_.values(metrics.first(plan_->standard_metrics), lane);
+    for (std::size_t k = 0; k < plan_->own_metrics.size(); ++k) {
+      metrics[plan_->standard_metrics + k] = own_values_[place(lane, k)];
+    }
+    return is_true(swings_.many(), lane) ? FutureEnd::unstable : FutureEnd::stable;
   }
 
  private:
+  [[nodiscard]] std::size_t place(int lane, std::size_t metric) const noexcept {
+    return static_cast<std::size_t>(lane) * plan_->own_metrics.size() + metric;
+  }
+  void add_own(int lane, const JointState<joint_count>& truth, const Reference& reference) {
+    for (std::size_t k = 0; k < plan_->own_metrics.size(); ++k) {
+      double& value = own_values_[place(lane, k)];
+      value = plan_->own_metrics[k].next(value, truth, reference);
+    }
+  }
+
   const RunPlan<R>* plan_;
-  RunMeasures<joint_count> measures_;
-  std::vector<double> own_values_;
-  LimitSwings<joint_count> swings_;
-  FutureEnd end_ = FutureEnd::stable;
+  RunMeasures<joint_count, S> measures_;
+  std::vector<double> own_values_;  ///< lane by lane
+  LimitSwings<joint_count, S> swings_;
+  Mask non_finite_ = mask_of<S>(false);
 };
 
 }  // namespace articula::detail

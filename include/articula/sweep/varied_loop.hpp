@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -173,20 +172,19 @@ template <DynamicRobot R>
     changes_bodies = changes_bodies ||
                      traits_of(variations[k].variation.quantity).subject == VariedSubject::link;
   }
-  if (changes_bodies) loop.model.canonical = canonical_form(loop.model.mechanism).mechanism;
+  if constexpr (DescribedRobot<R>) {
+    loop.robot = robot_of_kind<R>(loop.model);
+    if (loop.robot && changes_bodies) loop.model.canonical = loop.robot->canonical;
+  }
+  if (!loop.robot && changes_bodies) {
+    loop.model.canonical = canonical_form(loop.model.mechanism).mechanism;
+  }
   // Light bodies and strong damping need shorter steps; more than a hundred of them are refused.
   SimulatorOptions<joint_count<R>>& simulation = loop.simulation;
   const double longest = longest_step(loop.model, *simulation.initial_position);
   const double needed = std::ceil(simulation.period / longest);
   if (needed <= 100.0 * simulation.substeps) {
     simulation.substeps = std::max(simulation.substeps, static_cast<int>(needed));
-  }
-  if constexpr (DescribedRobot<R>) {
-    try {
-      loop.robot.emplace(loop.model);
-    } catch (const std::invalid_argument&) {
-      loop.robot.reset();  // of another kind: the model has no such bounds
-    }
   }
   return loop;
 }

@@ -7,7 +7,6 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/scalar.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace articula {
@@ -54,12 +53,12 @@ using PidInput = BasicPidInput<double>;
 ///
 /// or conditional integration: the last step of an integral that pushed further is taken back.
 /// Source: [Åström, Hägglund 2006, sections 3.3 to 3.5].
-/// @tparam S  type of a number: double, or a pack with the numbers of several robots, which have the
-///            same gains
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots
 template <class S>
 class BasicJointPid {
  public:
   using Input = BasicPidInput<S>;
+  using Gains = BasicPidGains<S>;
 
   /// Forgets the past: the integral is 0. Real-time: yes.
   void start() noexcept {
@@ -76,10 +75,11 @@ class BasicJointPid {
   /// than ten seconds and the output may have been a push. It stays 0 without an integral gain, and
   /// with an output that is not finite, too. Real-time: yes.
   /// @param held  push or load
-  void prime(const PidGains& g, const S& output, Held held) noexcept {
-    const bool soon = g.proportional <= slowest_primed * g.integral;
-    if (g.integral == 0 || (held != Held::load && !soon)) return;
-    set_integral(g, select(is_finite(output), output, integral_));
+  void prime(const Gains& g, const S& output, Held held) noexcept {
+    const MaskOf<S> soon = g.proportional <= slowest_primed * g.integral;
+    const MaskOf<S> primed = (g.integral != 0) & (mask_of<S>(held == Held::load) | soon);
+    if (!any_of(primed)) return;
+    set_integral(g, select(primed & is_finite(output), output, integral_));
     previous_integral_ = integral_;
   }
 
@@ -90,8 +90,7 @@ class BasicJointPid {
   /// @param turn    what the error is counted modulo: 2 pi for a joint that turns for ever, 0:
   ///                nothing
   /// Real-time: yes.
-  [[nodiscard]] S update(const PidGains& g, const Input& in, double period,
-                         double turn = 0) noexcept {
+  [[nodiscard]] S update(const Gains& g, const Input& in, double period, double turn = 0) noexcept {
     using std::abs;
     if (!all_of(begun_)) {
       replace_where(!begun_, origin_, in.measured);
@@ -124,14 +123,15 @@ class BasicJointPid {
   /// @param excess  the output minus what was left of it; that of an overflow may be anything; 0
   ///                changes nothing
   /// Real-time: yes.
-  void limit_windup(const PidGains& g, const S& excess) noexcept {
+  void limit_windup(const Gains& g, const S& excess) noexcept {
     if (g.anti_windup == AntiWindup::conditional_integration) {
       const auto rises = integral_ > previous_integral_, falls = integral_ < previous_integral_;
       const auto above = excess > 0, below = excess < 0;
       replace_where((above & rises) | (below & falls), integral_, previous_integral_);
-    } else if (g.anti_windup == AntiWindup::back_calculation && g.integral != 0) {
+    } else if (g.anti_windup == AntiWindup::back_calculation && any_of(g.integral != 0)) {
       // A step beyond T_t would overshoot what it is to follow.
-      set_integral(g, integral_ - std::min(1.0, period_ / tracking_time(g)) * excess);
+      const S ratio = period_ / tracking_time(g), share = select(ratio < 1, ratio, S(1));
+      set_integral(g, select(g.integral != 0, integral_ - share * excess, integral_));
     }
     replace_where(!is_finite(excess), integral_, previous_integral_);
   }
@@ -140,10 +140,16 @@ class BasicJointPid {
   [[nodiscard]] const S& integral() const noexcept { return integral_; }
 
   /// T_t [s] of back-calculation. Real-time: yes.
-  [[nodiscard]] static double tracking_time(const PidGains& g) noexcept {
-    if (g.tracking_time > 0) return g.tracking_time;
-    if (g.derivative != 0) return std::sqrt(std::abs(g.derivative / g.integral));
-    return std::abs(g.proportional / g.integral);
+  [[nodiscard]] static S tracking_time(const Gains& g) noexcept {
+    if constexpr (PackedScalar<S>) {
+      const S of_gains = select(g.derivative != 0, sqrt(abs(g.derivative / g.integral)),
+                                abs(g.proportional / g.integral));
+      return select(g.tracking_time > 0, g.tracking_time, of_gains);
+    } else {
+      if (g.tracking_time > 0) return g.tracking_time;
+      if (g.derivative != 0) return std::sqrt(std::abs(g.derivative / g.integral));
+      return std::abs(g.proportional / g.integral);
+    }
   }
 
   /// The difference of two angles, the short way round. Real-time: yes.
@@ -160,14 +166,16 @@ class BasicJointPid {
  private:
   /// A product that has overflowed, or one of its factors, as a number that leaves room for sums. A
   /// NaN stays one.
-  [[nodiscard]] static S bounded(double factor, const S& value) noexcept {
+  [[nodiscard]] static S bounded(const S& factor, const S& value) noexcept {
     constexpr double huge = 1e300;
     return clamp(factor * clamp(value, -huge, huge), -huge, huge);
   }
 
   /// weight r - y = weight e - (1 - weight) y.
-  [[nodiscard]] static S weighted(double weight, const S& error, const S& measured) noexcept {
-    return weight == 1 ? error : weight * error - (1 - weight) * measured;
+  [[nodiscard]] static S weighted(const S& weight, const S& error, const S& measured) noexcept {
+    const MaskOf<S> whole = weight == 1;
+    if (all_of(whole)) return error;
+    return select(whole, error, S(weight * error - (1 - weight) * measured));
   }
 
   void remember(const Input& in, double period) noexcept {
@@ -181,13 +189,13 @@ class BasicJointPid {
 
   /// The output where a sum of terms is no number: of inputs that are none, or of an overflow.
   /// @param sum  of the terms, which stays where it is finite
-  [[nodiscard, gnu::cold, gnu::noinline]] S overflown(const PidGains& g, const Input& in, S rate,
+  [[nodiscard, gnu::cold, gnu::noinline]] S overflown(const Gains& g, const Input& in, S rate,
                                                       const S& sum, double period) noexcept {
     if (!in.rate_is_measured || g.derivative_of != DerivativeOf::measured_velocity) {
       replace_where(!is_finite(rate), rate, rate_);
     }
-    const double b = g.position_weight;
-    const S measured = b == 1 ? S(0) : bounded(1 - b, in.measured - origin_);
+    const S& b = g.position_weight;
+    const S measured = select(b == 1, S(0), bounded(1 - b, in.measured - origin_));
     const S bounded_sum = bounded(g.proportional, bounded(b, in.error) - measured) +
                           bounded(1, integral_) + bounded(g.derivative, rate) +
                           bounded(g.velocity_feedforward, in.velocity_reference) +
@@ -208,31 +216,35 @@ class BasicJointPid {
     return within;
   }
 
-  [[nodiscard]] S rate_of(const PidGains& g, const Input& in, double period,
+  [[nodiscard]] S rate_of(const Gains& g, const Input& in, double period,
                           double turn) const noexcept {
     if (in.rate_is_measured && g.derivative_of == DerivativeOf::measured_velocity) {
       return in.rate_error;
     }
     if (!(period > 0)) return rate_;
-    const double weight = g.derivative_of == DerivativeOf::error ? g.velocity_weight : 0;
+    const S weight = g.derivative_of == DerivativeOf::error ? g.velocity_weight : S(0);
     const S error = short_way(in.error - last_error_, turn);
     return select(gap_, rate_, weighted(weight, error, in.measured - last_measured_) / period);
   }
 
-  [[nodiscard]] S filtered(const PidGains& g, const S& rate, double period) noexcept {
-    const double time = g.derivative_filter_time;
+  [[nodiscard]] S filtered(const Gains& g, const S& rate, double period) noexcept {
+    const S& time = g.derivative_filter_time;
+    const MaskOf<S> filters = time > 0;
     S next = rate;
-    if (time > 0) {
-      if (!(period > 0)) return rate_;
-      const auto filters = begun_ & is_finite(rate);
-      next = select(filters, rate_ + period / (time + period) * (rate - rate_), rate);
+    if (any_of(filters)) {
+      if (period > 0) {
+        const MaskOf<S> goes_on = filters & begun_ & is_finite(rate);
+        replace_where(goes_on, next, rate_ + period / (time + period) * (rate - rate_));
+      } else {
+        replace_where(filters, next, rate_);
+      }
     }
     replace_where(is_finite(next), rate_, next);  // an overflow is not to be remembered
     return next;
   }
 
   /// A step that overflows is not taken.
-  void set_integral(const PidGains& g, S next) noexcept {
+  void set_integral(const Gains& g, S next) noexcept {
     next = clamp(next, g.integral_clamp_min, g.integral_clamp_max);
     replace_where(is_finite(next), integral_, next);
   }

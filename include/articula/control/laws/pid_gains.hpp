@@ -37,35 +37,41 @@ enum class GainSigns : unsigned char {
 
 /// The gains of one joint's PID. The output is N m (or N) where it is an effort. ROS users know the
 /// first of them as p, i, d, i_clamp_min and i_clamp_max. What the others do: see JointPid.
-struct PidGains {
+/// @tparam S  type of a number: double, or a pack with the numbers of several robots, which have
+///            `anti_windup` and `derivative_of` in common
+template <class S>
+struct BasicPidGains {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  double proportional = 0;                ///< p [output per rad or m]
-  double integral = 0;                    ///< i [output per rad s or m s]
-  double derivative = 0;                  ///< d [output per rad/s or m/s]
-  double integral_clamp_min = -infinity;  ///< lowest integral term [output]
-  double integral_clamp_max = infinity;   ///< highest integral term [output]
-  double output_clamp_min = -infinity;    ///< lowest output of the PID [output]
-  double output_clamp_max = infinity;     ///< highest output of the PID [output]
+  S proportional = 0;                ///< p [output per rad or m]
+  S integral = 0;                    ///< i [output per rad s or m s]
+  S derivative = 0;                  ///< d [output per rad/s or m/s]
+  S integral_clamp_min = -infinity;  ///< lowest integral term [output]
+  S integral_clamp_max = infinity;   ///< highest integral term [output]
+  S output_clamp_min = -infinity;    ///< lowest output of the PID [output]
+  S output_clamp_max = infinity;     ///< highest output of the PID [output]
   AntiWindup anti_windup = AntiWindup::conditional_integration;
-  double tracking_time = 0;   ///< T_t of back-calculation [s]; 0: sqrt(d/i), or p/i where d is 0
-  double error_deadband = 0;  ///< the integral rests while |e| is not above it [rad or m]
+  S tracking_time = 0;   ///< T_t of back-calculation [s]; 0: sqrt(d/i), or p/i where d is 0
+  S error_deadband = 0;  ///< the integral rests while |e| is not above it [rad or m]
   DerivativeOf derivative_of = DerivativeOf::measured_velocity;
-  double derivative_filter_time = 0;    ///< T_f of the derivative's low-pass [s]; 0: no filter
-  double position_weight = 1;           ///< b, share of the reference in the proportional term
-  double velocity_weight = 1;           ///< c, share of the reference in the derivative term; 0 for
-                                        ///< the change of -v
-  double velocity_feedforward = 0;      ///< f_v [output per rad/s or m/s]
-  double acceleration_feedforward = 0;  ///< f_a [output per rad/s^2 or m/s^2]
+  S derivative_filter_time = 0;    ///< T_f of the derivative's low-pass [s]; 0: no filter
+  S position_weight = 1;           ///< b, share of the reference in the proportional term
+  S velocity_weight = 1;           ///< c, share of the reference in the derivative term; 0 for
+                                   ///< the change of -v
+  S velocity_feedforward = 0;      ///< f_v [output per rad/s or m/s]
+  S acceleration_feedforward = 0;  ///< f_a [output per rad/s^2 or m/s^2]
 };
 
+/// The gains of one joint's PID of one robot.
+using PidGains = BasicPidGains<double>;
+
 /// The gains of N joints.
-template <int N>
-using JointPidGains = std::array<PidGains, static_cast<std::size_t>(N)>;
+template <int N, class S = double>
+using JointPidGains = std::array<BasicPidGains<S>, static_cast<std::size_t>(N)>;
 
 /// Gains of N joints that have been checked.
-template <int N>
-using ValidPidGains = ValidGains<PidGains, N>;
+template <int N, class S = double>
+using ValidPidGains = ValidGains<BasicPidGains<S>, N>;
 
 /// Refuses gains that make no controller: a gain that is not finite or negative, clamps that do not
 /// contain 0 (the joint would be pushed at rest), a time or dead-band below 0, a weight outside 0

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "articula/control/laws/joint_pid.hpp"
+#include "articula/control/laws/pid_gains_lanes.hpp"
 #include "articula/control/laws/sampled_feedback.hpp"
 #include "articula/core/control_input.hpp"
 #include "articula/core/joint_array.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/model/robot.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <numbers>
 
@@ -32,8 +35,8 @@ enum class PidOf : unsigned char {
 /// @tparam N         number of joints
 /// @tparam Variable  what is controlled; gains are per rad/s instead of rad where it is the
 ///                   velocity
-/// @tparam S         type of a number: double, or a pack with the numbers of several robots, which
-///                   have the same gains
+/// @tparam S         type of a number: double, or a pack with the numbers of several robots. Gains
+///                   are those of each lane, or PidGains for all lanes.
 template <int N, PidOf Variable = PidOf::position, class S = double>
 class PidLaw {
  public:
@@ -41,15 +44,13 @@ class PidLaw {
   /// @param gains  of the N joints
   /// @param names  of the same joints, for the error message
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  PidLaw(const JointPidGains<N>& gains, const JointNames<N>& names)
-      : PidLaw(ValidPidGains<N>(gains, names)) {}
+  PidLaw(const JointPidGains<N>& gains, const JointNames<N>& names) : PidLaw(valid(gains, names)) {}
 
   /// For a robot's joints, of which the continuous ones take the short way round.
   /// @throws std::invalid_argument naming joint, gain and value, see validate
-  template <Robot R>
+  template <Robot R, PidGainsFor<N, S> Gains = JointPidGains<N>>
     requires(joint_count<R> == N)
-  PidLaw(const R& robot, const JointPidGains<N>& gains)
-      : PidLaw(ValidPidGains<N>(gains, joint_names(robot))) {
+  PidLaw(const R& robot, const Gains& gains) : PidLaw(valid(gains, joint_names(robot))) {
     if constexpr (Variable == PidOf::position) {
       for (std::size_t j = 0; j < turns_.size(); ++j) {
         const bool turns = model_of(robot).joints[j].type == JointType::continuous;
@@ -68,7 +69,7 @@ class PidLaw {
     for (int j = 0; j < N; ++j) {
       pids_[j].start();
       if (!in.applied.reached_drives()) continue;
-      const PidGains& g = gains_[j];
+      const BasicPidGains<S>& g = gains_[j];
       const S feedforward = g.velocity_feedforward * in.reference.velocity[j] +
                             g.acceleration_feedforward * in.reference.acceleration[j];
       pids_[j].prime(g, in.applied.numbers[j] - feedforward, in.applied.held);
@@ -86,7 +87,7 @@ class PidLaw {
       const ControlInput<N, S>& in) noexcept {
     JointVector<N, S> output;
     for (int j = 0; j < N; ++j) {
-      const PidGains& g = gains_[j];
+      const BasicPidGains<S>& g = gains_[j];
       if (any_of(in.cut[j] != 0)) pids_[j].limit_windup(g, in.cut[j]);
       const S &q = in.state.position[j], &v = in.state.velocity[j];
       BasicPidInput<S> input{.velocity_reference = in.reference.velocity[j],
@@ -108,12 +109,14 @@ class PidLaw {
   /// Goes on with other gains. The integral terms, being in units of the output, stay as they are,
   /// as far as the new clamps allow in the next cycle; also where i becomes 0. The cut of the last
   /// output is taken back by the new gains' anti-windup. Real-time: yes.
-  void set_gains(const ValidPidGains<N>& gains) noexcept { gains_ = gains; }
+  void set_gains(const ValidPidGains<N, S>& gains) noexcept { gains_ = gains; }
 
-  [[nodiscard]] const JointPidGains<N>& gains() const noexcept { return gains_.values(); }
+  [[nodiscard]] const JointPidGains<N, S>& gains() const noexcept { return gains_.values(); }
 
   /// What becomes of one joint's measurements, see gain_notices. Real-time: yes.
-  [[nodiscard]] SampledFeedback sampled_feedback(std::size_t joint) const noexcept {
+  [[nodiscard]] SampledFeedback sampled_feedback(std::size_t joint) const noexcept
+    requires std::same_as<S, double>
+  {
     SampledFeedback feedback = SampledFeedback::of(gains_[joint]);
     feedback.of_velocity = Variable == PidOf::velocity;
     return feedback;
@@ -128,9 +131,18 @@ class PidLaw {
   }
 
  private:
-  explicit PidLaw(const ValidPidGains<N>& gains) : gains_(gains) {}
+  explicit PidLaw(const ValidPidGains<N, S>& gains) : gains_(gains) {}
 
-  ValidPidGains<N> gains_;
+  template <PidGainsFor<N, S> Gains>
+  [[nodiscard]] static ValidPidGains<N, S> valid(const Gains& gains, const JointNames<N>& names) {
+    if constexpr (std::same_as<Gains, JointPidGains<N, S>>) {
+      return {gains, names};
+    } else {
+      return {in_all_lanes<S>(gains), names};
+    }
+  }
+
+  ValidPidGains<N, S> gains_;
   JointArray<BasicJointPid<S>, N> pids_{};
   JointArray<double, N> turns_{};  ///< a full turn [rad], or 0
 };
