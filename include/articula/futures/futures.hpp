@@ -6,6 +6,7 @@
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/scalar.hpp"
+#include "articula/dynamics/varied_robot.hpp"
 #include "articula/futures/future_end.hpp"
 #include "articula/futures/future_options.hpp"
 #include "articula/futures/random_draw.hpp"
@@ -103,6 +104,7 @@ template <Robot SimulatedRobot, class C, class Command>
   const FutureSpread& spread = options.spread;
   const std::uint64_t delay = random_bits(key, 0) % (static_cast<std::uint64_t>(spread.delay) + 1);
   const std::uint64_t noise = random_bits(key, 1);
+  const bool is_noisy = spread.position_noise != 0 || spread.velocity_noise != 0;
   const int cycles = cycles_of(options, simulator.period()), samples = options.samples;
   const SimulatedRobot& robot = simulator.robot();
   JointVector<n> position = start.state.position;
@@ -125,7 +127,7 @@ template <Robot SimulatedRobot, class C, class Command>
   for (int cycle = 0, sample = 1; cycle < cycles; ++cycle) {
     if (cycle % 8 == 0 && !goes_on()) return future;
     const Status read = simulator.read(state);
-    for (int j = 0; j < n; ++j) {
+    for (int j = 0; j < n && is_noisy; ++j) {
       const auto place = static_cast<std::uint64_t>(2 * (cycle * n + j));
       state.position[j] += spread.position_noise * random_noise(noise, place);
       state.velocity[j] += spread.velocity_noise * random_noise(noise, place + 1);
@@ -191,6 +193,12 @@ template <DynamicRobot R, class C, class Command, class GoesOn = detail::ToTheEn
                                    goes_on);
   }
   const auto model = varied_model(robot, options.spread, detail::random_bits(key, 2));
+  if constexpr (DescribedRobot<R>) {
+    if (const auto varied = detail::robot_of_kind<R>(model)) {
+      return detail::simulate_future(Simulator<VariedRobot<R>>(*varied, simulation), controller,
+                                     start, options, key, goes_on);
+    }
+  }
   using Varied = std::remove_cvref_t<decltype(model)>;
   return detail::simulate_future(Simulator<Varied>(model, simulation), controller, start, options,
                                  key, goes_on);
