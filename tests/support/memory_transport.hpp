@@ -24,7 +24,11 @@ using Bytes = std::vector<std::byte>;
 template <articula::ros2::Message M>
 Bytes bytes_of(const M& message) {
   Bytes bytes(1 << 16);
-  const auto encoded = articula::ros2::encode(message, bytes);
+  auto encoded = articula::ros2::encode(message, bytes);
+  while (encoded.error == articula::ros2::CdrError::no_room) {
+    bytes.resize(2 * bytes.size());
+    encoded = articula::ros2::encode(message, bytes);
+  }
   bytes.resize(encoded.size);
   return bytes;
 }

@@ -74,7 +74,8 @@ class Outside {
             .operator_name = clients_.operator_name(),
             .controllers = published_.controllers(),
             .paused = now.paused,
-            .speed = now.speed};
+            .speed = now.speed,
+            .trajectory_speed = now.trajectory_speed};
   }
 
   [[nodiscard]] std::vector<Parameter> parameters() {

@@ -38,8 +38,9 @@ struct Situation {
                  ///< "stop"
   std::string operator_name{};  ///< of the session that has the controls; empty: nobody
   std::vector<ControllerInfo> controllers{};
-  bool paused = false;  ///< of a simulation
-  double speed = 1;     ///< likewise
+  bool paused = false;          ///< of a simulation
+  double speed = 1;             ///< likewise
+  double trajectory_speed = 1;  ///< as the last SetTrajectorySpeed
 };
 
 /// One client of a port: a browser, a terminal, a bridge. Watches, and may take the controls. All

@@ -71,6 +71,12 @@ struct PlayTrajectory {
   std::optional<double> delay{};
 };
 
+/// How fast trajectories are followed, the present one and later ones. It holds until the next request
+/// of this kind. Tolerances of time are in the trajectory's time.
+struct SetTrajectorySpeed {
+  double factor = 1;  ///< 0 (pause) .. 1 (as planned)
+};
+
 /// Adds signals to the present reference for a time. Then the reference moves back to where it was.
 /// The answer comes when the signals have ended.
 struct PlaySignals {
@@ -122,25 +128,27 @@ struct Pull {
 /// Any of them.
 using Request = std::variant<Activate, Deactivate, AcknowledgeFault, Go, SetReference,
                              PlayTrajectory, PlaySignals, Stop, SwitchControllers, SetParameters,
-                             Pause, Step, SetSpeed, Reset, Pull>;
+                             Pause, Step, SetSpeed, Reset, Pull, SetTrajectorySpeed>;
 
 /// The name of a request, as in the log.
 [[nodiscard]] inline std::string_view name_of(const Request& request) {
-  constexpr std::array<std::string_view, std::variant_size_v<Request>> names{"activate",
-                                                                             "deactivate",
-                                                                             "acknowledge_fault",
-                                                                             "go",
-                                                                             "set_reference",
-                                                                             "play_trajectory",
-                                                                             "play_signals",
-                                                                             "stop",
-                                                                             "switch_controllers",
-                                                                             "set_parameters",
-                                                                             "pause",
-                                                                             "step",
-                                                                             "set_speed",
-                                                                             "reset",
-                                                                             "pull"};
+  constexpr std::array<std::string_view, std::variant_size_v<Request>> names{
+      "activate",
+      "deactivate",
+      "acknowledge_fault",
+      "go",
+      "set_reference",
+      "play_trajectory",
+      "play_signals",
+      "stop",
+      "switch_controllers",
+      "set_parameters",
+      "pause",
+      "step",
+      "set_speed",
+      "reset",
+      "pull",
+      "set_trajectory_speed"};
   return names[request.index()];
 }
 

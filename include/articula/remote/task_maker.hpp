@@ -13,8 +13,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -98,10 +100,11 @@ class TaskMaker {
   }
 
   [[nodiscard]] Wish make_wish(const PlayTrajectory& play, const Reference& present) const {
-    const auto trajectory = arrange<trajectory_capacity>(
-        robot_, play.trajectory,
-        {.allow_partial_joints = true, .allow_integration = true, .from = present});
-    const auto points = trajectory.points();
+    auto trajectory =
+        std::make_unique<const Trajectory<R, trajectory_capacity>>(arrange<trajectory_capacity>(
+            robot_, play.trajectory,
+            {.allow_partial_joints = true, .allow_integration = true, .from = present}));
+    const auto points = trajectory->points();
     for (std::size_t k = 1; k < points.size(); ++k) {
       const Vector anything = Vector::Zero();  // all extremes are of interest
       const auto peaks = segment_peaks(points[k - 1], points[k],
@@ -114,7 +117,7 @@ class TaskMaker {
                    limits_of(j).velocity * (1 + 1e-9));  // rounding
       }
     }
-    task::Follow<R> wish{.trajectory = trajectory, .delay = play.delay};
+    task::Follow<R> wish{.trajectory = std::move(trajectory), .delay = play.delay};
     put_tolerances(play.path_tolerances, wish.tolerances.path_position,
                    wish.tolerances.path_velocity);
     put_tolerances(play.goal_tolerances, wish.tolerances.goal_position,
@@ -124,6 +127,13 @@ class TaskMaker {
       refuse({"trajectory: delay ", *play.delay, " s is not a finite number"});
     }
     return wish;
+  }
+
+  [[nodiscard]] Wish make_wish(const SetTrajectorySpeed& wanted, const Reference&) const {
+    if (!(wanted.factor >= 0 && wanted.factor <= 1)) {
+      refuse({"trajectory speed: factor ", wanted.factor, " is not within 0 .. 1"});
+    }
+    return task::SetTrajectorySpeed{wanted.factor};
   }
 
   void put_tolerances(const std::vector<NamedTolerance>& named, Vector& position,

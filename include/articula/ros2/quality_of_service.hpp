@@ -24,6 +24,8 @@ inline constexpr QualityOfService action_feedback{.transient_local = false, .dep
 inline constexpr QualityOfService action_status{.transient_local = true, .depth = 1};
 /// Joint states, states of controllers and commands.
 inline constexpr QualityOfService states{.transient_local = false, .depth = 1};
+/// Readers of speed_scaling_input: its publisher's last factor counts.
+inline constexpr QualityOfService speed_scaling{.transient_local = true, .depth = 10};
 /// Readers of measurements, as rclcpp's SensorDataQoS.
 inline constexpr QualityOfService sensor_data{
     .transient_local = false, .depth = 5, .best_effort = true};

@@ -102,8 +102,10 @@ TEST_CASE("the requests of ROS 2's tools, as they were recorded, have replies of
   arm.ask(remote::Activate{});
   const auto replies = all_replies();
   std::map<std::string, int> answered;
+  std::map<std::string, Bytes> recorded, own;  // by the names of the frames
   for (const Json& frame : frames()) {
     const auto topic = frame.at("topic").get<std::string>();
+    recorded[frame.at("name").get<std::string>()] = from_hex(frame.at("cdr"));
     if (!topic.starts_with("rq/") || !topic.ends_with("Request")) continue;
     const std::string service = own_name(topic.substr(2, topic.size() - 2 - 7));
     const std::string name = service.substr(service.rfind('/') + 1);
@@ -113,8 +115,39 @@ TEST_CASE("the requests of ROS 2's tools, as they were recorded, have replies of
     for (int k = 0; k < 50 && reply->empty(); ++k) arm.run(1);
     CHECK_FALSE(reply->empty());
     CHECK(replies.at(name)(*reply));
+    own[frame.at("name").get<std::string>()] = *reply;
     ++answered[name];
   }
+  // What the recorded robot answered, where this one must answer the same: to requests that do not
+  // depend on it, and to those for controllers, goals and parameters that it does not have.
+  for (const auto& [request, reply] : std::map<std::string, std::string>{
+           {"cm_reload_no.reload_controller_libraries", "cm_reload_no.reload_controller_libraries"},
+           {"cm_unload.unload_controller", "cm_unload_active.unload_controller"},
+           {"cm_cleanup.cleanup_controller", "cm_cleanup_refused.cleanup_controller"},
+           {"par_desc_none.describe_parameters", "par_desc_none.describe_parameters"},
+           {"par_types.get_parameter_types", "par_types.get_parameter_types"},
+           {"par_typedesc.get_type_description", "par_typedesc.get_type_description"}}) {
+    CAPTURE(request);
+    CHECK(own.at(request + ".request") == recorded.at(reply + ".reply"));
+  }
+  const auto decoded = [&]<class Service>(TypeOf<Service>, const std::string& request) {
+    typename Service::Response response{};
+    CHECK(decode(own.at(request + ".request"), response) == CdrError::none);
+    return response;
+  };
+  using Follow = control_msgs::action::FollowJointTrajectory<Jazzy>;
+  CHECK_FALSE(decoded(TypeOf<SendGoal<Follow>>(), "act_abort.send_goal").accepted);
+  CHECK(decoded(TypeOf<GetResult<Follow>>(), "act_abort.get_result").status == 0);
+  const auto cancel = TypeOf<action_msgs::srv::CancelGoal<Jazzy>>();
+  CHECK(decoded(cancel, "act_cancel.cancel_goal").return_code ==
+        2);  // unknown, as act_cancel_unknown
+  const auto query = TypeOf<control_msgs::srv::QueryTrajectoryState<Jazzy>>();
+  CHECK_FALSE(decoded(query, "act_query_fail.query_state").success);
+  CHECK(decoded(query, "act_query_fail.query_state").name.empty());
+  const auto switched = decoded(TypeOf<controller_manager_msgs::srv::SwitchController<Jazzy>>(),
+                                "cm_switch_unknown.switch_controller");
+  CHECK_FALSE(switched.ok);
+  CHECK(switched.message == "controller 'arm_controller': unknown name");
   CHECK(answered.size() == replies.size());
   CHECK(arm.bridge.dropped().malformed == 0);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ROS 2's tools see a loop's controllers, joints and frames, and switch controllers and hardware.
+#include "articula/ros2/dds/domain_id.hpp"
 #include "articula/ros2/messages/controller_manager_msgs.hpp"
 #include "articula/ros2/messages/rcl_interfaces.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
@@ -209,6 +210,20 @@ TEST_CASE("joint states, frames and the description come as RViz and MoveIt read
   CHECK(activity->hardware_components[0].state.id == 3);
 }
 
+TEST_CASE("frames of two robots differ by their prefix") {
+  BridgedArm arm({.frame_prefix = "left/"});
+  arm.run(50);
+  for (const std::string topic : {"/tf", "/tf_static"}) {
+    const auto frames = arm.transport.last<tf2_msgs::msg::TFMessage<Jazzy>>(topic);
+    REQUIRE(frames);
+    CHECK_FALSE(frames->transforms.empty());
+    for (const auto& transform : frames->transforms) {
+      CHECK(transform.header.frame_id.starts_with("left/"));
+      CHECK(transform.child_frame_id.starts_with("left/"));
+    }
+  }
+}
+
 TEST_CASE("each distribution gets its layout, and Humble no hashes") {
   BridgedArm humble({.distribution = Distribution::humble, .name_space = "/left"});
   const std::string service = "/left/controller_manager/list_controllers";
@@ -217,6 +232,7 @@ TEST_CASE("each distribution gets its layout, and Humble no hashes") {
   CHECK(humble.transport.topics.contains("/left/joint_states"));
   CHECK(humble.transport.topics.contains("/tf"));
   CHECK_FALSE(humble.transport.topics.contains("/left/controller_manager/activity"));
+  CHECK_FALSE(humble.transport.topics.contains("/left/pid_plus_gravity/speed_scaling_input"));
   BridgedArm rolling({.distribution = Distribution::rolling});
   CHECK(controller<Rolling>(rolling, "computed_torque").update_rate == 1000);
   CHECK(rolling.transport.services.at(manager + "list_controllers")
@@ -253,14 +269,29 @@ TEST_CASE("options that make no sense are refused") {
                     "ros2: name_space 'left' does not begin with / or ends with it");
   CHECK_THROWS_WITH(make({.state_rate = 0}), "ros2: state_rate 0 is not within 0 .. 1000000");
   CHECK_THROWS(make({.command_quantities = {{"pid", "torque"}}}));
+  CHECK_THROWS_WITH(make({.gain_prefix = "gains"}),
+                    "ros2: gain_prefix 'gains' does not end with a dot: add one");
+  const std::string type = "position_controllers/GripperActionController";
+  CHECK_THROWS_WITH(make({.controller_types = {{"pid_plus_gravity", type}}}),
+                    "ros2: gripper 'pid_plus_gravity' has the joints shoulder_active_joint, "
+                    "elbow_active_joint, not '': name one of them in BridgeOptions::grippers");
+  CHECK_THROWS_WITH(make({.grippers = {{"hand", {.stall_timeout = -1}}}}),
+                    "ros2: stall_timeout -1 of gripper 'hand' is not within 0 .. 1000000");
+  CHECK(domain_id("") == 0);
+  CHECK(domain_id("232") == 232);
+  for (const char* text : {"abc", "7x", "233", "-1", " 1"}) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(domain_id(text), "ROS_DOMAIN_ID '" + std::string(text) +
+                                           "' is not a whole number within 0 .. 232: set another "
+                                           "one");
+  }
 }
 
 TEST_CASE("a switch without a strictness does what can be done, as in ros2_control") {
   BridgedArm arm;
   set_hardware(arm, "active");
   CHECK_FALSE(switch_to(arm, {"computed_torque", "unknown"}, {"pid_plus_gravity"}).ok);
-  switch_to(arm, {"computed_torque", "unknown"}, {"pid_plus_gravity"}, 0);
-  arm.run(5);
+  CHECK(switch_to(arm, {"computed_torque", "unknown"}, {"pid_plus_gravity"}, 0).ok);
   CHECK(controller(arm, "computed_torque").state == "active");
 }
 
@@ -274,4 +305,36 @@ TEST_CASE("a loop that stands still says nothing") {
   CHECK(count() <= before + 1);
   arm.run(100);
   CHECK(count() > before + 5);
+}
+
+TEST_CASE("what best effort leaves out is in the log, and taken joints are a failure") {
+  BridgedArm arm;
+  set_hardware(arm, "active");
+  const auto logged = [&] {  // the last warning
+    std::string warning;
+    for (const auto& bytes : arm.transport.topics["/rosout"].sent) {
+      rcl_interfaces::msg::Log<Jazzy> line;
+      REQUIRE(decode(bytes, line) == CdrError::none);
+      if (line.level == 30) warning = line.msg;
+    }
+    arm.transport.topics["/rosout"].sent.clear();
+    return warning;
+  };
+  const int best_effort = 1;
+  // As `ros2 control set_controller_state` asks for one controller:
+  const auto taken = switch_to(arm, {"computed_torque"}, {}, best_effort);
+  CHECK_FALSE(taken.ok);
+  CHECK(taken.message ==
+        "Could not activate controller : 'computed_torque': controller 'computed_torque': another "
+        "controller is active on these joints");
+  CHECK(logged() == "switch_controller: " + taken.message);
+  CHECK(switch_to(arm, {"pid_plus_gravity"}, {}, best_effort).ok);
+  CHECK(logged() == "switch_controller: controller 'pid_plus_gravity': already active");
+  CHECK(switch_to(arm, {}, {"computed_torque"}, best_effort).ok);
+  CHECK(logged() == "switch_controller: controller 'computed_torque': not active");
+  CHECK(switch_to(arm, {"ghost"}, {}, best_effort).ok);
+  CHECK(logged() == "switch_controller: controller 'ghost': unknown name");
+  CHECK(switch_to(arm, {"joint_state_broadcaster"}, {}, best_effort).ok);
+  CHECK(logged() == "switch_controller: controller 'joint_state_broadcaster': already active");
+  CHECK(controller(arm, "pid_plus_gravity").state == "active");
 }

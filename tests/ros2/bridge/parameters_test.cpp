@@ -210,13 +210,26 @@ TEST_CASE("constraints are parameters, and hold for trajectories that bring no t
   CHECK(logged);
 }
 
-TEST_CASE("a request for more names than a node has room for is dropped") {
+TEST_CASE("a request for more names than a node has room for is answered without them") {
   BridgedArm arm;
   using Get = rcl_interfaces::srv::GetParameters<Jazzy>;
   Get::Request request{.names = std::vector<std::string>(1001, "x")};
   const auto service = "/controller_manager/get_parameters";
-  CHECK(arm.transport.request(service, support::bytes_of(request))->empty());
-  CHECK(arm.bridge.dropped().refused == 1);
+  CHECK(arm.call<Get>(service, request).values.empty());
+  const auto results = set(arm, std::vector<Parameter>(1001, number(p, 1)));
+  REQUIRE(results.size() == 1001);
+  CHECK(results[1000].reason == "a request has at most 1000 parameters");
+  CHECK_FALSE(set_all(arm, std::vector<Parameter>(1001, number(p, 1))).successful);
+  CHECK(get(arm, p) == 2310);
+  CHECK(arm.bridge.dropped().refused == 3);
   request.names.pop_back();
   CHECK(arm.call<Get>(service, request).values.size() == 1000);
+}
+
+TEST_CASE("gains have the names of the course if their prefix is empty") {
+  BridgedArm arm({.gain_prefix = ""});
+  CHECK(get(arm, "shoulder_active_joint.p") == 2310);
+  CHECK(set(arm, {number("shoulder_active_joint.p", 2000)})[0].successful);
+  CHECK(get(arm, "shoulder_active_joint.p") == 2000);
+  CHECK(set(arm, {number(p, 1000)})[0].reason.find("not declared") != std::string::npos);
 }

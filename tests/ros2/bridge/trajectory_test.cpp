@@ -211,6 +211,40 @@ TEST_CASE("a canceled goal stops the robot") {
   CHECK(arm.call<Cancel>(action + "cancel_goal", request).return_code == Cancel::unknown_goal);
 }
 
+TEST_CASE("a plan of a planner has up to 1024 points, and the refusal names the limit") {
+  ActiveArm arm;
+  const auto plan = [](int count) {  // 0.1 s from point to point, as MoveIt's
+    Follow::Goal goal;
+    goal.trajectory.joint_names = {elbow_joint};
+    for (int k = 1; k <= count; ++k) {
+      goal.trajectory.points.push_back(
+          {.positions = {0.001 * k},
+           .time_from_start =
+               to_message<builtin_interfaces::msg::Duration>(std::chrono::milliseconds(100) * k)});
+    }
+    return goal;
+  };
+  CHECK(arm.send(1, plan(1024)).accepted);
+  CHECK_FALSE(arm.send(2, plan(1025)).accepted);
+  CHECK(arm.logged("1025 points are more than the capacity, 1024"));
+}
+
+TEST_CASE("a goal is answered while the simulation is paused, also with its time") {
+  ActiveArm arm({.use_sim_time = true});
+  arm.run(500);
+  REQUIRE(arm.ask(remote::Pause{true}).verdict == remote::Verdict::done);
+  CHECK(arm.send(1, goal_to(0.1, 0.1, 1)).accepted);
+  CHECK_FALSE(arm.send(2, goal_to(9, 0, 1)).accepted);
+  // The log goes on, too: it has at most some lines a second.
+  for (int k = 0; k < 60; ++k) arm.publish("/computed_torque/commands", Numbers{});
+  arm.run(1100);
+  arm.transport.topics["/rosout"].sent.clear();
+  arm.publish("/computed_torque/commands", Numbers{});
+  CHECK(arm.logged("is not active"));
+  CHECK(arm.call<Cancel>(action + "cancel_goal").goals_canceling.size() == 1);
+  CHECK(arm.wait_for(1).status == GoalState::canceled);
+}
+
 TEST_CASE("goals are canceled by the time of their acceptance") {
   ActiveArm arm;
   REQUIRE(arm.send(1, goal_to(1, -1, 2)).accepted);
@@ -407,4 +441,42 @@ TEST_CASE("a reference with a velocity stops only the motion that it began") {
   CHECK(arm.logged("window"));
   for (int k = 0; k < 4000 && arm.reference()[0] > -0.3; ++k) window->keep_alive();
   CHECK(arm.reference()[0] == -0.3);
+}
+
+TEST_CASE("trajectories are slowed down by a factor, which the state shows") {
+  ActiveArm arm;
+  const std::string topic = controller + "speed_scaling_input";
+  CHECK(arm.transport.topics.at(topic).endpoint.quality.transient_local);
+  const auto set = [&](double factor) {
+    arm.publish(topic, control_msgs::msg::SpeedScalingFactor{factor});
+    arm.run(50);
+    return arm.transport
+        .last<control_msgs::msg::JointTrajectoryControllerState<Jazzy>>(controller +
+                                                                        "controller_state")
+        ->speed_scaling_factor;
+  };
+  CHECK(set(1.5) == 1);
+  CHECK(arm.logged("trajectory speed: factor 1.5 is not within 0 .. 1"));
+  CHECK(set(0.5) == 0.5);
+  REQUIRE(arm.send(1, goal_to(0.3, -0.2, 1)).accepted);
+  const auto begin = arm.now;
+  CHECK(arm.wait_for(1).status == GoalState::succeeded);
+  const auto took = arm.now - begin;
+  // 2 s, or 0.125 s less if the speed falls only when the trajectory begins: from 1 by 2 in a second.
+  CHECK((took > std::chrono::milliseconds(1850) && took < std::chrono::milliseconds(2200)));
+  CHECK(set(0) == 0);
+  REQUIRE(arm.send(2, goal_to(0, 0, 1)).accepted);
+  arm.run(3000);
+  CHECK(arm.status(2) == GoalState::executing);
+  CHECK(set(1) == 1);
+  CHECK(arm.wait_for(2).status == GoalState::succeeded);
+}
+
+TEST_CASE("a joint is commanded by a number") {
+  ActiveArm arm;
+  arm.publish(controller + elbow_joint + "/command", std_msgs::msg::Float64{0.02});
+  arm.run(3);
+  CHECK(arm.reference() == std::vector<double>{0, 0.02});
+  arm.publish("/computed_torque/" + elbow_joint + "/command", std_msgs::msg::Float64{0.02});
+  CHECK(arm.logged("command: controller 'computed_torque' is not active"));
 }

@@ -193,8 +193,12 @@ class LoopSide {
   /// Hands over what has changed, and then the tasks that have ended, so that who has an answer sees
   /// its effect.
   void tell() noexcept {
-    const LoopCondition now{modes_.mode(), modes_.fault(), motions_.kind(),
-                            simulation_.pace().paused(), simulation_.pace().speed()};
+    const LoopCondition now{modes_.mode(),
+                            modes_.fault(),
+                            motions_.kind(),
+                            simulation_.pace().paused(),
+                            simulation_.pace().speed(),
+                            motions_.trajectory_speed()};
     if (!told_ || !(now == condition_)) {
       condition_ = now;
       told_ = rings_.changes.push({loop_.time(), now});

@@ -29,6 +29,8 @@ class MotionControl {
         source_(loop.hardware().robot(), limits, tolerances) {}
 
   [[nodiscard]] MotionKind kind() const noexcept { return source_.kind(); }
+  /// As asked for.
+  [[nodiscard]] double trajectory_speed() const noexcept { return source_.trajectory_speed(); }
 
   /// Makes the reference of the next cycle. A supervised loop gets it in each cycle, so that the
   /// lifetime of its references guards against nothing but the silence of this thread. Of a plain
@@ -88,7 +90,7 @@ class MotionControl {
   }
   void begin(Task<R>& own, task::Follow<R>& wish) noexcept {
     if (!can_begin(own)) return;
-    own.outcome = source_.follow(reference(), wish.trajectory, wish.tolerances, wish.delay);
+    own.outcome = source_.follow(reference(), *wish.trajectory, wish.tolerances, wish.delay);
     own.refusal = source_.refusal();
     if (own.outcome != TrajectoryOutcome::active) return returns_.finish(own, TaskEnd::refused);
     replace(own, TaskEnd::open);
@@ -97,6 +99,10 @@ class MotionControl {
     if (!can_begin(own)) return;
     source_.play(reference(), wish.signals, wish.duration);
     replace(own, TaskEnd::open);
+  }
+  void begin(Task<R>& own, task::SetTrajectorySpeed& wish) noexcept {
+    source_.set_trajectory_speed(wish.factor);
+    returns_.finish(own, TaskEnd::done);
   }
   void begin(Task<R>& own, task::Stop&) noexcept {
     stop();

@@ -10,8 +10,9 @@
 
 namespace articula::remote {
 
-/// The largest number of points of a trajectory.
-inline constexpr int trajectory_capacity = 128;
+/// The largest number of points of a trajectory. Planners as MoveIt make ten a second, so this is a
+/// motion of 100 s. A follower for six joints takes 600 kB with it.
+inline constexpr int trajectory_capacity = 1024;
 
 /// The sources of a loop's reference: rest, profile, setting, trajectory, signals, stop. One at a
 /// time is active. Each begins at the present reference, in motion or not, so the reference does not
@@ -85,6 +86,13 @@ class ReferenceSource {
     if (outcome == TrajectoryOutcome::active) kind_ = MotionKind::trajectory;
     return outcome;
   }
+  /// How fast trajectories are followed, see SpeedOverride.
+  /// @param factor  0 (pause) .. 1 (as planned)
+  void set_trajectory_speed(double factor) noexcept {
+    trajectory_speed_ = factor;
+    follower_.set_speed(factor);
+  }
+  [[nodiscard]] double trajectory_speed() const noexcept { return trajectory_speed_; }
   /// Why the last trajectory was refused or has failed.
   [[nodiscard]] const TrajectoryRefusal& refusal() const noexcept { return follower_.refusal(); }
 
@@ -157,8 +165,9 @@ class ReferenceSource {
   GoMotion<R> go_;
   SetMotion<R> set_;
   Signals* signals_ = nullptr;
-  double duration_ = 0;  ///< of the signals [s]
-  double played_ = 0;    ///< since their beginning [s]
+  double duration_ = 0;          ///< of the signals [s]
+  double played_ = 0;            ///< since their beginning [s]
+  double trajectory_speed_ = 1;  ///< as asked for
 };
 
 }  // namespace articula::remote

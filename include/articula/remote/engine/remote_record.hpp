@@ -26,6 +26,7 @@ struct LoopCondition {
   MotionKind motion = MotionKind::rest;
   bool paused = false;
   double speed = 1;
+  double trajectory_speed = 1;
 
   friend bool operator==(const LoopCondition&, const LoopCondition&) = default;
 };

@@ -36,7 +36,8 @@ struct Set {
 };
 template <Robot R>
 struct Follow {
-  Trajectory<R, trajectory_capacity> trajectory;
+  /// Not null. It is large, and other tasks are not.
+  std::unique_ptr<const Trajectory<R, trajectory_capacity>> trajectory;
   TrajectoryTolerances<articula::joint_count<R>> tolerances{
       .stopped_velocity =
           JointVector<articula::joint_count<R>>::Zero()};  ///< as `overridden` reads them
@@ -75,6 +76,10 @@ struct Pull {
   Eigen::Vector3d force{0, 0, 0};  ///< in the root link's frame [N]
 };
 
+struct SetTrajectorySpeed {
+  double factor = 1;
+};
+
 }  // namespace task
 
 /// What has become of a task.
@@ -100,10 +105,11 @@ enum class TaskEnd : unsigned char {
 template <Robot R>
 struct Task {
   static constexpr int joint_count = articula::joint_count<R>;
-  using Wish = std::variant<task::Activate, task::Deactivate, task::Acknowledge,
-                            task::Go<joint_count>, task::Set<joint_count>, task::Follow<R>,
-                            task::Play<R>, task::Stop, task::Switch, task::SetGains, task::Pause,
-                            task::Step, task::SetSpeed, task::Place<joint_count>, task::Pull>;
+  using Wish =
+      std::variant<task::Activate, task::Deactivate, task::Acknowledge, task::Go<joint_count>,
+                   task::Set<joint_count>, task::Follow<R>, task::Play<R>, task::Stop, task::Switch,
+                   task::SetGains, task::Pause, task::Step, task::SetSpeed,
+                   task::Place<joint_count>, task::Pull, task::SetTrajectorySpeed>;
 
   explicit Task(Wish own_wish) : wish(std::move(own_wish)) {}
 

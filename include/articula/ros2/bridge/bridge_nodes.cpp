@@ -4,6 +4,7 @@
 #include "articula/ros2/bridge/bridge_core.hpp"
 #include "articula/ros2/bridge/controller_parameters.hpp"
 #include "articula/ros2/bridge/controller_topics.hpp"
+#include "articula/ros2/bridge/gripper_action.hpp"
 #include "articula/ros2/bridge/manager_services.hpp"
 #include "articula/ros2/bridge/robot_topics.hpp"
 #include "articula/ros2/bridge/trajectory_action.hpp"
@@ -30,7 +31,8 @@ struct BridgeNodes::Parts {
           store(core, controller),
           parameters(node, store),
           topics(core, node, controller),
-          action(make_trajectory_action(core, node, controller)) {}
+          action(controller.gripper ? make_gripper_action(core, node, controller)
+                                    : make_trajectory_action(core, node, controller)) {}
 
     void update() {
       parameters.update();
@@ -42,7 +44,7 @@ struct BridgeNodes::Parts {
     ControllerParameters store;
     ParameterServer parameters;
     ControllerTopics topics;
-    std::unique_ptr<TrajectoryAction> action;
+    std::unique_ptr<ControllerAction> action;
   };
 
   Parts(remote::Port& port, Transport& transport, const BridgeOptions& options)
@@ -59,6 +61,8 @@ struct BridgeNodes::Parts {
     fixed.push_back(std::make_unique<FixedNode>(
         robot.state_publisher(),
         std::vector<NodeParameter>{sim_time,
+                                   read_only("frame_prefix", to_value(options.frame_prefix),
+                                             "What the names of frames begin with."),
                                    read_only("robot_description", to_value(port.robot().urdf),
                                              "The robot as a URDF document.")}));
     for (BridgedController& own : core.controllers) {
@@ -90,6 +94,7 @@ BridgeNodes::~BridgeNodes() = default;
 
 void BridgeNodes::update(std::chrono::nanoseconds now) {
   BridgeCore& core = parts_->core;
+  core.context.wall = now;
   core.watch.update(now, core.options.use_sim_time);
   core.context.now = core.options.use_sim_time ? to_duration(core.watch.cycle.time) : now;
   core.loop_operator.update(now);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
+#include "articula/ros2/bridge/gripper_options.hpp"
 #include "articula/ros2/dds/fast_dds_options.hpp"
 #include "articula/ros2/layout.hpp"
 
@@ -19,7 +20,9 @@ struct BridgeOptions {
   Distribution distribution = Distribution::jazzy;  ///< of the ROS tools in the domain
   FastDdsOptions dds{};                             ///< domain, interfaces and memory
   std::string name_space{};                         ///< of all nodes, as "/left"; empty: none
-  bool operates = true;                             ///< ROS may move the robot
+  /// Before the names of frames, as "left/": so two robots in a domain have frames of their own.
+  std::string frame_prefix{};
+  bool operates = true;  ///< ROS may move the robot
   /// Time that the controls stay with ROS after its last message or request, if no trajectory is
   /// being followed [s].
   double controls_time = 1;
@@ -32,6 +35,10 @@ struct BridgeOptions {
   /// The types that clients see. MoveIt and rqt choose by them what they offer.
   std::string controller_type = "joint_trajectory_controller/JointTrajectoryController";
   std::map<std::string, std::string> controller_types{};  ///< of single controllers, by name
+  /// Of controllers whose type is a gripper's, by name. They offer the action gripper_cmd.
+  std::map<std::string, GripperOptions> grippers{};
+  /// Of the parameters of gains: gains.<joint>.<gain>. With an empty one they are <joint>.<gain>.
+  std::string gain_prefix = "gains.";
   /// What the numbers on <controller>/commands are: "position", "velocity" or "effort", by name of
   /// the controller. Otherwise positions, or efforts if the controller has no gains.
   std::map<std::string, std::string> command_quantities{};
@@ -56,6 +63,11 @@ inline void validate(const BridgeOptions& options) {
       articula::detail::refuse({"ros2: ", name, " ", value, " is not within 0 .. 1000000"});
     }
   }
+  if (!options.gain_prefix.empty() && options.gain_prefix.back() != '.') {
+    articula::detail::refuse(
+        {"ros2: gain_prefix '", options.gain_prefix, "' does not end with a dot: add one"});
+  }
+  for (const auto& [controller, gripper] : options.grippers) validate(controller, gripper);
   for (const auto& [controller, quantity] : options.command_quantities) {
     if (quantity == "position" || quantity == "velocity" || quantity == "effort") continue;
     articula::detail::refuse({"ros2: command_quantities of '", controller, "': '", quantity,

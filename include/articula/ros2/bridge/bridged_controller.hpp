@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@ struct BridgedController {
   std::vector<std::string> joints{};  ///< those that it commands
   std::string quantity{};             ///< of <controller>/commands
   TrajectoryConstraints constraints{};
+  std::optional<GripperOptions> gripper{};  ///< with its joint, if the type is a gripper's
 };
 
 /// A name in the characters of ROS names: letters, digits, underscores, no digit first.
@@ -35,7 +37,26 @@ struct BridgedController {
   return text;
 }
 
+/// The options of a gripper's controller, with its joint.
+/// @throws std::invalid_argument if the controller has no such joint, or several and none is named
+/// Real-time: no (allocates).
+[[nodiscard]] inline GripperOptions gripper_of(const BridgedController& own,
+                                               const BridgeOptions& options) {
+  const auto found = options.grippers.find(own.name);
+  GripperOptions gripper = found == options.grippers.end() ? GripperOptions{} : found->second;
+  if (gripper.joint.empty() && own.joints.size() == 1) gripper.joint = own.joints[0];
+  if (std::find(own.joints.begin(), own.joints.end(), gripper.joint) == own.joints.end()) {
+    std::string joints;
+    for (const std::string& joint : own.joints) joints += (joints.empty() ? "" : ", ") + joint;
+    articula::detail::refuse({"ros2: gripper '", own.name, "' has the joints ", joints, ", not '",
+                              gripper.joint, "': name one of them in BridgeOptions::grippers"});
+  }
+  return gripper;
+}
+
 /// The controllers of a port. One with gains commands the joints of its gains; others command all.
+/// A gripper's commands one.
+/// @throws std::invalid_argument as gripper_of
 /// Real-time: no (allocates).
 [[nodiscard]] inline std::vector<BridgedController> bridged_controllers(
     remote::Port& port, const BridgeOptions& options) {
@@ -60,6 +81,10 @@ struct BridgedController {
     }
     if (own.joints.empty()) {
       for (const remote::SheetJoint& joint : port.robot().joints) own.joints.push_back(joint.name);
+    }
+    if (is_gripper(own.type)) {
+      own.gripper = gripper_of(own, options);
+      own.joints = {own.gripper->joint};
     }
     own.constraints.joints.resize(own.joints.size());
     all.push_back(std::move(own));

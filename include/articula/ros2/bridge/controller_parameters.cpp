@@ -10,8 +10,6 @@ namespace articula::ros2 {
 
 namespace {
 
-const std::string gains = "gains.";
-
 std::string number_text(double value) { return articula::detail::message_of({value}); }
 
 }  // namespace
@@ -29,6 +27,11 @@ ControllerParameters::ControllerParameters(BridgeCore& core, BridgedController& 
                 "Cycles of the loop in a second."),
       read_only("use_sim_time", to_value(core.options.use_sim_time),
                 "Whether stamps have the time of the loop.")};
+  if (controller.gripper) {
+    fixed_.push_back(read_only("joint", to_value(controller.gripper->joint), "The joint."));
+    fixed_.push_back(read_only("allow_stalling", to_value(controller.gripper->allow_stalling),
+                               "Whether a stalled gripper has succeeded."));
+  }
 }
 
 std::vector<NodeParameter> ControllerParameters::list() {
@@ -38,7 +41,7 @@ std::vector<NodeParameter> ControllerParameters::list() {
     if (!own.name.starts_with(prefix)) continue;
     NodeParameter parameter{.value = to_value(own.value)};
     auto& descriptor = parameter.descriptor;
-    descriptor.name = gains + own.name.substr(prefix.size());
+    descriptor.name = core_.options.gain_prefix + own.name.substr(prefix.size());
     descriptor.type = parameter.value.type;
     descriptor.description = own.description + " [" + own.unit + "]";
     if (std::isfinite(own.lowest) && std::isfinite(own.highest)) {
@@ -53,7 +56,7 @@ std::vector<NodeParameter> ControllerParameters::list() {
     NodeParameter parameter{.value = to_value(own.value)};
     parameter.descriptor.name = own.name;
     parameter.descriptor.type = parameter.value.type;
-    parameter.descriptor.description = own.description + " 0: as the loop has it.";
+    parameter.descriptor.description = own.description;
     parameter.descriptor.additional_constraints = "a finite number >= 0";
     all.push_back(std::move(parameter));
   }
@@ -64,14 +67,24 @@ std::vector<NodeParameter> ControllerParameters::list() {
 std::vector<ControllerParameters::Constraint> ControllerParameters::constraints() {
   TrajectoryConstraints& own = controller_.constraints;
   std::vector<Constraint> all{
-      {"constraints.goal_time", own.goal_time, "Time to arrive after the last point [s]."},
+      {"constraints.goal_time", own.goal_time,
+       "Time to arrive after the last point [s]. 0: as the loop has it."},
       {"constraints.stopped_velocity_tolerance", own.stopped_velocity_tolerance,
-       "Velocity at the end [rad/s or m/s]."}};
+       "Velocity at the end [rad/s or m/s]. 0: as the loop has it."}};
+  if (controller_.gripper) {
+    GripperOptions& gripper = *controller_.gripper;
+    all.push_back({"goal_tolerance", gripper.goal_tolerance, "Distance from the goal [rad or m]."});
+    all.push_back({"stall_velocity_threshold", gripper.stall_velocity_threshold,
+                   "The joint moves above it [rad/s or m/s]."});
+    all.push_back({"stall_timeout", gripper.stall_timeout,
+                   "Time without motion after which the joint is stalled [s]."});
+  }
   for (std::size_t j = 0; j < own.joints.size(); ++j) {
     const std::string prefix = "constraints." + controller_.joints[j];
     all.push_back({prefix + ".trajectory", own.joints[j].trajectory,
-                   "Distance from the trajectory [rad or m]."});
-    all.push_back({prefix + ".goal", own.joints[j].goal, "Distance at the end [rad or m]."});
+                   "Distance from the trajectory [rad or m]. 0: as the loop has it."});
+    all.push_back({prefix + ".goal", own.joints[j].goal,
+                   "Distance at the end [rad or m]. 0: as the loop has it."});
   }
   return all;
 }
@@ -85,7 +98,8 @@ void ControllerParameters::set(const NamedValues& values, OnSet on_set) {
     const auto found = std::find_if(all.begin(), all.end(),
                                     [&](const auto& other) { return other.name == own.name; });
     if (found == all.end()) {
-      request.values.push_back({controller_.name + "." + own.name.substr(gains.size()), value});
+      request.values.push_back(
+          {controller_.name + "." + own.name.substr(core_.options.gain_prefix.size()), value});
     } else if (std::isfinite(value) && value >= 0) {
       changes.emplace_back(&found->value, value);
     } else {

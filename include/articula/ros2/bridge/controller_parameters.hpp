@@ -23,7 +23,7 @@ class FixedParameters final : public ParameterStore {
   std::vector<NodeParameter> all_;
 };
 
-/// The parameters of a controller: its gains as gains.<joint>.<gain>, which the loop checks and sets
+/// The parameters of a controller: its gains as gains.<joint>.<gain> (see BridgeOptions::gain_prefix), which the loop checks and sets
 /// between two cycles; constraints of trajectories that bring no tolerances; its joints and
 /// interfaces, which are read-only.
 class ControllerParameters final : public ParameterStore {

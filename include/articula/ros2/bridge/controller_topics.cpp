@@ -23,7 +23,7 @@ trajectory_msgs::msg::JointTrajectoryPoint<Layout> convert(const TrajectoryPoint
 template <class Layout>
 control_msgs::msg::JointTrajectoryControllerState<Layout> state_of(
     const std_msgs::msg::Header<Jazzy>& header, const std::vector<std::string>& joints,
-    const CyclePoints& points) {
+    const CyclePoints& points, double speed) {
   control_msgs::msg::JointTrajectoryControllerState<Layout> state;
   state.header = {header.stamp, header.frame_id};
   state.joint_names = joints;
@@ -35,7 +35,7 @@ control_msgs::msg::JointTrajectoryControllerState<Layout> state_of(
     state.desired = state.reference;
     state.actual = state.feedback;
   } else {
-    state.speed_scaling_factor = 1;
+    state.speed_scaling_factor = speed;
   }
   return state;
 }
@@ -63,6 +63,7 @@ ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
       joints_.push_back(j);
     }
   }
+  // The factor is the loop's, so all of its controllers show and set the same one.
   if (core.options.distribution == Distribution::humble) {
     humble_state_.emplace(node, "~/controller_state", quality_of_service::states);
   } else {
@@ -71,8 +72,16 @@ ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
   const auto in = quality_of_service::states;
   const auto taken = [this](const auto& message) { take(message); };
   subscribe<std_msgs::msg::Float64MultiArray<Jazzy>>(node, "~/commands", in, taken);
+  for (const std::string& joint : controller.joints) {
+    subscribe<std_msgs::msg::Float64>(node, "~/" + ros_name(joint) + "/command", in,
+                                      [this, joint](const auto& message) { take(joint, message); });
+  }
   subscribe<TrajectoryPointMessage>(node, "~/reference", in, taken);
   subscribe<TrajectoryMessage>(node, "~/joint_trajectory", in, taken);
+  if (core.options.distribution != Distribution::humble) {
+    subscribe<control_msgs::msg::SpeedScalingFactor>(node, "~/speed_scaling_input",
+                                                     quality_of_service::speed_scaling, taken);
+  }
   serve<control_msgs::srv::QueryTrajectoryState<Jazzy>>(
       node, "~/query_state",
       [this](const auto& request, const auto& reply) { reply.send(query(request.time)); });
@@ -92,9 +101,10 @@ void ControllerTopics::update() {
   published_cycle_ = core_.watch.cycle.number;
   const CyclePoints points = points_of(core_.watch.cycle, joints_, core_.port.robot().commands);
   if (humble_state_) {
-    humble_state_->publish(state_of<Humble>(core_.header(), controller_.joints, points));
+    humble_state_->publish(state_of<Humble>(core_.header(), controller_.joints, points, 1));
   } else {
-    state_->publish(state_of<Jazzy>(core_.header(), controller_.joints, points));
+    state_->publish(state_of<Jazzy>(core_.header(), controller_.joints, points,
+                                    core_.watch.situation.trajectory_speed));
   }
 }
 
@@ -104,12 +114,11 @@ void ControllerTopics::take(const std_msgs::msg::Float64MultiArray<Jazzy>& messa
     return refuse("commands: " + std::to_string(message.data.size()) + " numbers for " +
                   std::to_string(controller_.joints.size()) + " joints");
   }
-  remote::SetReference reference;
-  auto& column = controller_.quantity == "position"   ? reference.positions
-                 : controller_.quantity == "velocity" ? reference.velocities
-                                                      : reference.efforts;
-  column = named(controller_.joints, message.data);
-  set(reference, controller_.quantity == "velocity" && any(message.data));
+  set(named(controller_.joints, message.data));
+}
+
+void ControllerTopics::take(const std::string& joint, const std_msgs::msg::Float64& message) {
+  if (is_active("command")) set({{joint, message.data}});
 }
 
 void ControllerTopics::take(const TrajectoryPointMessage& message) {
@@ -137,6 +146,22 @@ void ControllerTopics::take(const TrajectoryMessage& message) {
   remote::PlayTrajectory request = to_request(message, core_.context.now);
   controller_.constraints.complete(request, controller_.joints);
   ask(request);
+}
+
+void ControllerTopics::take(const control_msgs::msg::SpeedScalingFactor& message) {
+  ask(remote::SetTrajectorySpeed{message.factor});
+}
+
+void ControllerTopics::set(std::vector<remote::JointValue> values) {
+  const bool is_velocity = controller_.quantity == "velocity";
+  const bool moves = is_velocity && std::any_of(values.begin(), values.end(),
+                                                [](const auto& own) { return own.value != 0; });
+  remote::SetReference reference;
+  auto& column = is_velocity                          ? reference.velocities
+                 : controller_.quantity == "position" ? reference.positions
+                                                      : reference.efforts;
+  column = std::move(values);
+  set(reference, moves);
 }
 
 void ControllerTopics::set(const remote::SetReference& reference, bool moves) {

@@ -19,8 +19,9 @@ namespace articula::ros2 {
 
 /// The topics of a controller:
 ///
-/// - in: ~/commands, a number for each joint; ~/reference, a point for all joints;
-///   ~/joint_trajectory. They are taken while the controller is active.
+/// - in: ~/commands, a number for each joint; ~/<joint>/command, one for a joint; ~/reference, a point for all joints;
+///   ~/joint_trajectory. They are taken while the controller is active. ~/speed_scaling_input,
+///   except in Humble;
 /// - out: ~/controller_state, as joint_trajectory_controller publishes it;
 /// - the service ~/query_state, which gives the reference at a time that has passed.
 ///
@@ -41,8 +42,11 @@ class ControllerTopics {
   using HumbleState = control_msgs::msg::JointTrajectoryControllerState<Humble>;
 
   void take(const std_msgs::msg::Float64MultiArray<Jazzy>& message);
+  void take(const std::string& joint, const std_msgs::msg::Float64& message);
   void take(const TrajectoryPointMessage& message);
   void take(const TrajectoryMessage& message);
+  void take(const control_msgs::msg::SpeedScalingFactor& message);
+  void set(std::vector<remote::JointValue> values);
   void set(const remote::SetReference& reference, bool moves);
   void ask(const remote::Request& request);
   void refuse(const std::string& reason);

@@ -55,13 +55,13 @@ class LoopWatch {
     return has_cycle && known != cycle.number;
   }
 
-  /// The state of a controller.
+  /// Whether a controller makes commands.
   [[nodiscard]] bool is_active(std::string_view controller) const {
-    if (situation.mode != LoopMode::active) return false;
-    for (const ControllerInfo& info : situation.controllers) {
-      if (info.name.view() == controller) return info.status == ControllerStatus::active;
-    }
-    return false;
+    return situation.mode == LoopMode::active && status_of(controller) == ControllerStatus::active;
+  }
+  /// Whether a controller has been started, even if it fails.
+  [[nodiscard]] bool runs(std::string_view controller) const {
+    return status_of(controller) != ControllerStatus::inactive;
   }
 
   remote::Situation situation{};
@@ -70,6 +70,13 @@ class LoopWatch {
   std::deque<PastReference> references{};  ///< the last ones, oldest first
 
  private:
+  [[nodiscard]] ControllerStatus status_of(std::string_view controller) const {
+    for (const ControllerInfo& info : situation.controllers) {
+      if (info.name.view() == controller) return info.status;
+    }
+    return ControllerStatus::inactive;
+  }
+
   remote::Port& port_;
   remote::Session& session_;
 };

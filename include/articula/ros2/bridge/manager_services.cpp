@@ -84,7 +84,7 @@ class Services final : public ManagerServices {
 
   void update() override {
     publish_activity();
-    if (!second_.due(core_.context.now)) return;
+    if (!second_.due(core_.context.wall)) return;
     const remote::Statistics statistics = core_.port.statistics();
     const auto micro = [](double seconds) { return std::to_string(std::lround(seconds * 1e6)); };
     const bool fault = core_.watch.situation.mode == LoopMode::fault;
@@ -202,11 +202,14 @@ class Services final : public ManagerServices {
       for (const auto& name : request.start_controllers) wanted.start.push_back(name);
       for (const auto& name : request.stop_controllers) wanted.stop.push_back(name);
     }
+    // A part that best effort leaves out is in the log, also where the rest is done.
     const auto answer = [this, reply](bool ok, const std::string& text) {
-      if (!ok) refuse("switch_controller: " + text);
+      const std::string line = "switch_controller: " + text;
+      if (!ok) refuse(line);
+      if (ok && !text.empty()) core_.log.write(RosLog::Line::warn, "controller_manager", line);
       typename srv::SwitchController<Layout>::Response response;
       response.ok = ok;
-      set_text(response.message, text);
+      set_text(response.message, text.empty() ? "done" : text);
       reply.send(response);
     };
     constexpr int best_effort = 1, force_automatic = 4;
@@ -220,27 +223,35 @@ class Services final : public ManagerServices {
     // The broadcaster is not the loop's.
     const bool begin = take(wanted.start, BridgeCore::broadcaster);
     const bool end = take(wanted.stop, BridgeCore::broadcaster);
-    if (!wanted.best_effort) {
-      if (end && !core_.broadcasts) return answer(false, not_done(" is not active"));
-      if (begin && !end && core_.broadcasts) return answer(false, not_done(" is already active"));
-    }
+    const std::string left_out = end && !core_.broadcasts            ? not_done(": not active")
+                                 : begin && !end && core_.broadcasts ? not_done(": already active")
+                                                                     : "";
+    if (!wanted.best_effort && !left_out.empty()) return answer(false, left_out);
     const auto broadcast = [this, begin, end] {
       core_.broadcasts = (core_.broadcasts && !end) || begin;
     };
     if (wanted.start.empty() && wanted.stop.empty()) {
       broadcast();
-      return answer(true, begin || end ? "done" : "nothing to switch");
+      return answer(true, left_out);
     }
     if (core_.watch.situation.mode != LoopMode::active) {
       return answer(false,
                     "the hardware is not active: ros2 control set_hardware_component_state " +
                         core_.port.robot().name + " active");
     }
-    core_.loop_operator.ask(wanted, [answer, broadcast](const remote::Answer& own) {
-      const bool done = own.verdict == remote::Verdict::done;
-      if (done) broadcast();
-      answer(done, own.text.empty() ? "done" : own.text);
-    });
+    core_.loop_operator.ask(
+        wanted, [this, answer, broadcast, left_out, wanted](const remote::Answer& own) {
+          if (own.verdict != remote::Verdict::done) return answer(false, own.text);
+          broadcast();
+          const std::string text = own.text.empty() ? left_out : own.text;
+          core_.watch.situation = core_.port.situation();
+          // As in ros2_control, an unknown name is no failure, and joints that are taken are one.
+          for (const std::string& name : wanted.start) {
+            if (!contains(names(), name) || core_.watch.runs(name)) continue;
+            return answer(false, "Could not activate controller : '" + name + "': " + text);
+          }
+          answer(true, text);
+        });
   }
 
   static std::string not_done(const char* what) {

@@ -82,11 +82,12 @@ void RobotTopics::publish_joints() {
 void RobotTopics::publish_frames() {
   const remote::RobotSheet& robot = core_.port.robot();
   const auto poses = core_.port.link_poses(core_.watch.cycle.position);
+  const std::string& prefix = core_.options.frame_prefix;
   const auto frame = [&](std::size_t link) {
     const auto parent = static_cast<std::size_t>(robot.parents[link].link);
     return geometry_msgs::msg::TransformStamped<Jazzy>{
-        .header = core_.header(robot.links[parent]),
-        .child_frame_id = robot.links[link],
+        .header = core_.header(prefix + robot.links[parent]),
+        .child_frame_id = prefix + robot.links[link],
         .transform = relative(poses[parent], poses[link])};
   };
   frames_.transforms.clear();

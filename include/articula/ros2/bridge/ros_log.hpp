@@ -24,9 +24,9 @@ class RosLog {
   /// @param level  Line::info, Line::warn or Line::error
   /// @param name   of who says it, as "controller_manager"
   void write(std::uint8_t level, const std::string& name, const std::string& text) {
-    const auto passed = context_.now - second_;
+    const auto passed = context_.wall - second_;
     if (passed >= std::chrono::seconds(1) || passed < std::chrono::seconds(0)) {
-      second_ = context_.now;
+      second_ = context_.wall;
       lines_ = 0;
     }
     if (++lines_ > most_a_second) return;

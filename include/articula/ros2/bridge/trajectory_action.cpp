@@ -17,7 +17,7 @@ namespace articula::ros2 {
 namespace {
 
 template <class Layout>
-class Action final : public TrajectoryAction {
+class Action final : public ControllerAction {
  public:
   using Type = control_msgs::action::FollowJointTrajectory<Layout>;
   using Server = ActionServer<Type>;
@@ -36,8 +36,10 @@ class Action final : public TrajectoryAction {
     server_.update();
     for (auto& [id, own] : running_) {
       // The loop has refused by now what it does not begin.
+      const auto passed = core_.context.wall - own.asked;
       const bool begun = core_.watch.cycle.number >= own.first_cycle + 3 ||
-                         core_.context.now - own.asked > std::chrono::milliseconds(100);
+                         passed > std::chrono::milliseconds(100) ||
+                         passed < std::chrono::milliseconds(0);  // the clock was set
       if (begun && !own.accepted) accept(id, own);
     }
     if (running_.empty()) return;
@@ -47,9 +49,9 @@ class Action final : public TrajectoryAction {
 
  private:
   struct Running {
-    std::uint64_t order = 0;        ///< of its coming
-    std::uint64_t first_cycle = 0;  ///< the last one before it was asked for
-    std::chrono::nanoseconds asked{0};
+    std::uint64_t order = 0;            ///< of its coming
+    std::uint64_t first_cycle = 0;      ///< the last one before it was asked for
+    std::chrono::nanoseconds asked{0};  ///< by the wall's clock, which no pause stops
     bool accepted = false;
     bool canceling = false;
     bool left = false;  ///< its controller was deactivated
@@ -79,7 +81,7 @@ class Action final : public TrajectoryAction {
     controller_.constraints.complete(request, controller_.joints);
     running_[id] = {.order = ++last_order_,
                     .first_cycle = core_.watch.cycle.number,
-                    .asked = core_.context.now};
+                    .asked = core_.context.wall};
     core_.loop_operator.ask(request, [this, id](const remote::Answer& answer) { end(id, answer); });
   }
 
@@ -186,7 +188,7 @@ class Action final : public TrajectoryAction {
 
 }  // namespace
 
-std::unique_ptr<TrajectoryAction> make_trajectory_action(BridgeCore& core, const Node& node,
+std::unique_ptr<ControllerAction> make_trajectory_action(BridgeCore& core, const Node& node,
                                                          const BridgedController& controller) {
   // The layouts of Humble and Jazzy are the same.
   if (core.options.distribution == Distribution::rolling) {

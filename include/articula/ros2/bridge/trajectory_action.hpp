@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/ros2/bridge/bridge_core.hpp"
+#include "articula/ros2/bridge/controller_action.hpp"
 
 #include <memory>
 
@@ -10,20 +11,13 @@ namespace articula::ros2 {
 
 /// Follows trajectories as the joint_trajectory_controller's action server does: goals are accepted
 /// if their controller is active and the loop can follow them. A new goal replaces the last one.
-/// Error codes and texts of results are those of joint_trajectory_controller.
-class TrajectoryAction {
- public:
-  virtual ~TrajectoryAction() = default;
-  /// Accepts goals that have begun, and publishes feedback.
-  virtual void update() = 0;
-};
-
-/// The action of a controller in the layout of a distribution.
+/// Error codes and texts of results are those of joint_trajectory_controller. The layout is that of
+/// the distribution.
 /// @param core        outlives it
 /// @param node        the controller's, likewise
 /// @param controller  likewise
 /// Real-time: no (allocates).
-[[nodiscard]] std::unique_ptr<TrajectoryAction> make_trajectory_action(
+[[nodiscard]] std::unique_ptr<ControllerAction> make_trajectory_action(
     BridgeCore& core, const Node& node, const BridgedController& controller);
 
 }  // namespace articula::ros2

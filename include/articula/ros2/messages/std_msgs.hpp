@@ -30,6 +30,14 @@ struct String {
   static constexpr FieldNames<1> ros_fields{"data"};
 };
 
+/// A number.
+struct Float64 {
+  double data = 0;
+
+  static constexpr TypeName ros_type = "std_msgs/msg/Float64";
+  static constexpr FieldNames<1> ros_fields{"data"};
+};
+
 /// One dimension of an array.
 template <class Layout>
 struct MultiArrayDimension {

@@ -34,6 +34,8 @@ class Context {
 
   /// The present time since 1970-01-01, or of a simulation.
   std::chrono::nanoseconds now{0};
+  /// The present time since 1970-01-01, also with a simulation: for what a pause must not stop.
+  std::chrono::nanoseconds wall{0};
   DroppedMessages dropped{};
 
   /// What callbacks of the transport check before they use the context.

@@ -48,6 +48,9 @@ std::uint64_t depth_of(std::string_view name) {
   return static_cast<std::uint64_t>(std::count(name.begin(), name.end(), '.'));
 }
 
+const std::string too_many_text =
+    "a request has at most " + std::to_string(ParameterServer::most_names) + " parameters";
+
 /// Whether a name is listed: it is one of the prefixes or below it, at most so deep.
 bool is_listed(std::string_view name, const services::ListParameters<Jazzy>::Request& request) {
   const bool unlimited = request.depth == 0;
@@ -91,7 +94,7 @@ ParameterServer::ParameterServer(const Node& node, ParameterStore& store)
 }
 
 void ParameterServer::update() {
-  if (look_due_.due(node_.context().now)) publish_changes();
+  if (look_due_.due(node_.context().wall)) publish_changes();
 }
 
 bool ParameterServer::too_many(const auto& names) {
@@ -133,7 +136,7 @@ void ParameterServer::serve_reading() {
   serve<services::GetParameters<Jazzy>>(
       node_, "~/get_parameters",
       [this](const auto& request, const auto& reply) {
-        if (too_many(request.names)) return;
+        if (too_many(request.names)) return reply.send({});
         const auto all = store_.list();
         services::GetParameters<Jazzy>::Response response;
         for (const std::string& name : request.names) {
@@ -147,7 +150,7 @@ void ParameterServer::serve_reading() {
   serve<services::GetParameterTypes<Jazzy>>(
       node_, "~/get_parameter_types",
       [this](const auto& request, const auto& reply) {
-        if (too_many(request.names)) return;
+        if (too_many(request.names)) return reply.send({});
         services::GetParameterTypes<Jazzy>::Response response;
         for (const NodeParameter& own : named(request.names)) {
           response.types.push_back(own.value.type);
@@ -159,7 +162,7 @@ void ParameterServer::serve_reading() {
   serve<services::DescribeParameters<Jazzy>>(
       node_, "~/describe_parameters",
       [this](const auto& request, const auto& reply) {
-        if (too_many(request.names)) return;
+        if (too_many(request.names)) return reply.send({});
         services::DescribeParameters<Jazzy>::Response response;
         for (NodeParameter& own : named(request.names)) {
           response.descriptors.push_back(std::move(own.descriptor));
@@ -183,8 +186,11 @@ void ParameterServer::serve_setting() {
       node_, "~/set_parameters",
       [this](const auto& request, const auto& reply) {
         const std::size_t count = request.parameters.size();
-        if (too_many(request.parameters)) return;
         if (count == 0) return reply.send({});
+        if (too_many(request.parameters)) {
+          const messages::SetParametersResult<Jazzy> refusal{false, too_many_text};
+          return reply.send({.results = std::vector(count, refusal)});
+        }
         struct Open {
           services::SetParameters<Jazzy>::Response response{};
           std::size_t left = 0;
@@ -205,7 +211,9 @@ void ParameterServer::serve_setting() {
   serve<services::SetParametersAtomically<Jazzy>>(
       node_, "~/set_parameters_atomically",
       [this](const auto& request, const auto& reply) {
-        if (too_many(request.parameters)) return;
+        if (too_many(request.parameters)) {
+          return reply.send({.result = {false, too_many_text}});
+        }
         const auto answer = [this, reply](const std::string& reason) {
           publish_changes();
           reply.send({.result = {reason.empty(), reason}});

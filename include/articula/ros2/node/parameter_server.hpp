@@ -30,7 +30,7 @@ namespace articula::ros2 {
 /// Serves the parameters of a node as `ros2 param` and rqt_reconfigure expect it: six services,
 /// get_type_description, and changes on /parameter_events. Integers are taken for numbers. A
 /// read-only parameter may be set to the value that it has, so a dumped file loads again. A request
-/// of more than `most_names` is dropped: its reply could take any memory. In the thread that polls
+/// of more than `most_names` is refused: its reply could take any memory. In the thread that polls
 /// the transport. Real-time: no (allocates).
 class ParameterServer {
  public:
