@@ -92,6 +92,7 @@ export async function experiment(browser, url) {
   await robot.type('#panel-experiments [name=duration]', 1.5);
   for (const [kind, expected] of [
     ['step', 'overshoot'],
+    ['square', 'root mean square error'],
     ['sine', 'gain at the frequency'],
     ['chirp', 'root mean square error'],
   ]) {
