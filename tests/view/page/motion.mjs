@@ -64,7 +64,7 @@ export async function pull(browser, url) {
   const start = await robot.position();
   await robot.page.mouse.move(...place);
   await robot.page.mouse.down();
-  await robot.page.mouse.move(place[0] + 130, place[1] - 160, {steps: 8});
+  await robot.page.mouse.move(place[0] + 240, place[1] - 180, {steps: 8});
   await robot.until('the force is shown', () => !document.querySelector('.force').hidden);
   await robot.until(
     'the arm gives way',
