@@ -28,6 +28,8 @@ export async function startServer(port = 0, folder = []) {
   const parameters = [String(port), ...(isMock ? [PAGE] : folder)];
   const child = spawn(command[0], [...command.slice(1), ...parameters], {
     stdio: ['ignore', 'pipe', 'inherit'],
+    // The examples of the view have no parameters, and would open a browser of their own.
+    env: {...process.env, ARTICULA_VIEW_PORT: String(port), DISPLAY: '', WAYLAND_DISPLAY: ''},
   });
   const exited = new Promise((resolve) => child.once('exit', resolve));
   const first = await new Promise((resolve, reject) => {
@@ -35,7 +37,7 @@ export async function startServer(port = 0, folder = []) {
     exited.then((code) => reject(new Error(`the server ended with ${code}`)));
   });
   return {
-    url: first,
+    url: first.split(' ')[0],
     pid: child.pid,
     signal: (name) => child.kill(name),
     stop: async (name = 'SIGTERM') => {

@@ -3,7 +3,7 @@
 import {mkdtempSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import path from 'node:path';
-import {check, openPage, startServer} from './browser.mjs';
+import {check, openPage, pause, startServer} from './browser.mjs';
 
 export async function phone(browser, url) {
   const robot = await openPage(browser, url, {
@@ -70,7 +70,7 @@ export async function theme(browser, url) {
   }
 }
 
-// Unit squares in the four formats, one link each.
+// Unit squares in the formats, one link each.
 const stl = `solid square
 ${[
   [
@@ -102,10 +102,8 @@ const dae = `<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11
 <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#s"/></scene></COLLADA>`;
-const corners = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0]).buffer).toString(
-  'base64',
-);
-const gltf = JSON.stringify({
+const corners = Buffer.from(new Float32Array([0, 0, 0, 1, 0, 0, 1, 1, 0]).buffer);
+const gltfWith = (buffer) => ({
   asset: {version: '2.0'},
   scene: 0,
   scenes: [{nodes: [0]}],
@@ -115,19 +113,39 @@ const gltf = JSON.stringify({
     {bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', min: [0, 0, 0], max: [1, 1, 0]},
   ],
   bufferViews: [{buffer: 0, byteLength: 36}],
-  buffers: [{byteLength: 36, uri: `data:application/octet-stream;base64,${corners}`}],
+  buffers: [{byteLength: 36, ...buffer}],
 });
+const inside = gltfWith({uri: `data:application/octet-stream;base64,${corners.toString('base64')}`});
+
+/** A binary glTF file: header, JSON, numbers. */
+function glb() {
+  const json = Buffer.from(JSON.stringify(gltfWith({})));
+  const padded = Buffer.concat([json, Buffer.alloc((4 - (json.length % 4)) % 4, ' ')]);
+  const words = (...values) => Buffer.from(new Uint32Array(values).buffer);
+  const parts = [words(padded.length, 0x4e4f534a), padded, words(corners.length, 0x004e4942), corners];
+  const size = 12 + parts.reduce((sum, part) => sum + part.length, 0);
+  return Buffer.concat([words(0x46546c67, 2, size), ...parts]);
+}
 
 export async function meshes(browser) {
   const folder = mkdtempSync(path.join(tmpdir(), 'articula-meshes-'));
-  const files = {'square.stl': stl, 'square.obj': obj, 'square.dae': dae, 'square.gltf': gltf};
+  const files = {
+    'square.stl': stl,
+    'square.obj': obj,
+    'square.dae': dae,
+    'square.gltf': JSON.stringify(inside),
+    'square.glb': glb(),
+    // The server asks for its token at the second file, too.
+    'two_files.gltf': JSON.stringify(gltfWith({uri: 'corners.bin'})),
+  };
   for (const [name, text] of Object.entries(files)) writeFileSync(path.join(folder, name), text);
+  writeFileSync(path.join(folder, 'corners.bin'), corners);
   const names = [...Object.keys(files), 'missing.stl'];
   const links = names.map(
     (name, k) => `<link name="link${k}"><visual><geometry>
     <mesh filename="package://q2d/${name}" scale="0.1 0.1 0.1"/></geometry></visual></link>`,
   );
-  const joints = ['shoulder_active_joint', 'elbow_active_joint', 'c', 'd'].map(
+  const joints = ['shoulder_active_joint', 'elbow_active_joint', 'c', 'd', 'e', 'f'].map(
     (name, k) => `<joint name="${name}"
     type="${k < 2 ? 'revolute' : 'fixed'}"><parent link="link${k}"/><child link="link${k + 1}"/><origin xyz="0.12 0 0.02"/>
     <axis xyz="0 0 1"/><limit lower="-1.57" upper="1.57" effort="1" velocity="1"/></joint>`,
@@ -139,9 +157,9 @@ export async function meshes(browser) {
   const server = await startServer(0, [folder]);
   try {
     const robot = await openPage(browser, server.url);
-    await robot.until('the four meshes are there', () => {
+    await robot.until('the six meshes are there', () => {
       let squares = 0;
-      for (let k = 0; k < 4; ++k) {
+      for (let k = 0; k < 6; ++k) {
         let found = false;
         articula.view.model.measured.links[`link${k}`].children
           .filter((child) => child.isURDFVisual)
@@ -152,7 +170,7 @@ export async function meshes(browser) {
           );
         squares += found;
       }
-      return squares === 4;
+      return squares === 6;
     });
     await robot.until('the missing one is named', () =>
       /missing\.stl/.test(document.querySelector('#notices').textContent),
@@ -162,4 +180,81 @@ export async function meshes(browser) {
     await server.stop();
     rmSync(folder, {recursive: true});
   }
+}
+
+/** The picture of the robot as it is now. */
+const pictureOf = (robot) =>
+  robot.page.evaluate(() => {
+    const {stage} = articula.view;
+    stage.invalidate();
+    stage.draw();
+    return stage.canvas.toDataURL();
+  });
+
+export async function toggles(browser, url) {
+  const robot = await openPage(browser, url);
+  await robot.until('the robot rests', () =>
+    articula.session.samples.latest('velocity').every((v) => Math.abs(v) < 1e-3));
+  const plain = await pictureOf(robot);
+  for (const name of ['Frames', 'Axes', 'Inertia', 'Grid']) {
+    const toggle = `[aria-label="What the 3D view shows"] button::-p-text(${name})`;
+    await robot.click(toggle);
+    check((await pictureOf(robot)) !== plain, `${name} changes the picture`);
+    await robot.picture(`toggle_${name.toLowerCase()}`);
+    await robot.click(toggle);
+    check((await pictureOf(robot)) === plain, `${name} again makes the first picture`);
+  }
+  await robot.click('.compass [aria-label="Look along z"]');
+  await robot.until('the camera looks from above', () => {
+    const {camera, controls} = articula.view.stage;
+    const way = camera.position.clone().sub(controls.target).normalize();
+    return way.z > 0.999;
+  });
+  check((await pictureOf(robot)) !== plain, 'the compass turns the view');
+}
+
+/** A robot without shapes is drawn as bones. */
+export async function bones(browser) {
+  const folder = mkdtempSync(path.join(tmpdir(), 'articula-bones-'));
+  const joint = (name, k) => `<joint name="${name}" type="revolute"><parent link="l${k}"/><child link="l${k + 1}"/>
+    <origin xyz="0 0 0.3"/><axis xyz="0 1 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>`;
+  writeFileSync(
+    path.join(folder, 'robot.urdf'),
+    `<robot name="q2d"><link name="l0"/><link name="l1"/><link name="l2"/>
+    ${['shoulder_active_joint', 'elbow_active_joint'].map(joint).join('')}</robot>`,
+  );
+  const server = await startServer(0, [folder]);
+  try {
+    const robot = await openPage(browser, server.url);
+    const height = await robot.page.evaluate(() => articula.view.model.bounds().max.z);
+    check(height > 0.6 && height < 0.7, `bones up to the last joint at 0.6 m, not to ${height} m`);
+    await robot.picture('bones');
+  } finally {
+    await server.stop();
+    rmSync(folder, {recursive: true});
+  }
+}
+
+/** A robot of the examples is shown, and its picture follows it. */
+export async function example(browser, url) {
+  const robot = await openPage(browser, url);
+  const [before, first] = [await robot.position(), await pictureOf(robot)];
+  await robot.page.evaluate(() => {
+    const {name, limits} = articula.session.sheet.joints[0];
+    const [low, high] = [limits.lower ?? -1, limits.upper ?? 1];
+    void articula.session.askQuietly('/go', {positions: {[name]: low + 0.7 * (high - low)}});
+  });
+  await robot.until(
+    'a joint moves',
+    (before) =>
+      articula.session.samples.latest('position').some((q, k) => Math.abs(q - before[k]) > 0.02),
+    before,
+  );
+  let same = true; // a browser that draws by software may be late
+  for (let k = 0; k < 100 && same; ++k) {
+    same = (await pictureOf(robot)) === first;
+    await pause(100);
+  }
+  check(!same, 'the picture follows the robot');
+  await robot.picture(`example_${(await robot.page.evaluate(() => articula.session.sheet.name))}`);
 }

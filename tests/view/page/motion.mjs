@@ -64,7 +64,7 @@ export async function pull(browser, url) {
   const start = await robot.position();
   await robot.page.mouse.move(...place);
   await robot.page.mouse.down();
-  await robot.page.mouse.move(place[0] + 130, place[1] - 160, {steps: 8});
+  await robot.page.mouse.move(place[0] + 240, place[1] - 180, {steps: 8});
   await robot.until('the force is shown', () => !document.querySelector('.force').hidden);
   await robot.until(
     'the arm gives way',
@@ -92,6 +92,7 @@ export async function experiment(browser, url) {
   await robot.type('#panel-experiments [name=duration]', 1.5);
   for (const [kind, expected] of [
     ['step', 'overshoot'],
+    ['square', 'root mean square error'],
     ['sine', 'gain at the frequency'],
     ['chirp', 'root mean square error'],
   ]) {

@@ -2,7 +2,8 @@
 // The simulated Q2D under two controllers with the view on any free port, for the tests of the page.
 // It prints the address and runs until SIGTERM. SIGUSR1 breaks the sensors until SIGUSR2 mends them.
 //
-//   simulated_q2d [port [folder]]   a folder has robot.urdf, which looks in package q2d for its meshes
+//   simulated_q2d [port [folder]]   a folder has robot.urdf, which looks in package q2d for its meshes;
+//                                   the view has a token then
 //   simulated_q2d --replay <file>   computes the commands of an MCAP file once more and compares them
 #include <articula/articula.hpp>
 #include <articula/loop/realtime/monotonic_clock.hpp>
@@ -73,7 +74,10 @@ int main(int count, char** arguments) {
   Remote remote(arm, {.operator_lifetime = 20, .urdf = text});
   const auto port = static_cast<std::uint16_t>(count > 1 ? std::atoi(arguments[1]) : 0);
   ViewOptions options{.port = port, .operates = true};
-  if (!folder.empty()) options.mesh_folders = {{"q2d", folder}};
+  if (!folder.empty()) {
+    options.mesh_folders = {{"q2d", folder}};
+    options.token = "3b1c4f9a5e6d7788";
+  }
   View view(remote, options);
   std::printf("%s\n", view.url().c_str());
   std::fflush(stdout);

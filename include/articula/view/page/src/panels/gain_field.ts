@@ -30,6 +30,7 @@ export class GainField {
         this.mark();
         changed();
       },
+      change: () => this.slider.reach(this.value), // not while it is typed
     });
     this.slider = new GainSlider(parameter, (value) => {
       this.input.value = String(value);

@@ -18,7 +18,7 @@ export class GainSlider {
       type: 'range',
       step: 0.01, // 2.3 %
       'aria-label': `Slider of ${name} [${unit}]`,
-      title: `${description}\nThe mark in the middle is the gain of the loop.`,
+      title: `${description}\nFrom a tenth of the gain in the middle to ten times of it, with 0 at the left end if it is allowed`,
       input: () => {
         const value = this.value;
         this.tell(value);
@@ -36,14 +36,21 @@ export class GainSlider {
     this.show(value);
   }
 
-  /** Shows a gain. One beyond the ends becomes the middle. */
+  /** Puts a gain into the middle that is beyond the ends. */
+  reach(value: number): void {
+    if (!(Math.abs(this.placeOf(value)) <= this.decades)) this.around(value);
+  }
+
+  /** Shows a gain; at an end one that is beyond it. */
   show(value: number): void {
+    const place = this.placeOf(value);
     this.input.hidden = !Number.isFinite(value); // as that of a clamp that does not act
-    if (this.input.hidden) return;
-    const place = value === 0 ? -this.decades : Math.log10(value / this.middle);
-    if (!(Math.abs(place) <= this.decades)) this.around(value);
-    else this.input.valueAsNumber = place;
+    if (Number.isFinite(place)) this.input.valueAsNumber = place; // the browser keeps it in the range
     this.tell(value);
+  }
+
+  private placeOf(value: number): number {
+    return value === 0 ? -this.decades : Math.log10(value / this.middle);
   }
 
   private get value(): number {

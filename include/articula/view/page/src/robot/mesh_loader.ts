@@ -33,7 +33,9 @@ export class MeshLoader {
     try {
       const read = readers[kind];
       if (!read) throw new Error(`the page reads ${Object.keys(readers).join(', ')}`);
-      const mesh = this.loaded.get(url) ?? read(url + this.query, manager);
+      // Also of the files that a mesh names, as its textures. What is in the page has no query.
+      manager.setURLModifier((file) => (/^(data|blob):/.test(file) ? file : file + this.query));
+      const mesh = this.loaded.get(url) ?? read(url, manager);
       this.loaded.set(url, mesh);
       const copy = (await mesh).clone();
       // STL has no colours, and OBJ has them in another file: the URDF's material counts.
