@@ -2,6 +2,7 @@
 #include "articula/ros2/dds/participant_attributes.hpp"
 
 #include "articula/core/refuse.hpp"
+#include "articula/ros2/dds/checked_transport.hpp"
 #include "articula/ros2/dds/endpoint.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
@@ -92,7 +93,7 @@ rtps::RTPSParticipantAttributes participant_attributes(const FastDdsOptions& opt
   udp->interfaceWhiteList = options.interfaces;
   udp->maxInitialPeersRange = participants_of_a_peer;
   udp->non_blocking_send = true;  // what is lost is sent again
-  attributes.userTransports.push_back(udp);
+  attributes.userTransports.push_back(std::make_shared<CheckedTransportDescriptor>(udp));
   if (options.shared_memory) {
     attributes.userTransports.push_back(
         std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>());

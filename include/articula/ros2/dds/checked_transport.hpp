@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A transport of Fast DDS that hands well-formed packets on and drops the others.
+#pragma once
+
+#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
+
+namespace articula::ros2::dds {
+
+/// Describes the transport, around another one. See `is_well_formed`.
+struct CheckedTransportDescriptor final
+    : public eprosima::fastdds::rtps::ChainingTransportDescriptor {
+  using ChainingTransportDescriptor::ChainingTransportDescriptor;
+  /// Fast DDS owns it.
+  [[nodiscard]] eprosima::fastdds::rtps::TransportInterface* create_transport() const override;
+};
+
+}  // namespace articula::ros2::dds
