@@ -25,10 +25,23 @@ if(articula_program_lacks)
 endif()
 
 file(GLOB articula_program_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/articula/*.cpp)
-# Loops for each number of joints, each in a file of its own: they are slow to compile. With -O1 they
-# take less time, and a cycle is still far shorter than a millisecond.
-foreach(joints RANGE 1 8)
-  set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/run_loop_${joints}.cpp)
+# Loops of `articula run` for some sizes of robots, each in a file of its own: they are slow to compile.
+# With -O1 they take less time, and a cycle is still far shorter than a millisecond.
+set(ARTICULA_RUN_JOINTS
+    "1;2;3;4;5;6;7;8;7+5;8+1"
+    CACHE STRING "Sizes of the robots that articula run takes: 7 joints, or 7+5 for 7 joints and 5 mimic joints")
+set(articula_run_sizes "")
+foreach(size IN LISTS ARTICULA_RUN_JOINTS)
+  if(NOT size MATCHES "^([1-9][0-9]*)(\\+([1-9][0-9]*))?$")
+    message(FATAL_ERROR "ARTICULA_RUN_JOINTS: \"${size}\" is not a size of a robot; write \"7\", or \"7+5\"")
+  endif()
+  set(joints ${CMAKE_MATCH_1})
+  set(bodies ${joints})
+  if(CMAKE_MATCH_3)
+    math(EXPR bodies "${joints} + ${CMAKE_MATCH_3}")
+  endif()
+  string(APPEND articula_run_sizes "{${joints}, ${bodies}},")
+  set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/run_loop_${joints}_${bodies}.cpp)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/articula/loops/run_loop.cpp.in ${articula_loop_file} @ONLY)
   set_source_files_properties(${articula_loop_file} PROPERTIES COMPILE_OPTIONS -O1)
   list(APPEND articula_program_files ${articula_loop_file})
@@ -37,12 +50,18 @@ add_executable(articula_program ${articula_program_files})
 target_include_directories(articula_program PRIVATE ${CMAKE_CURRENT_LIST_DIR}/articula)
 target_precompile_headers(articula_program PRIVATE <CLI/CLI.hpp>)
 set_target_properties(articula_program PROPERTIES OUTPUT_NAME articula)
+set_property(
+  SOURCE ${CMAKE_CURRENT_LIST_DIR}/articula/run_command.cpp
+  APPEND
+  PROPERTY COMPILE_DEFINITIONS "ARTICULA_RUN_SIZES=${articula_run_sizes}")
 target_link_libraries(articula_program PRIVATE articula::recording articula::config articula::urdf
                                                articula::view CLI11::CLI11)
 
 # The command sweep, if its library is found. Its loops, too, are compiled for some numbers of joints.
-if(TARGET articula::sweep)
-  set(ARTICULA_SWEPT_JOINTS "2;6;7" CACHE STRING "Numbers of joints of the robots that articula sweep takes")
+set(ARTICULA_SWEPT_JOINTS
+    "2;6;7"
+    CACHE STRING "Numbers of joints of the robots that articula sweep takes; without any there is no sweep")
+if(TARGET articula::sweep AND ARTICULA_SWEPT_JOINTS)
   file(GLOB articula_sweep_files CONFIGURE_DEPENDS ${CMAKE_CURRENT_LIST_DIR}/articula/sweep/*.cpp)
   foreach(joints IN LISTS ARTICULA_SWEPT_JOINTS)
     set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/make_experiment_${joints}.cpp)

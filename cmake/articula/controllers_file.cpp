@@ -19,18 +19,27 @@ namespace {
 using articula::ControllerConfig;
 using articula::FileError;
 
-constexpr std::array<KindTraits, 7> kinds{
+constexpr std::array<KindTraits, 8> kinds{
     {{"Bypass", "bypass", false, Drives::efforts},
      {"Pid", "pid", true, Drives::efforts},
      {"PidPlusGravity", "pid_plus_gravity", true, Drives::efforts},
      {"ComputedTorque", "computed_torque", true, Drives::efforts},
      {"VelocityByEffort", "velocity_by_effort", true, Drives::efforts},
+     {"PositionByVelocity", "position_by_velocity", true, Drives::velocities},
      {"ForwardVelocity", "forward_velocity", false, Drives::velocities},
      {"ForwardPosition", "forward_position", false, Drives::positions}}};
 
 bool has_gains(const ControllerConfig& config) {
   return std::ranges::any_of(config.joints,
                              [](const auto& joint) { return joint.gains.has_value(); });
+}
+
+/// Whether a section of a controller has tolerances of trajectories.
+bool has_tolerances(const articula::detail::ConfigSections& all, const std::string& name) {
+  return std::ranges::any_of(all.sections, [&](const auto& section) {
+    return (section.name == name || section.type == name) &&
+           articula::detail::has_constraints(section);
+  });
 }
 
 /// The interface that a controller commands, if the file tells: "effort", "velocity", "position".
@@ -62,7 +71,9 @@ std::optional<ControllerKind> kind_of(const ControllerConfig& config,
   if (has("effortcontroller") || has("bypass") || has("torquecontroller")) return bypass;
   const bool knows_position = has("positioncontroller") || has("trajectorycontroller") ||
                               has("pidcontroller") || config.type.empty();
-  if (knows_position && has_gains(config)) return pid;
+  const bool to_velocities =
+      interface == "velocity" || config.type.starts_with("velocity_controllers/");
+  if (knows_position && has_gains(config)) return to_velocities ? position_by_velocity : pid;
   if (has("positioncontroller") || has("trajectorycontroller") || has("forwardcommand") ||
       has("gripper")) {
     if (interface == "effort" && !has_gains(config)) {
@@ -92,8 +103,9 @@ struct Reading {
   }
 };
 
-void add(Reading& reading, const ControllerConfig& config, const std::string& name,
-         const std::string& section, const std::string& interface) {
+void add(Reading& reading, const articula::detail::ConfigSections& all,
+         const ControllerConfig& config, const std::string& name, const std::string& section,
+         const std::string& interface) {
   ControllersPlan& plan = reading.plan;
   const std::optional<ControllerKind> kind = kind_of(config, interface);
   if (!kind) return reading.leave_out(name, "the type '" + config.type + "' is not known");
@@ -108,8 +120,8 @@ void add(Reading& reading, const ControllerConfig& config, const std::string& na
   if (!config.chain_root.empty()) plan.root = config.chain_root;
   if (!config.chain_tip.empty()) plan.tip = config.chain_tip;
   if (config.priority && plan.priority == 0) plan.priority = *config.priority;
-  plan.controllers.push_back(
-      {name.empty() ? std::string(traits_of(*kind).name) : name, section, config.type, *kind});
+  plan.controllers.push_back({name.empty() ? std::string(traits_of(*kind).name) : name, section,
+                              config.type, *kind, config.joints, has_tolerances(all, section)});
 }
 
 bool is_broadcaster(const articula::ListedController& controller) {
@@ -134,7 +146,7 @@ void add_listed(Reading& reading, const articula::ControllerManagerConfig& manag
       combined.push_back(listed.type);
       const std::string name = listed.type.substr(listed.type.find_last_of('/') + 1);
       if (!reading.wants(name)) continue;
-      add(reading, articula::load_controller(file, listed.type), name, listed.type,
+      add(reading, all, articula::load_controller(file, listed.type), name, listed.type,
           interface_of(all, listed.name));
       continue;
     }
@@ -144,7 +156,7 @@ void add_listed(Reading& reading, const articula::ControllerManagerConfig& manag
     ControllerConfig config{.name = listed.name, .type = listed.type};
     if (has_section) config = articula::load_controller(file, listed.name);
     if (config.type.empty()) config.type = listed.type;
-    add(reading, config, listed.name, has_section ? listed.name : "",
+    add(reading, all, config, listed.name, has_section ? listed.name : "",
         interface_of(all, listed.name));
   }
 }
@@ -175,7 +187,7 @@ ControllersPlan read_controllers(const std::string& file, const std::vector<std:
   } else {
     const ControllerConfig config = articula::load_controller(file);
     plan.notes.push_back(file + ": there is no controller_manager; the loop runs at 1000 Hz");
-    add(reading, config, config.name, config.name, interface_of(all, config.name));
+    add(reading, all, config, config.name, config.name, interface_of(all, config.name));
   }
   for (const std::string& name : chosen) {
     const bool is_there = std::ranges::any_of(

@@ -2,6 +2,7 @@
 /// @file The controllers that a configuration file of ROS names, and the classes that they mean.
 #pragma once
 
+#include <articula/config/read/controller_config.hpp>
 #include <articula/model/vector3.hpp>
 
 #include <optional>
@@ -18,6 +19,7 @@ enum class ControllerKind : unsigned char {
   pid_plus_gravity,
   computed_torque,
   velocity_by_effort,
+  position_by_velocity,
   forward_velocity,
   forward_position,
 };
@@ -40,6 +42,8 @@ struct PlannedController {
   std::string section{};  ///< by which load_pid_gains finds its parameters; empty: it has none
   std::string type{};     ///< the plugin's
   ControllerKind kind{};
+  std::vector<articula::ConfiguredJoint> joints{};  ///< that it acts on; empty: all
+  bool has_tolerances = false;  ///< of trajectories, for load_trajectory_tolerances
 };
 
 /// What a file says about a loop.

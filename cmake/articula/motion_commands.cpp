@@ -84,6 +84,54 @@ void publish(const Program& program, const Publication& publication) {
                 "published " + std::to_string(count) + " times");
 }
 
+/// A signal of the same shape on some joints.
+struct SignalPlan {
+  std::vector<std::string> heights;
+  bool is_step = false, is_effort = false;
+  double ramp = 0, sine = 0, square = 0;  ///< 0: not this one
+  std::vector<double> chirp;              ///< first and last frequency [Hz]; empty: not this one
+  double seconds = 10;
+};
+
+/// The members of the signal that do not depend on the joint.
+Json shape_of(const SignalPlan& plan) {
+  std::vector<Json> shapes;
+  if (plan.is_step) shapes.push_back({{"kind", "step"}});
+  if (plan.ramp > 0) shapes.push_back({{"kind", "ramp"}, {"duration", plan.ramp}});
+  if (plan.sine > 0) shapes.push_back({{"kind", "sine"}, {"frequency", plan.sine}});
+  if (plan.square > 0) shapes.push_back({{"kind", "square"}, {"frequency", plan.square}});
+  if (!plan.chirp.empty()) {
+    shapes.push_back({{"kind", "chirp"},
+                      {"first_frequency", plan.chirp[0]},
+                      {"last_frequency", plan.chirp[1]},
+                      {"duration", plan.seconds}});
+  }
+  if (shapes.size() != 1) {
+    throw WrongUsage("signal: give one of --step, --ramp, --sine, --square and --chirp");
+  }
+  return shapes.front();
+}
+
+void play_signal(const Program& program, const SignalPlan& plan) {
+  Json signals = Json::array();
+  const Json shape = shape_of(plan);
+  const std::string kind = shape.at("kind");
+  const char* size = kind == "step" || kind == "ramp" ? "height" : "amplitude";
+  const Json heights = values_by_name(plan.heights, "joint");
+  for (const auto& [joint, value] : heights.items()) {
+    Json signal = shape;
+    signal["joint"] = joint;
+    signal[size] = value;
+    if (plan.is_effort) signal["target"] = "effort";
+    signals.push_back(signal);
+  }
+  Connection connection(program);
+  constexpr double one_day = 86400;  // the simulated time may be slow, or paused
+  print_answer(program, connection.operate("/play_signals",
+                                           {{"signals", signals}, {"duration", plan.seconds}},
+                                           plan.seconds + one_day));
+}
+
 }  // namespace
 
 void add_motion_commands(CLI::App& app, Program& program) {
@@ -116,6 +164,26 @@ void add_motion_commands(CLI::App& app, Program& program) {
       ->check(within(0.0, 1e6))
       ->needs("--rate")
       ->default_str("until Ctrl-C");
+
+  const auto plan = std::make_shared<SignalPlan>();
+  command = add_command(app, program, "signal",
+                        "Adds a signal to the reference of joints, and waits for its end.",
+                        [&program, plan] { play_signal(program, *plan); });
+  command
+      ->add_option("heights", plan->heights,
+                   "height or amplitude, as elbow=0.1 [rad or m; N m or N]")
+      ->required();
+  command->add_flag("--step", plan->is_step, "a step at once");
+  command->add_option("--ramp", plan->ramp, "a ramp, its duration [s]")->check(within(1e-3, 1e6));
+  command->add_option("--sine", plan->sine, "its frequency [Hz]")->check(within(1e-3, 1000.0));
+  command->add_option("--square", plan->square, "its frequency [Hz]")->check(within(1e-3, 1000.0));
+  command->add_option("--chirp", plan->chirp, "its first and last frequency [Hz]")
+      ->expected(2)
+      ->check(within(1e-3, 1000.0));
+  command->add_flag("--effort", plan->is_effort, "of the effort, in place of the position");
+  command->add_option("--seconds", plan->seconds, "how long [s]")
+      ->check(within(1e-3, 1e6))
+      ->capture_default_str();
 
   const auto file = std::make_shared<std::string>();
   command = add_command(

@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file run: a robot from a URDF with the controllers of a YAML file, without a compiler.
+#include "compiled_run.hpp"
 #include "controllers_file.hpp"
+#include "joint_groups.hpp"
 #include "loops/loop_plan.hpp"
+#include "mesh_folders.hpp"
 #include "program.hpp"
+#include "project.hpp"
 #include "robot_file.hpp"
 #include "table.hpp"
 #include "within.hpp"
 
-#include <articula/config/load_controller.hpp>
 #include <articula/model/build_model.hpp>
-#include <articula/urdf/read_urdf.hpp>
+#include <articula/text/numbers.hpp>
 #include <articula/view/open_in_browser.hpp>
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
+#include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
-#include <map>
 #include <memory>
-#include <set>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct Run {
   std::string robot{}, controllers{};
   std::vector<std::string> chosen{};
   bool is_mock = false, shows = false, is_read_only = false, allows_unphysical = false;
+  bool compiles = false;
   int priority = 0;
   int substeps = 0;  ///< 0: so many that none is longer than a millisecond
   double rate = 0;   ///< of the loop [Hz]; 0: that of the file
@@ -46,93 +48,72 @@ struct Run {
 
 using RunLoop = LoopEnd (*)(const LoopPlan&);
 
-template <Drives D, int... Less>
-std::array<RunLoop, sizeof...(Less)> all_sizes(std::integer_sequence<int, Less...>) {
-  return {&run_loop<Less + 1, D>...};
+/// The sizes of robots for which there is a loop.
+constexpr auto ready_sizes = std::to_array<articula::ModelSize>({ARTICULA_RUN_SIZES});
+
+template <std::size_t... At>
+std::array<RunLoop, sizeof...(At)> all_loops(std::index_sequence<At...>) {
+  return {&run_loop<ready_sizes[At].joints, ready_sizes[At].bodies>...};
+}
+
+/// A size in words: "7 joints and 5 mimic joints".
+std::string size_text(const articula::ModelSize& size) {
+  const auto count = [](int number, const std::string& what) {
+    return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+  };
+  const int mimics = size.bodies - size.joints;
+  return count(size.joints, "joint") + (mimics == 0 ? "" : " and " + count(mimics, "mimic joint"));
 }
 
 /// The loop for a robot.
-RunLoop loop_for(const articula::UrdfDescription& robot, const ControllersPlan& controllers,
-                 const std::string& advice) {
+/// @throws Refusal if none is ready
+RunLoop loop_for(const articula::UrdfDescription& robot, const std::vector<PlannedGroup>& groups,
+                 const ControllersPlan& plan) {
+  const std::string advice = "; the option --compile makes a loop for any of them";
+  if (groups.size() > 4) {
+    throw Refusal(plan.file + ": its controllers are for " + std::to_string(groups.size()) +
+                  " groups of joints; loops for 4 are ready" + advice);
+  }
+  for (const PlannedGroup& group : groups) {
+    if (group.controllers.size() <= 8) continue;
+    throw Refusal(plan.file + ": it lists " + std::to_string(group.controllers.size()) +
+                  " controllers for the same joints; loops for 8 are ready" + advice);
+  }
   const articula::ModelSize size = articula::model_size(robot->joints);
-  const std::string name = "robot '" + std::string(robot->name.view()) + "'";
-  if (size.bodies != size.joints) {
-    throw Refusal(name + " has mimic joints, for which no loop is ready" + advice);
-  }
-  if (size.joints > most_joints) {
-    throw Refusal(name + " has " + std::to_string(size.joints) +
-                  " joints; loops are ready for 1 to " + std::to_string(most_joints) + advice);
-  }
-  constexpr auto sizes = std::make_integer_sequence<int, most_joints>{};
-  const auto at = static_cast<std::size_t>(size.joints - 1);
-  switch (controllers.drives) {
-    case Drives::efforts:
-      return all_sizes<Drives::efforts>(sizes)[at];
-    case Drives::positions:
-      return all_sizes<Drives::positions>(sizes)[at];
-    case Drives::velocities:
-      break;
-  }
-  throw Refusal(controllers.file + ": no loop is ready for drives that take velocities" + advice);
-}
-
-/// Refuses controllers that name joints which the robot does not have. Those with gains are checked
-/// with them.
-void check_joints(const articula::UrdfDescription& robot, const ControllersPlan& controllers) {
-  std::vector<std::string> names;
-  for (const articula::Joint& joint : robot->joints) {
-    if (articula::detail::is_free(joint)) names.emplace_back(joint.name.view());
-  }
-  for (const PlannedController& controller : controllers.controllers) {
-    if (traits_of(controller.kind).has_gains || controller.section.empty()) continue;
-    const auto config = articula::load_controller(controllers.file, controller.section);
-    for (const articula::ConfiguredJoint& joint : config.joints) {
-      if (std::ranges::find(names, joint.name) != names.end()) continue;
-      throw articula::FileError(joint.place,
-                                "robot '" + std::string(robot->name.view()) + "' has no joint '" +
-                                    joint.name + "' that takes commands",
-                                articula::detail::one_of_words(joint.name, names));
+  std::string ready;
+  for (std::size_t at = 0; at < ready_sizes.size(); ++at) {
+    const articula::ModelSize& own = ready_sizes[at];
+    if (own.joints == size.joints && own.bodies == size.bodies) {
+      return all_loops(std::make_index_sequence<ready_sizes.size()>{})[at];
     }
+    const int mimics = own.bodies - own.joints;
+    ready += (at == 0 ? "" : ", ") + std::to_string(own.joints) +
+             (mimics == 0 ? "" : "+" + std::to_string(mimics));
   }
+  throw Refusal("robot '" + std::string(robot->name.view()) + "' has " + size_text(size) +
+                "; loops are ready for robots of these sizes: " + ready +
+                ", where 7+5 stands for 7 joints and 5 mimic joints" + advice);
 }
 
-/// The folder of a ROS package around a file: a folder of its name with a package.xml, which holds
-/// the file or is beside a folder that does. Empty if there is none. The name comes from a URDF, so
-/// without these rules a file could have any folder of the machine served.
-std::string package_folder(const std::string& package, const std::string& file) {
-  const auto belongs_to_a_name = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-';
+/// What the compiled program needs of the options.
+std::vector<std::string> arguments_of(const Program& program, const Run& options) {
+  if (program.json || options.priority > 0) {
+    throw WrongUsage(
+        "run: --json and --priority are not for --compile; articula new writes a program to "
+        "change");
+  }
+  std::vector<std::string> arguments{"--address", program.address, "--port",
+                                     std::to_string(program.port)};
+  const auto add = [&](std::initializer_list<std::string> words) {
+    arguments.insert(arguments.end(), words);
   };
-  if (package.empty() || !std::ranges::all_of(package, belongs_to_a_name)) return {};
-  std::error_code error;
-  for (fs::path folder = fs::weakly_canonical(fs::path(file), error).parent_path();
-       folder != folder.parent_path(); folder = folder.parent_path()) {
-    const fs::path found = folder.filename() == package ? folder : folder / package;
-    if (fs::exists(found / "package.xml", error)) return found.string();
+  if (!program.token.empty()) add({"--token", program.token});
+  if (options.is_read_only) add({"--read-only"});
+  if (options.shows) add({"--view"});
+  if (std::isfinite(options.seconds)) {
+    add({"--seconds", articula::detail::number_text(options.seconds)});
   }
-  return {};
-}
-
-/// The folders of the packages whose meshes a URDF names.
-std::map<std::string, std::string> mesh_folders(const std::string& urdf, const std::string& file) {
-  constexpr std::string_view scheme = "package://";
-  std::map<std::string, std::string> folders;
-  std::set<std::string> seen;
-  for (std::size_t at = urdf.find(scheme); at != std::string::npos; at = urdf.find(scheme, at)) {
-    at += scheme.size();
-    const std::string package = urdf.substr(at, urdf.find_first_of("/\"' ", at) - at);
-    if (!seen.insert(package).second) continue;
-    const std::string folder = package_folder(package, file);
-    if (folder.empty()) {
-      std::fprintf(stderr,
-                   "note: no meshes of package '%s': no folder of its name with a package.xml "
-                   "is above the URDF or beside a folder above it\n",
-                   package.c_str());
-    } else {
-      folders[package] = folder;
-    }
-  }
-  return folders;
+  return arguments;
 }
 
 /// The folder of the view's page beside this program, as it is installed; empty if there is none.
@@ -148,22 +129,11 @@ void run(const Program& program, const Run& options) {
   if (options.rate > 0) controllers.period = 1 / options.rate;
   controllers.substeps =
       options.substeps > 0 ? options.substeps : default_substeps(controllers.period);
-  articula::UrdfOptions reading;
-  reading.root = controllers.root;
-  reading.tip = controllers.tip;
-  reading.allow_unphysical = options.allows_unphysical;
-  if (controllers.gravity) reading.gravity = *controllers.gravity;
   const articula::UrdfSource source = robot_source(options.robot);
-  const articula::UrdfDescription robot = articula::read_urdf(source, reading);
+  const articula::UrdfDescription robot =
+      read_robot(source, controllers, options.allows_unphysical);
 
-  const std::string advice = "; articula new " + options.robot + " " + options.controllers +
-                             " writes a project that compiles one";
-  check_joints(robot, controllers);
-  const RunLoop loop = loop_for(robot, controllers, advice);
-  if (controllers.controllers.size() > 8) {
-    throw Refusal(controllers.file + ": it lists " +
-                  std::to_string(controllers.controllers.size()) + " controllers; 8 at most");
-  }
+  const std::vector<PlannedGroup> groups = joint_groups(robot, controllers);
   if (options.is_mock && controllers.drives == Drives::efforts) {
     throw Refusal(controllers.file +
                   ": its controllers command efforts, which do not move a mock; leave --mock out "
@@ -171,16 +141,34 @@ void run(const Program& program, const Run& options) {
   }
   for (const std::string& note : controllers.notes)
     std::fprintf(stderr, "note: %s\n", note.c_str());
+  for (const PlannedGroup& group : groups) {
+    if (!group.controllers.empty()) continue;
+    for (const std::string& joint : group.joints) {
+      std::fprintf(stderr, "note: %s: no controller has joint '%s', which is held at rest\n",
+                   options.controllers.c_str(), joint.c_str());
+    }
+  }
   for (const std::string& notice : robot->notices) {
     std::fprintf(stderr, "note: %s: %s\n", options.robot.c_str(), notice.c_str());
   }
 
-  LoopPlan plan{.robot = robot};
   const std::string text = source.text();
+  if (options.compiles) {
+    run_compiled(make_project({.robot = options.robot,
+                               .urdf = text,
+                               .controllers = controllers,
+                               .groups = groups,
+                               .allows_unphysical = options.allows_unphysical,
+                               .is_mock = options.is_mock}),
+                 arguments_of(program, options));
+  }
+  const RunLoop loop = loop_for(robot, groups, controllers);
+  LoopPlan plan{.robot = robot};
   if (text.find("<visual") != std::string::npos) plan.urdf_text = text;
   plan.mesh_folders = mesh_folders(plan.urdf_text, options.robot);
   plan.page_folder = installed_page();
   plan.controllers = controllers;
+  plan.groups = groups;
   plan.is_mock = options.is_mock;
   plan.address = program.address;
   plan.port = program.port;
@@ -204,8 +192,9 @@ void run(const Program& program, const Run& options) {
                    {"mesh_folders", plan.mesh_folders},
                    {"url", url}},
                   std::string(robot->name.view()) + ", " + hardware + ", " +
-                      shown(1 / controllers.period) + " Hz, the first controller is active:\n" +
-                      table(rows) + "\n" + url + "\nCtrl-C ends it");
+                      shown(1 / controllers.period) +
+                      " Hz, the first controller of each joint is active:\n" + table(rows) + "\n" +
+                      url + "\nCtrl-C ends it");
     if (options.shows && !articula::open_in_browser(url)) {
       std::fprintf(stderr, "note: there is no screen, or no xdg-open: open the address yourself\n");
     }
@@ -229,6 +218,8 @@ void add_run_command(CLI::App& app, Program& program) {
       ->allow_extra_args(false);
   command->add_flag("--mock", options->is_mock,
                     "joints follow every position at once, in place of a simulation");
+  command->add_flag("--compile", options->compiles,
+                    "compile a program for this robot, keep it, and run it");
   command->add_flag("--view", options->shows, "open the page in a browser");
   command->add_flag("--read-only", options->is_read_only, "clients watch only");
   command->add_flag("--allow-unphysical", options->allows_unphysical,

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file The commands of articula, against a loop that runs.
+#include "../view/web_client.hpp"
 #include "catch.hpp"
 #include "running_arm.hpp"
 #include "scratch_file.hpp"
 
 #include <articula/recording/mcap_record_reader.hpp>
 #include <articula/replay/replay.hpp>
+#include <articula/view/show_arguments.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -19,6 +23,7 @@
 
 using support::Result;
 using support::RunningArm;
+using support::ScratchFile;
 using Json = nlohmann::json;
 
 namespace {
@@ -351,4 +356,57 @@ TEST_CASE("a token is needed where the view has one") {
   CHECK(arm.ask({"status"}).exit_code == 3);
   CHECK(arm.ask({"status", "--token", "wrong &?# token"}).exit_code == 3);
   CHECK(arm.ask({"--token", "0123456789abcdef", "status"}).exit_code == 0);
+}
+
+TEST_CASE("show serves the URDF that it is given, and ends by Ctrl-C") {
+  const ScratchFile file("shown.urdf");
+  const std::string urdf = "<!-- of a file -->" + articula::remote::urdf_text(articula::Q2d());
+  write(file.path(), urdf);
+  boost::asio::io_context context;
+  boost::asio::ip::tcp::acceptor acceptor(context, {boost::asio::ip::tcp::v4(), 0});
+  const std::uint16_t port = acceptor.local_endpoint().port();
+  acceptor.close();
+  articula::SupervisedLoop<articula::Q2dSim, support::ArmControllers> arm(
+      articula::SupervisionOptions{.overruns = 1000000});
+  auto shown = std::async(std::launch::async, [&] {
+    const std::string number = std::to_string(port);
+    const std::array<const char*, 3> words{"arm", "--port", number.c_str()};
+    return articula::show_with_arguments(arm, 3, words.data(), {.urdf = file.path().string()});
+  });
+  Json robot;
+  REQUIRE(eventually([&] {
+    try {
+      support::WebClient client(port);
+      robot = client.call("/robot", Json::object());
+      return true;
+    } catch (const std::exception&) {  // the port is not open yet
+      return false;
+    }
+  }));
+  INFO(robot.dump());
+  CHECK(robot.dump().find("of a file") != std::string::npos);
+  std::raise(SIGINT);
+  CHECK(shown.get() == 0);
+
+  CHECK(articula::show(arm, {.urdf = "/no/such.urdf"}) == 1);
+}
+
+TEST_CASE("the command line changes the options of show") {
+  const auto read = [](const std::vector<const char*>& words) {
+    return articula::with_arguments({}, static_cast<int>(words.size()), words.data());
+  };
+  const articula::ShowOptions all = read({"arm", "--port", "0", "--address", "::1", "--token",
+                                          "abc", "--read-only", "--view", "--seconds", "2.5"});
+  CHECK(all.view.port == 0);
+  CHECK(all.view.address == "::1");
+  CHECK(all.view.token == "abc");
+  CHECK(!all.view.operates);
+  CHECK(all.opens_browser);
+  CHECK(all.seconds == 2.5);
+  CHECK(read({"arm"}).view.operates);
+  using Wrong = std::vector<const char*>;
+  for (const Wrong& wrong : {Wrong{"arm", "--port"}, Wrong{"arm", "--port", "65536"},
+                             Wrong{"arm", "--seconds", "nan"}, Wrong{"arm", "--prot", "1"}}) {
+    CHECK_THROWS_AS(read(wrong), std::invalid_argument);
+  }
 }

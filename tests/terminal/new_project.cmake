@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Installs articula into a scratch prefix, writes a project by PROGRAM, builds it against the
-# installed package and runs it beside `articula status`.
+# Installs articula into a scratch prefix, and lets the installed program compile a robot, run it and
+# operate it.
 file(REMOVE_RECURSE ${WORK})
 
 function(run)
@@ -8,14 +8,27 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BINARY} --prefix ${WORK}/prefix)
-run(${PROGRAM} new ${URDF} ${CONTROLLERS} --output ${WORK}/project)
-# A port that nothing else has.
-file(READ ${WORK}/project/main.cpp main)
-string(REPLACE "articula::show(arm)" "articula::show(arm, {.view = {.port = 0, .operates = true}})" main
-               "${main}")
-file(WRITE ${WORK}/project/main.cpp "${main}")
-run(${CMAKE_COMMAND} -S ${WORK}/project -B ${WORK}/build -G ${GENERATOR}
-    -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
-    -DCMAKE_PREFIX_PATH=${WORK}/prefix)
-run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(bash ${CMAKE_CURRENT_LIST_DIR}/operate.sh ${WORK}/build/two_arm_torso ${PROGRAM})
+# The robot has visuals.
+file(READ ${URDF} urdf)
+string(REPLACE "<link name=\"torso_link\">"
+               "<link name=\"torso_link\"><visual><geometry><sphere radius=\"0.1\"/></geometry></visual>" urdf
+               "${urdf}")
+file(WRITE ${WORK}/two_arm_torso.urdf "${urdf}")
+
+# `run --compile` writes the project that `new` writes, and builds it as a user would.
+set(ENV{XDG_CACHE_HOME} ${WORK}/cache)
+set(ENV{CXX} ${COMPILER})
+set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} ${LAUNCHER})
+set(ENV{CMAKE_GENERATOR} ${GENERATOR})
+set(run ${WORK}/prefix/bin/articula --port 0 run ${WORK}/two_arm_torso.urdf ${CONTROLLERS} --compile)
+run(bash ${CMAKE_CURRENT_LIST_DIR}/operate.sh ${PROGRAM} ${run})
+run(${PROGRAM} new ${WORK}/two_arm_torso.urdf ${CONTROLLERS} --output ${WORK}/project)
+file(GLOB compiled ${WORK}/cache/articula/*)
+foreach(name CMakeLists.txt main.cpp robot.urdf controllers.yaml)
+  run(${CMAKE_COMMAND} -E compare_files ${compiled}/${name} ${WORK}/project/${name})
+endforeach()
+# The second time nothing is compiled.
+execute_process(COMMAND ${run} --seconds 0.01 ERROR_VARIABLE errors COMMAND_ERROR_IS_FATAL ANY)
+if(errors MATCHES "compiles the robot")
+  message(FATAL_ERROR "the program was not kept: ${errors}")
+endif()

@@ -1,9 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# operate.sh <program of a loop> <articula>: starts the loop, and moves a joint from a terminal.
+# operate.sh <articula> <program of a loop> <its arguments>...: starts the loop, and moves a joint from
+# a terminal.
 set -euo pipefail
 
-coproc loop { exec "$1"; }
+articula=$1
+shift
+coproc loop { exec "$@"; }
 # shellcheck disable=SC2154 # coproc sets it
 process=$loop_PID
 trap 'kill -INT "$process" 2>/dev/null || true' EXIT
@@ -13,13 +16,13 @@ while [[ -z $port ]] && read -r line; do
 done <&"${loop[0]}"
 
 for ((attempt = 0; attempt < 600; ++attempt)); do
-  "$2" --port "$port" status | grep -q "^mode  *active" && break
+  "$articula" --port "$port" status | grep -q "^mode  *active" && break
   sleep 0.1
 done
-"$2" --port "$port" controllers
-"$2" --port "$port" switch --start arms_torque --replace
-"$2" --port "$port" switch --start arms --replace
-"$2" --port "$port" gains set arms.left_elbow_joint.p=60
-"$2" --port "$port" go left_elbow_joint=0.3 --wait
+"$articula" --port "$port" controllers
+"$articula" --port "$port" switch --start arms_torque --replace
+"$articula" --port "$port" switch --start arms --replace
+"$articula" --port "$port" gains set arms.left_elbow_joint.p=60
+"$articula" --port "$port" go left_elbow_joint=0.3 --wait
 kill -INT "$process"
 wait "$process"

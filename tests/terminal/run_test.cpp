@@ -2,10 +2,11 @@
 /// @file articula run and articula new: robots and controllers from files.
 #include "catch.hpp"
 #include "scratch_file.hpp"
+#include "scratch_folder.hpp"
 #include "terminal.hpp"
 
 #include <articula/remote/urdf_text.hpp>
-#include <articula/robots/gripper_arm.hpp>
+#include <articula/robots/pr2.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <boost/asio/io_context.hpp>
@@ -13,10 +14,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 using support::Result;
@@ -48,6 +51,7 @@ class Running {
     port_ = url.substr(url.rfind(':') + 1, url.find('/', 8) - url.rfind(':') - 1);
   }
   [[nodiscard]] const Json& begin() const { return begin_; }
+  [[nodiscard]] const std::string& port() const { return port_; }
   Json ask(std::vector<std::string> words) const {
     words.insert(words.begin(), {"--json", "--port", port_});
     const Result result = run_articula(std::move(words));
@@ -201,9 +205,12 @@ TEST_CASE("what cannot run is refused with its reason and the cure") {
         "    joints: [shoulder_active_joint, elbow_active_joint]\n");
   check_refused(run(robot.name()), "OddThing");
   write(file.path(),
-        "pid_controller:\n  ros__parameters:\n    joints: [elbow_active_joint]\n"
-        "    gains: {elbow_active_joint: {p: 1}}\n");
-  check_refused(run(robot.name()), "shoulder_active_joint");
+        "controller_manager:\n  ros__parameters:\n"
+        "    both: {type: effort_controllers/JointGroupEffortController}\n"
+        "    one: {type: effort_controllers/JointGroupEffortController}\n"
+        "both:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+        "one:\n  ros__parameters:\n    joints: [elbow_active_joint]\n");
+  check_refused(run(robot.name()), "'both' and 'one' share joint 'elbow_active_joint'");
   write(file.path(),
         "controller_manager:\n  ros__parameters:\n"
         "    torque: {type: effort_controllers/JointGroupEffortController}\n"
@@ -224,9 +231,112 @@ TEST_CASE("what cannot run is refused with its reason and the cure") {
 
   write(file.path(),
         "torque:\n  ros__parameters:\n    type: effort_controllers/JointGroupEffortController\n"
-        "    joints: [joint_1]\n");
-  write(urdf.path(), articula::remote::urdf_text(articula::GripperArm()));
-  check_refused(run(urdf.path().string()), "mimic joints");
+        "    joints: [torso_lift_joint]\n");
+  write(urdf.path(), articula::remote::urdf_text(articula::Pr2()));
+  check_refused(run(urdf.path().string()), "20 joints");
+  check_refused(run(urdf.path().string()), "--compile");
+}
+
+TEST_CASE("--compile names what is missing") {
+  const Q2dFile robot;
+  const std::vector<std::string> words{"run", robot.name(), files + "/q2d.yaml", "--compile"};
+  setenv("CXX", "/no/such/compiler", 1);
+  check_refused(run_articula(words), "needs a C++ compiler");
+  unsetenv("CXX");
+}
+
+TEST_CASE("controllers of some joints are active at the same time, and switched on their own") {
+  const Q2dFile robot;
+  const ScratchFile controllers("groups.yaml");
+  write(controllers.path(),
+        "controller_manager:\n  ros__parameters:\n    update_rate: 1000\n"
+        "    arm: {type: effort_controllers/JointGroupPositionController}\n"
+        "    hand: {type: effort_controllers/PidPlusGravityController}\n"
+        "    hand_torque: {type: effort_controllers/JointGroupEffortController}\n"
+        "arm:\n  ros__parameters:\n    joints: [shoulder_active_joint]\n"
+        "    gains: {shoulder_active_joint: {p: 2310, i: 4640, d: 0.3}}\n"
+        "hand:\n  ros__parameters:\n    joints: [elbow_active_joint]\n"
+        "    gains: {elbow_active_joint: {p: 339, i: 851, d: 0.35}}\n"
+        "hand_torque:\n  ros__parameters:\n    joints: [elbow_active_joint]\n");
+  Running running({robot.name(), controllers.path().string()});
+  const auto list = [&] {
+    std::string text;
+    for (const Json& each : running.ask({"controllers"}).at("controllers")) {
+      text +=
+          each.at("name").get<std::string>() + " " + each.at("status").get<std::string>() + ", ";
+    }
+    return text;
+  };
+  CHECK(eventually([&] { return list() == "arm active, hand active, hand_torque inactive, "; }));
+  REQUIRE(
+      eventually([&] { return running.ask({"status"}).at("situation").at("mode") == "active"; }));
+  running.ask({"switch", "--start", "hand_torque", "--stop", "hand"});
+  CHECK(eventually([&] { return list() == "arm active, hand inactive, hand_torque active, "; }));
+  // A controller has the gains of its own joints.
+  const Json gains = running.ask({"gains", "get", "hand"}).at("parameters");
+  REQUIRE(!gains.empty());
+  for (const Json& gain : gains) {
+    CHECK(gain.at("name").get<std::string>().starts_with("hand.elbow_active_joint."));
+  }
+  CHECK(running.end().exit_code == 0);
+}
+
+TEST_CASE("velocities go to simulated drives, and to a mock") {
+  const Q2dFile robot;
+  const ScratchFile controllers("velocity.yaml");
+  write(controllers.path(),
+        "controller_manager:\n  ros__parameters:\n    update_rate: 100\n"
+        "    arm: {type: velocity_controllers/JointGroupVelocityController}\n"
+        "    follower: {type: velocity_controllers/JointTrajectoryController}\n"
+        "arm:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+        "follower:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+        "    gains: {shoulder_active_joint: {p: 5}, elbow_active_joint: {p: 5}}\n");
+  for (const bool mocks : {false, true}) {
+    std::vector<std::string> words{robot.name(), controllers.path().string()};
+    if (mocks) words.emplace_back("--mock");
+    Running running(words);
+    CHECK(running.begin().at("controllers").at(1).at("class") == "PositionByVelocity");
+    REQUIRE(
+        eventually([&] { return running.ask({"status"}).at("situation").at("mode") == "active"; }));
+    const auto elbow = [&] {
+      return running.ask({"status"}).at("joints").at(1).at("position").get<double>();
+    };
+    running.ask({"publish", "--velocity", "elbow_active_joint=0.2"});
+    CHECK(eventually([&] { return elbow() > 0.02; }));
+    running.ask({"stop"});
+    running.ask({"switch", "--start", "follower", "--replace"});
+    running.ask({"go", "elbow_active_joint=-0.1", "--wait"});
+    CHECK(eventually([&] { return std::abs(elbow() + 0.1) < 1e-3; }));
+    CHECK(running.end().exit_code == 0);
+  }
+}
+
+TEST_CASE("the tolerances of the file count in trajectories") {
+  const Q2dFile robot;
+  const ScratchFile controllers("tolerances.yaml"), trajectory("trajectory.yaml");
+  write(trajectory.path(),
+        "joint_names: [elbow_active_joint]\n"
+        "points: [{positions: [0.3], velocities: [0], time_from_start: 0.5}]\n");
+  // Simulated drives lag behind a moving target by far more than 0.1 mrad, and by less than 1 rad.
+  for (const auto& [tolerance, status] : {std::pair{"0.0001", 1}, std::pair{"1.0", 0}}) {
+    write(controllers.path(),
+          "controller_manager:\n  ros__parameters:\n    update_rate: 100\n"
+          "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
+          "arm:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+          "    command_interfaces: [position]\n    state_interfaces: [position, velocity]\n"
+          "    constraints: {elbow_active_joint: {trajectory: " +
+              std::string(tolerance) + "}}\n");
+    Running running({robot.name(), controllers.path().string()});
+    REQUIRE(
+        eventually([&] { return running.ask({"status"}).at("situation").at("mode") == "active"; }));
+    const Result result =
+        run_articula({"--port", running.port(), "play", trajectory.path().string()});
+    INFO(result.output + result.errors);
+    CHECK(result.exit_code == status);
+    const bool is_named = result.errors.find("path tolerance violated") != std::string::npos;
+    CHECK(is_named == (status == 1));
+    CHECK(running.end().exit_code == 0);
+  }
 }
 
 TEST_CASE("a port that is in use is named") {
@@ -255,9 +365,31 @@ TEST_CASE("a new project has the robot, the controllers and a short program") {
   CHECK(text("CMakeLists.txt").find("TIP \"tool_link\"") != std::string::npos);
   CHECK(text("main.cpp").find("articula::ComputedTorque<") != std::string::npos);
   CHECK(text("robot.urdf") == articula::remote::urdf_text(articula::Q2d()));
+  CHECK(text("main.cpp").find(".urdf =") == std::string::npos);  // it has no visuals
   // What is there is never overwritten.
   check_refused(
       run_articula({"new", robot.name(), files + "/q2d.yaml", "--output", folder.string()}),
       "not empty");
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a new project shows the visuals and the meshes of its robot") {
+  const support::ScratchFolder scratch("articula-new-meshes");
+  scratch.write("my_arm/package.xml", "<package/>");
+  std::string urdf = articula::remote::urdf_text(articula::Q2d());
+  urdf.insert(urdf.rfind("</robot>"),
+              "<link name=\"plate\"><visual><geometry><mesh filename=\"package://my_arm/a.stl\"/>"
+              "</geometry></visual></link><joint name=\"plate_joint\" type=\"fixed\">"
+              "<parent link=\"tool_link\"/><child link=\"plate\"/></joint>");
+  scratch.write("my_arm/arm.urdf", urdf);
+  const std::string output = (scratch.path() / "project").string();
+  const Result result = run_articula({"new", (scratch.path() / "my_arm/arm.urdf").string(),
+                                      files + "/q2d.yaml", "--output", output});
+  INFO(result.output + result.errors);
+  REQUIRE(result.exit_code == 0);
+  std::ifstream stream(output + "/main.cpp");
+  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+  CHECK(text.find(".urdf = URDF") != std::string::npos);
+  const std::string folder = std::filesystem::canonical(scratch.path() / "my_arm").string();
+  CHECK(text.find("{\"my_arm\", \"" + folder + "\"}") != std::string::npos);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "../controllers_file.hpp"
+#include "../joint_groups.hpp"
 #include "../program.hpp"
 
 #include <articula/urdf/description.hpp>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace terminal {
 
@@ -19,6 +21,7 @@ struct LoopPlan {
   articula::UrdfDescription robot;
   std::string urdf_text{};  ///< for viewers; empty: made from the model
   ControllersPlan controllers{};
+  std::vector<PlannedGroup> groups{};  ///< of the robot's joints, at most 4
   bool is_mock = false;
   std::string address{};  ///< to be reached at
   std::uint16_t port = 0;
@@ -39,12 +42,9 @@ struct LoopEnd {
   std::string status{};  ///< of the last cycle
 };
 
-/// Runs a loop for a robot with N joints in this thread.
+/// Runs a loop for a robot with N joints that take commands, and its moving bodies, in this thread.
 /// @throws Refusal, articula::FileError, std::invalid_argument, std::system_error
-template <int N, Drives D>
+template <int N, int Bodies>
 LoopEnd run_loop(const LoopPlan& plan);
-
-/// The largest N for which there is run_loop.
-inline constexpr int most_joints = 8;
 
 }  // namespace terminal

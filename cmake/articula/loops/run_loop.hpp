@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Runs a loop that files describe. Compiled once for each number of joints and kind of drives.
+/// @file Runs a loop that files describe. Compiled once for each size of robots.
 #pragma once
 
 #include "listed_controllers.hpp"
@@ -7,6 +7,7 @@
 
 #include <articula/articula.hpp>
 #include <articula/config/load_pid_gains.hpp>
+#include <articula/config/load_trajectory_tolerances.hpp>
 #include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/loop/realtime/run_realtime.hpp>
 #include <articula/loop/realtime/stop_on_signal.hpp>
@@ -15,6 +16,8 @@
 #include <articula/view/view.hpp>
 
 #include <cmath>
+#include <cstddef>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -60,28 +63,73 @@ struct Family<R, Drives::positions> {
   }
 };
 
+template <articula::Robot R>
+struct Family<R, Drives::velocities> {
+  using Command = articula::VelocityCommand<articula::joint_count<R>>;
+  using Any =
+      AnyController<R, Command, articula::ForwardVelocity<R>, articula::PositionByVelocity<R>>;
+
+  static Any make(const R& robot, ControllerKind kind,
+                  const articula::JointPidGains<articula::joint_count<R>>& gains) {
+    if (kind == ControllerKind::position_by_velocity) {
+      return {articula::PositionByVelocity<R>(robot, gains)};
+    }
+    return {articula::ForwardVelocity<R>(robot)};
+  }
+};
+
+/// The tolerances of trajectories: for each joint those of the first controller that has some.
+template <articula::Robot R>
+auto tolerances(const LoopPlan& plan, const R& robot) {
+  constexpr int n = articula::joint_count<R>;
+  articula::TrajectoryTolerances<n> all{.stopped_velocity = articula::JointVector<n>::Zero()};
+  articula::JointArray<bool, n> has{};
+  bool is_first = true;
+  for (const PlannedController& planned : plan.controllers.controllers) {
+    if (!planned.has_tolerances) continue;
+    const auto own =
+        articula::load_trajectory_tolerances(robot, plan.controllers.file, planned.section)
+            .tolerances;
+    for (const articula::ConfiguredJoint& joint : planned.joints) {
+      const int j = articula::joint_index(robot, joint.name);
+      if (std::exchange(has[j], true)) continue;
+      all.path_position[j] = own.path_position[j];
+      all.goal_position[j] = own.goal_position[j];
+      all.stopped_velocity[j] = own.stopped_velocity[j];
+    }
+    if (std::exchange(is_first, false)) all.goal_time = own.goal_time;
+  }
+  return all;
+}
+
 /// Runs a loop with this hardware.
 template <Drives D, articula::Robot R, class Hardware>
 LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
   constexpr int n = articula::joint_count<R>;
   using Own = Family<R, D>;
-  std::vector<articula::Name> names;
-  std::vector<typename Own::Any> controllers;
-  for (const PlannedController& planned : plan.controllers.controllers) {
-    articula::JointPidGains<n> gains{};
-    if (traits_of(planned.kind).has_gains) {
-      gains = articula::load_pid_gains(robot, plan.controllers.file, planned.section).gains;
-    }
-    names.emplace_back(planned.name);
-    controllers.push_back(Own::make(robot, planned.kind, gains));
-  }
   using Controllers = ListedControllers<R, typename Own::Any>;
+  std::vector<typename Controllers::Group> groups;
+  for (const PlannedGroup& planned_group : plan.groups) {
+    auto& group = groups.emplace_back();
+    for (const std::string& joint : planned_group.joints) group.joints.emplace_back(joint);
+    for (const std::size_t at : planned_group.controllers) {
+      const PlannedController& planned = plan.controllers.controllers[at];
+      articula::JointPidGains<n> gains{};
+      if (traits_of(planned.kind).has_gains) {
+        gains = articula::load_pid_gains(robot, plan.controllers.file, planned.section,
+                                         articula::GainsOf::some_joints)
+                    .gains;
+      }
+      group.names.emplace_back(planned.name);
+      group.controllers.push_back(Own::make(robot, planned.kind, gains));
+    }
+  }
   // Simulated drives suffer no harm from a desktop's overruns.
   constexpr int any_number = 1000000;
   articula::SupervisedControlLoop<Hardware, Controllers> loop(
-      std::move(hardware), Controllers(robot, names, controllers), {.overruns = any_number},
+      std::move(hardware), Controllers(robot, groups), {.overruns = any_number},
       plan.controllers.period);
-  articula::Remote remote(loop, {.urdf = plan.urdf_text});
+  articula::Remote remote(loop, {.tolerances = tolerances(plan, robot), .urdf = plan.urdf_text});
   articula::View view(remote, {.address = plan.address,
                                .port = plan.port,
                                .operates = !plan.is_read_only,
@@ -106,17 +154,31 @@ LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
   return {report.cycles, report.overruns, std::string(articula::to_string(report.status))};
 }
 
-template <int N, Drives D>
-LoopEnd run_loop(const LoopPlan& plan) {
-  const articula::Model<N> robot = articula::load_urdf<N>(plan.robot);
-  if constexpr (D == Drives::positions) {
-    using Mock = articula::MockHardware<articula::Model<N>, articula::PositionCommand<N>>;
-    if (plan.is_mock) return run_with<D>(plan, robot, Mock(robot, {}, plan.controllers.period));
+/// Runs a simulation or, of drives that close a loop of their own, a mock.
+template <Drives D, articula::Robot R>
+LoopEnd run_drives(const LoopPlan& plan, const R& robot) {
+  const double period = plan.controllers.period;
+  if constexpr (D != Drives::efforts) {
+    using Mock = articula::MockHardware<R, typename Family<R, D>::Command>;
+    if (plan.is_mock) return run_with<D>(plan, robot, Mock(robot, {}, period));
   }
   return run_with<D>(
       plan, robot,
-      articula::Simulator<articula::Model<N>>(
-          robot, {.period = plan.controllers.period, .substeps = plan.controllers.substeps}));
+      articula::Simulator<R>(robot, {.period = period, .substeps = plan.controllers.substeps}));
+}
+
+template <int N, int Bodies>
+LoopEnd run_loop(const LoopPlan& plan) {
+  const auto robot = articula::load_urdf<N, Bodies>(plan.robot);
+  switch (plan.controllers.drives) {
+    case Drives::efforts:
+      return run_drives<Drives::efforts>(plan, robot);
+    case Drives::velocities:
+      return run_drives<Drives::velocities>(plan, robot);
+    case Drives::positions:
+      break;
+  }
+  return run_drives<Drives::positions>(plan, robot);
 }
 
 }  // namespace terminal

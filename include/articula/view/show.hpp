@@ -5,11 +5,14 @@
 #include "articula/loop/realtime/monotonic_clock.hpp"
 #include "articula/loop/realtime/stop_on_signal.hpp"
 #include "articula/remote/remote.hpp"
+#include "articula/urdf/xml/source.hpp"
 #include "articula/view/open_in_browser.hpp"
 #include "articula/view/view.hpp"
 
+#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <limits>
 #include <string>
 
 namespace articula {
@@ -17,7 +20,11 @@ namespace articula {
 /// Options of `show`: a view that lets clients operate, and a run until Ctrl-C.
 struct ShowOptions {
   ViewOptions view{.operates = true};
-  RunOptions run{};            ///< `stop` is set by `show`
+  RunOptions run{};                                          ///< `stop` is set by `show`
+  double seconds = std::numeric_limits<double>::infinity();  ///< after which the run ends [s]
+  /// The robot's URDF, whose visuals the view shows: a file's name, or XML. `view.mesh_folders` has the
+  /// folders of its meshes. Empty: the view shows links as bones.
+  std::string urdf{};
   bool opens_browser = false;  ///< opens the address on this machine, if it has a screen
 };
 
@@ -31,20 +38,24 @@ struct ShowOptions {
 /// Prints the address and the loop's notices on standard output. For real-time priority, a recorder
 /// or an own thread, use Remote, View and `run` as this function does.
 /// @return the exit status of a program: 0, or 1 with a line on standard error if the view cannot
-///         start
+///         start or the URDF cannot be read
 template <class LoopType>
 int show(LoopType& loop, const ShowOptions& options = {}) {
   try {
-    Remote remote(loop);
+    const std::string urdf = options.urdf.empty() ? "" : UrdfSource(options.urdf).text();
+    Remote remote(loop, {.urdf = urdf});
+    StopFlag stop;
+    const StopOnSignal on_signal(stop);  // before anybody knows that it runs
     const View view(remote, options.view);
     for (const std::string& notice : loop.notices()) std::printf("notice: %s\n", notice.c_str());
     std::printf("%s shows the robot. Ctrl-C ends the program.\n", view.url().c_str());
     std::fflush(stdout);
     if (options.opens_browser) open_in_browser(view.url());
-    StopFlag stop;
-    const StopOnSignal on_signal(stop);
     RunOptions run = options.run;
     run.stop = &stop;
+    const double cycles = options.seconds / loop.period();
+    if (cycles < static_cast<double>(run.cycles))
+      run.cycles = static_cast<std::uint64_t>(cycles + 0.5);
     MonotonicClock clock;
     remote.run(clock, run);
     return 0;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A CMake project that compiles the loop which `articula run` makes from the same files.
+#pragma once
+
+#include "controllers_file.hpp"
+#include "joint_groups.hpp"
+
+#include <articula/urdf/description.hpp>
+#include <articula/urdf/xml/source.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace terminal {
+
+/// The robot of a URDF, with the chain and the gravity of its controllers' file.
+/// @throws articula::FileError as read_urdf
+[[nodiscard]] articula::UrdfDescription read_robot(const articula::UrdfSource& source,
+                                                   const ControllersPlan& plan,
+                                                   bool allows_unphysical);
+
+/// What a project is made of.
+struct ProjectOptions {
+  std::string robot{};  ///< name of the robot's file
+  std::string urdf{};   ///< the URDF
+  ControllersPlan controllers{};
+  std::vector<PlannedGroup> groups{};  ///< at least one
+  bool allows_unphysical = false;
+  bool is_mock = false;
+};
+
+/// A project: the name of its program, and its files by name.
+struct Project {
+  std::string name{};
+  std::map<std::string, std::string> files{};
+};
+
+/// @throws Refusal if the controllers' file cannot be read
+[[nodiscard]] Project make_project(const ProjectOptions& options);
+
+/// Writes the files of a project into a folder, which is made if it is not there.
+/// @throws Refusal if that is not possible
+void write_project(const Project& project, const std::string& folder);
+
+}  // namespace terminal

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file A loop in a browser, with the options of a command line. POSIX; target articula::view.
+#pragma once
+
+#include "articula/core/refuse.hpp"
+#include "articula/text/numbers.hpp"
+#include "articula/view/show.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <string_view>
+
+namespace articula {
+
+/// Options of `show` that a command line changes:
+///
+/// | option | meaning |
+/// |---|---|
+/// | --port 8765 | ViewOptions::port |
+/// | --address 127.0.0.1 | ViewOptions::address |
+/// | --token <text> | ViewOptions::token |
+/// | --read-only | clients watch only |
+/// | --view | opens the address on this machine |
+/// | --seconds 10 | ShowOptions::seconds |
+///
+/// @param options  what the command line does not name
+/// @param count    number of words, as that of `main`
+/// @param words    the words, of which the first is the program
+/// @throws std::invalid_argument naming the word and what was expected
+/// Real-time: no (allocates, throws).
+[[nodiscard]] inline ShowOptions with_arguments(ShowOptions options, int count,
+                                                const char* const* words) {
+  for (int i = 1; i < count; ++i) {
+    const std::string_view option = words[i];
+    const auto text = [&]() -> std::string_view {
+      if (++i >= count) detail::refuse({"option ", option, ": its value is missing"});
+      return words[i];
+    };
+    const auto number = [&](double most) {
+      const std::string_view value = text();
+      const auto x = detail::number_of(value);
+      if (!x || !(*x >= 0 && *x <= most)) {
+        detail::refuse({"option ", option, ": '", value, "' is not a number within 0 .. ", most});
+      }
+      return *x;
+    };
+    if (option == "--port") {
+      options.view.port = static_cast<std::uint16_t>(number(65535));
+    } else if (option == "--address") {
+      options.view.address = text();
+    } else if (option == "--token") {
+      options.view.token = text();
+    } else if (option == "--read-only") {
+      options.view.operates = false;
+    } else if (option == "--view") {
+      options.opens_browser = true;
+    } else if (option == "--seconds") {
+      options.seconds = number(1e6);
+    } else {
+      detail::refuse({"'", option, "' is no option; there are --port, --address, --token, ",
+                      "--read-only, --view and --seconds"});
+    }
+  }
+  return options;
+}
+
+/// `show` for a program whose user gives the options on its command line:
+///
+///     int main(int count, char** words) {
+///       articula::SupervisedLoop<articula::Q2dSim, articula::PidPlusGravity> arm;
+///       return articula::show_with_arguments(arm, count, words);
+///     }
+///
+/// @return the exit status of the program: that of `show`, or 2 with a line on standard error if an
+///         option is wrong
+template <class LoopType>
+int show_with_arguments(LoopType& loop, int count, const char* const* words,
+                        const ShowOptions& options = {}) {
+  try {
+    return show(loop, with_arguments(options, count, words));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
+
+}  // namespace articula
