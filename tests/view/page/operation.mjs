@@ -35,18 +35,6 @@ export async function futures(browser, url) {
   const robot = await openPage(browser, url);
   await robot.tab('gains');
   const field = 'input[aria-label^="pid_plus_gravity.shoulder_active_joint.p "]';
-  // Bluish pixels, as those of the first joint, at times that are still to come.
-  const pixels = () =>
-    robot.page.evaluate(() => {
-      const {plot} = articula.plots.panes[0];
-      const now = Math.ceil(plot.valToPos(articula.session.samples.lastTime, 'x', true));
-      const {left, top, width, height} = plot.bbox;
-      const ahead = Math.max(1, left + width - now);
-      const {data} = plot.ctx.getImageData(now, top, ahead, height);
-      let count = 0;
-      for (let k = 0; k < data.length; k += 4) count += data[k + 2] > data[k] + 40;
-      return count;
-    });
   const shows = (text) =>
     robot.until(
       `the text ${text}`,
@@ -62,9 +50,18 @@ export async function futures(browser, url) {
     const {futures, samples} = articula.session;
     return futures && futures.time + futures.horizon > samples.lastTime;
   });
-  await pause(1000); // some redraws
-  const withFan = await pixels();
-  check(withFan > 50, `the fan is drawn, not ${withFan} pixels of it`);
+  // Bluish pixels, as those of the first joint, later than the last cycle that is drawn.
+  await robot.until('the fan is drawn', () => {
+    const {plot} = articula.plots.panes[0];
+    const last = Math.ceil(plot.valToPos(plot.data[0].at(-1), 'x', true)) + 2;
+    const {left, top, width, height} = plot.bbox;
+    const ahead = left + width - last;
+    if (!(ahead > 1)) return false;
+    const {data} = plot.ctx.getImageData(last, top, ahead, height);
+    let count = 0;
+    for (let k = 0; k < data.length; k += 4) count += data[k + 2] > data[k] + 40;
+    return count > 50;
+  });
   await robot.picture('futures');
   await robot.type('input[aria-label^="pid_plus_gravity.shoulder_active_joint.d "]', 1000);
   await shows('unstable');
