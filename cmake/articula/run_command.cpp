@@ -21,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
@@ -107,7 +108,8 @@ std::vector<std::string> arguments_of(const Program& program, const Run& options
   const auto add = [&](std::initializer_list<std::string> words) {
     arguments.insert(arguments.end(), words);
   };
-  if (!program.token.empty()) add({"--token", program.token});
+  // Other users can read the arguments of a program.
+  if (!program.token.empty()) setenv("ARTICULA_TOKEN", program.token.c_str(), 1);
   if (options.is_read_only) add({"--read-only"});
   if (options.shows) add({"--view"});
   if (std::isfinite(options.seconds)) {

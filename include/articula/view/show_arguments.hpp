@@ -6,9 +6,9 @@
 #include "articula/text/numbers.hpp"
 #include "articula/view/show.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 #include <string_view>
@@ -26,13 +26,15 @@ namespace articula {
 /// | --view | opens the address on this machine |
 /// | --seconds 10 | ShowOptions::seconds |
 ///
-/// @param options  what the command line does not name
+/// Without --token the variable ARTICULA_TOKEN is used, which other users cannot read.
+/// @param options  what neither names
 /// @param count    number of words, as that of `main`
 /// @param words    the words, of which the first is the program
 /// @throws std::invalid_argument naming the word and what was expected
 /// Real-time: no (allocates, throws).
 [[nodiscard]] inline ShowOptions with_arguments(ShowOptions options, int count,
                                                 const char* const* words) {
+  if (const char* token = std::getenv("ARTICULA_TOKEN")) options.view.token = token;
   for (int i = 1; i < count; ++i) {
     const std::string_view option = words[i];
     const auto text = [&]() -> std::string_view {
