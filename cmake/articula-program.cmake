@@ -57,6 +57,19 @@ set_property(
 target_link_libraries(articula_program PRIVATE articula::recording articula::config articula::urdf
                                                articula::view CLI11::CLI11)
 
+# What offers loops to ROS 2. Without Fast DDS it refuses.
+add_library(articula_ros2_command OBJECT ${CMAKE_CURRENT_LIST_DIR}/articula/ros2/ros2_options.cpp)
+target_link_libraries(articula_ros2_command PRIVATE articula::recording CLI11::CLI11)
+if(TARGET articula::ros2)
+  target_compile_definitions(articula_ros2_command PRIVATE ARTICULA_PROGRAM_HAS_ROS2)
+  target_link_libraries(articula_ros2_command PRIVATE articula::ros2)
+  target_link_libraries(articula_program PRIVATE $<LINK_ONLY:articula::ros2>)
+endif()
+if(TARGET articula_warnings)
+  target_link_libraries(articula_ros2_command PRIVATE articula_warnings articula_sanitizers)
+endif()
+target_link_libraries(articula_program PRIVATE articula_ros2_command)
+
 # The command sweep, if its library is found. Its loops, too, are compiled for some numbers of joints.
 set(ARTICULA_SWEPT_JOINTS
     "2;6;7"

@@ -67,6 +67,7 @@ int run(int count, char** words) {
   add_record_command(app, program);
   add_joints_command(app, program);
   add_run_command(app, program);
+  add_simulate_command(app, program);
 #ifdef ARTICULA_PROGRAM_HAS_SWEEP
   add_sweep_command(app, program);
 #endif

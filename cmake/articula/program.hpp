@@ -65,6 +65,7 @@ void add_simulation_commands(CLI::App& app, Program& program);
 void add_record_command(CLI::App& app, Program& program);
 void add_joints_command(CLI::App& app, Program& program);
 void add_run_command(CLI::App& app, Program& program);
+void add_simulate_command(CLI::App& app, Program& program);
 void add_sweep_command(CLI::App& app, Program& program);
 void add_new_command(CLI::App& app, Program& program);
 void add_completion_command(CLI::App& app, Program& program);

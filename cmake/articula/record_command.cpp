@@ -7,13 +7,19 @@
 #include <articula/core/status.hpp>
 #include <articula/recording/mcap_writer.hpp>
 #include <articula/recording/record_json.hpp>
+#include <articula/recording/ros_record_writer.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace terminal {
@@ -101,39 +107,102 @@ Json present_settings(Connection& connection) {
   return change;
 }
 
-void record(const Program& program, const std::string& file, double seconds) {
-  Connection connection(program);
-  const CycleRows rows(connection.call("/robot"));
-  articula::McapWriter writer(file, "cycle", "articula.Cycle",
-                              articula::schema_of(rows.example()).dump());
-  Json settings = present_settings(connection);
+/// Cycles that came, and those that were lost on the way.
+struct Counts {
+  std::uint64_t cycles = 0, lost = 0;
+};
+
+/// Calls function(columns, k) for each cycle that comes, until Ctrl-C or the end of a time.
+template <class Function>
+Counts for_each_cycle(Connection& connection, double seconds, Function&& function) {
   connection.subscribe("/cycles");
   end_on_signal();
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
-  std::uint64_t cycles = 0, lost = 0, last = 0;
+  Counts counts;
+  std::uint64_t last = 0;
   for (;;) {
     const double left = seconds - std::chrono::duration<double>(Clock::now() - begin).count();
-    if (is_ended() || left <= 0) break;
+    if (is_ended() || left <= 0) return counts;
     const auto message = connection.next(std::min(left, 1.0));
     if (!message) continue;  // the simulated time may be stopped
     const Json& columns = message->content;
     for (std::size_t k = 0; k < columns.at("time").size(); ++k) {
       const auto number = columns.at("number").at(k).get<std::uint64_t>();
-      const auto time = columns.at("time").at(k);
-      Json row = rows.row(columns, k);
-      if (cycles == 0 && !settings.empty()) row["changes"].push_back(std::move(settings));
-      for (const Json& change : columns.at("changes")) {
-        if (change.at("cycle") == number) row["changes"].push_back(change.at("change"));
-      }
-      if (cycles > 0 && number > last + 1) lost += number - last - 1;
+      if (counts.cycles > 0 && number > last + 1) counts.lost += number - last - 1;
       last = number;
-      ++cycles;
-      const double now = time.is_number() ? std::max(time.get<double>(), 0.0) : 0.0;
-      writer.write(std::chrono::nanoseconds(std::llround(now * 1e9)), row.dump());
+      function(columns, k);
+      ++counts.cycles;
     }
   }
+}
+
+double time_of(const Json& columns, std::size_t k) {
+  const Json& time = columns.at("time").at(k);
+  return time.is_number() ? std::max(time.get<double>(), 0.0) : 0.0;
+}
+
+/// Messages in JSON, from which the run can be computed again.
+Counts record_cycles(Connection& connection, const std::string& file, double seconds) {
+  const CycleRows rows(connection.call("/robot"));
+  articula::McapWriter writer(file, "cycle", "articula.Cycle",
+                              articula::schema_of(rows.example()).dump());
+  Json settings = present_settings(connection);
+  const Counts counts =
+      for_each_cycle(connection, seconds, [&](const Json& columns, std::size_t k) {
+        Json row = rows.row(columns, k);
+        if (!settings.empty()) row["changes"].push_back(std::exchange(settings, Json()));
+        for (const Json& change : columns.at("changes")) {
+          if (change.at("cycle") == columns.at("number").at(k)) {
+            row["changes"].push_back(change.at("change"));
+          }
+        }
+        writer.write(std::chrono::nanoseconds(std::llround(time_of(columns, k) * 1e9)), row.dump());
+      });
   writer.close();
+  return counts;
+}
+
+/// Messages of ROS 2.
+Counts record_ros(Connection& connection, const std::string& file, double seconds) {
+  const Json robot = connection.call("/robot");
+  std::vector<std::string> joints;
+  for (const Json& joint : robot.at("joints")) joints.push_back(joint.at("name"));
+  using articula::RosRecordWriter;
+  RosRecordWriter writer(file, joints);
+  const Counts counts =
+      for_each_cycle(connection, seconds, [&](const Json& columns, std::size_t k) {
+        const auto all = [&](const Json& quantity) {
+          std::vector<double> values;
+          for (const Json& joint : quantity) {
+            const Json& value = joint.at(k);
+            values.push_back(value.is_number() ? value.get<double>()
+                                               : std::numeric_limits<double>::quiet_NaN());
+          }
+          return values;
+        };
+        const double time = time_of(columns, k);
+        writer.write(
+            RosRecordWriter::Topic::joint_states, time,
+            {all(columns.at("position")), all(columns.at("velocity")), all(columns.at("effort"))});
+        writer.write(RosRecordWriter::Topic::reference, time,
+                     {all(columns.at("reference_position")), all(columns.at("reference_velocity")),
+                      all(columns.at("reference_effort"))});
+        const auto command = [&](const char* quantity) {
+          const Json& commands = columns.at("command");
+          return commands.contains(quantity) ? all(commands.at(quantity)) : std::vector<double>();
+        };
+        writer.write(RosRecordWriter::Topic::command, time,
+                     {command("position"), command("velocity"), command("effort")});
+      });
+  writer.close();
+  return counts;
+}
+
+void record(const Program& program, const std::string& file, double seconds, bool as_ros) {
+  Connection connection(program);
+  const auto [cycles, lost] =
+      as_ros ? record_ros(connection, file, seconds) : record_cycles(connection, file, seconds);
   program.print({{"file", file}, {"cycles", cycles}, {"lost", lost}},
                 file + ": " + std::to_string(cycles) + " cycles" +
                     (lost == 0 ? "" : ", " + std::to_string(lost) + " lost on the way"));
@@ -145,16 +214,19 @@ void add_record_command(CLI::App& app, Program& program) {
   struct Record {
     std::string file;
     double seconds = 1e6;
+    bool as_ros = false;
   };
   const auto options = std::make_shared<Record>();
-  CLI::App* command =
-      add_command(app, program, "record", "Records all cycles to an MCAP file until Ctrl-C.",
-                  [&program, options] { record(program, options->file, options->seconds); });
+  CLI::App* command = add_command(
+      app, program, "record", "Records all cycles to an MCAP file until Ctrl-C.",
+      [&program, options] { record(program, options->file, options->seconds, options->as_ros); });
   command->add_option("file", options->file, "for PlotJuggler and Foxglove, as out.mcap")
       ->required();
   command->add_option("--seconds", options->seconds, "how long [s]")
       ->check(within(0.0, 1e6))
       ->default_str("until Ctrl-C");
+  command->add_flag("--ros", options->as_ros,
+                    "messages of ROS 2: /joint_states, /reference, /command");
 }
 
 }  // namespace terminal

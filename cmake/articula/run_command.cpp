@@ -8,6 +8,7 @@
 #include "program.hpp"
 #include "project.hpp"
 #include "robot_file.hpp"
+#include "ros2/ros2_options.hpp"
 #include "table.hpp"
 #include "within.hpp"
 
@@ -38,6 +39,7 @@ namespace fs = std::filesystem;
 
 struct Run {
   std::string robot{}, controllers{};
+  std::string command{};  ///< without a file of controllers: the quantity that is passed on
   std::vector<std::string> chosen{};
   bool is_mock = false, shows = false, is_read_only = false, allows_unphysical = false;
   bool compiles = false;
@@ -45,6 +47,7 @@ struct Run {
   int substeps = 0;  ///< 0: so many that none is longer than a millisecond
   double rate = 0;   ///< of the loop [Hz]; 0: that of the file
   double seconds = std::numeric_limits<double>::infinity();
+  Ros2Options ros2{};
 };
 
 using RunLoop = LoopEnd (*)(const LoopPlan&);
@@ -98,9 +101,10 @@ RunLoop loop_for(const articula::UrdfDescription& robot, const std::vector<Plann
 
 /// What the compiled program needs of the options.
 std::vector<std::string> arguments_of(const Program& program, const Run& options) {
-  if (program.json || options.priority > 0) {
+  if (program.json || options.priority > 0 || options.ros2.is_wanted) {
     throw WrongUsage(
-        "run: --json and --priority are not for --compile; articula new writes a program to "
+        "run: --json, --priority and --ros2 are not for --compile; articula new writes a program "
+        "to "
         "change");
   }
   std::vector<std::string> arguments{"--address", program.address, "--port",
@@ -126,8 +130,23 @@ std::string installed_page() {
   return !error && fs::exists(page / "index.html", error) ? page.string() : std::string();
 }
 
+/// A loop whose one controller passes commands on.
+ControllersPlan pass_on(const std::string& quantity) {
+  using enum ControllerKind;
+  ControllersPlan plan;
+  plan.file = "--command " + quantity;
+  plan.controllers.push_back({.name = quantity,
+                              .kind = quantity == "effort"     ? bypass
+                                      : quantity == "velocity" ? forward_velocity
+                                                               : forward_position});
+  plan.drives = traits_of(plan.controllers[0].kind).drives;
+  return plan;
+}
+
 void run(const Program& program, const Run& options) {
-  ControllersPlan controllers = read_controllers(options.controllers, options.chosen);
+  ControllersPlan controllers = options.controllers.empty()
+                                    ? pass_on(options.command)
+                                    : read_controllers(options.controllers, options.chosen);
   if (options.rate > 0) controllers.period = 1 / options.rate;
   controllers.substeps =
       options.substeps > 0 ? options.substeps : default_substeps(controllers.period);
@@ -178,6 +197,9 @@ void run(const Program& program, const Run& options) {
   plan.is_read_only = options.is_read_only;
   plan.priority = options.priority;
   plan.seconds = options.seconds;
+  Ros2Options ros2 = options.ros2;
+  ros2.operates = !options.is_read_only;
+  plan.attach = options.controllers.empty() ? ros2_robot(ros2) : ros2_bridge(ros2);
   plan.ready = [&](const std::string& url) {
     Json names = Json::array();
     std::vector<Row> rows;
@@ -207,6 +229,27 @@ void run(const Program& program, const Run& options) {
       std::to_string(end.cycles) + " cycles, " + std::to_string(end.overruns) + " overruns");
 }
 
+/// The options of loops with and without a file of controllers.
+void add_loop_options(CLI::App& command, Run& options) {
+  command.add_flag("--view", options.shows, "open the page in a browser");
+  command.add_flag("--read-only", options.is_read_only, "clients watch only");
+  command.add_flag("--allow-unphysical", options.allows_unphysical,
+                   "accept inertias that no body has");
+  command.add_option("--rate", options.rate, "of the loop [Hz]")
+      ->check(within(1.0, 20000.0))
+      ->default_str("that of the file, or 1000");
+  command.add_option("--substeps", options.substeps, "steps of the simulation in a period")
+      ->check(within(1, 10000))
+      ->default_str("steps of 1 ms or less");
+  command.add_option("--priority", options.priority, "of the loop's thread, SCHED_FIFO; 0: none")
+      ->check(within(0, 99))
+      ->capture_default_str();
+  command.add_option("--seconds", options.seconds, "how long [s]")
+      ->check(within(0.0, 1e6))
+      ->default_str("until Ctrl-C");
+  add_ros2_options(command, options.ros2);
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, Program& program) {
@@ -222,22 +265,23 @@ void add_run_command(CLI::App& app, Program& program) {
                     "joints follow every position at once, in place of a simulation");
   command->add_flag("--compile", options->compiles,
                     "compile a program for this robot, keep it, and run it");
-  command->add_flag("--view", options->shows, "open the page in a browser");
-  command->add_flag("--read-only", options->is_read_only, "clients watch only");
-  command->add_flag("--allow-unphysical", options->allows_unphysical,
-                    "accept inertias that no body has");
-  command->add_option("--rate", options->rate, "of the loop [Hz]")
-      ->check(within(1.0, 20000.0))
-      ->default_str("that of the file");
-  command->add_option("--substeps", options->substeps, "steps of the simulation in a period")
-      ->check(within(1, 10000))
-      ->default_str("steps of 1 ms or less");
-  command->add_option("--priority", options->priority, "of the loop's thread, SCHED_FIFO; 0: none")
-      ->check(within(0, 99))
+  add_loop_options(*command, *options);
+  command->add_flag("--sim-time", options->ros2.use_sim_time,
+                    "with --ros2: stamps have the loop's time, which is on /clock");
+}
+
+void add_simulate_command(CLI::App& app, Program& program) {
+  const auto options = std::make_shared<Run>();
+  options->command = "position";
+  CLI::App* command =
+      add_command(app, program, "simulate",
+                  "Simulates a robot that takes commands from ROS 2's topics or the view.",
+                  [&program, options] { run(program, *options); });
+  command->add_option("robot", options->robot, "the URDF, or a .xacro")->required();
+  command->add_option("--command", options->command, "what its drives take")
+      ->check(CLI::IsMember({"position", "velocity", "effort"}))
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "how long [s]")
-      ->check(within(0.0, 1e6))
-      ->default_str("until Ctrl-C");
+  add_loop_options(*command, *options);
 }
 
 }  // namespace terminal

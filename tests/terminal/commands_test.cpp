@@ -7,6 +7,8 @@
 
 #include <articula/recording/mcap_record_reader.hpp>
 #include <articula/replay/replay.hpp>
+#include <articula/ros2/cdr_decoder.hpp>
+#include <articula/ros2/messages/sensor_msgs.hpp>
 #include <articula/view/show_arguments.hpp>
 
 #include <algorithm>
@@ -17,7 +19,9 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <span>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -295,6 +299,28 @@ TEST_CASE("record writes all cycles to an MCAP file") {
   CHECK(bytes.find("\"shoulder_active_joint\":{\"position\":") != std::string::npos);
   check_refused(arm.ask({"record", "/no/such/folder/x.mcap", "--seconds", "0"}),
                 {"/no/such/folder"});
+}
+
+TEST_CASE("record --ros writes all cycles as messages of ROS 2") {
+  const RunningArm arm;
+  REQUIRE(eventually([&] { return mode(arm) == "active"; }));
+  const support::ScratchFile file("ros.mcap");
+  const Json result = done(arm.ask({"record", file.path().string(), "--ros", "--seconds", "1"}));
+  const auto cycles = result.at("cycles").get<std::size_t>();
+  CHECK(cycles > 0);
+  using States = articula::ros2::sensor_msgs::msg::JointState<articula::ros2::Jazzy>;
+  std::size_t messages = 0, with_position = 0;
+  articula::McapReader(file.path()).read([&](std::uint64_t, std::string_view bytes) {
+    States states;
+    REQUIRE(articula::ros2::decode(std::as_bytes(std::span(bytes)), states) ==
+            articula::ros2::CdrError::none);
+    CHECK(states.name.size() == 2);
+    CHECK(states.effort.size() == 2);
+    ++messages;
+    if (states.position.size() == 2) ++with_position;
+  });
+  CHECK(messages == 3 * cycles);       // state, reference, command
+  CHECK(with_position == 2 * cycles);  // an effort alone is commanded
 }
 
 TEST_CASE("what record writes is replayed to the last bit, with gains and a switch in it") {

@@ -17,6 +17,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -136,6 +137,7 @@ LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
                                .token = plan.token,
                                .page_folder = plan.page_folder,
                                .mesh_folders = plan.mesh_folders});
+  const std::shared_ptr<void> attached = plan.attach ? plan.attach(remote) : nullptr;
   loop.request_activation();
 
   articula::StopFlag stop;

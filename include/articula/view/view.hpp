@@ -20,9 +20,9 @@ namespace articula {
 ///     MonotonicClock clock;
 ///     run(remote, clock, {});
 ///
-/// The data are those of the Foxglove WebSocket protocol, so Foxglove, Lichtblick and PlotJuggler
-/// connect to the same address; see docs/view.md. Everything happens in a thread of the view's own,
-/// which the loop never waits for.
+/// The data are those of the Foxglove WebSocket protocol. Other programs that speak it connect to the
+/// same address; see docs/view.md for what was tried. Everything happens in a thread of the view's
+/// own, which the loop never waits for.
 class View {
  public:
   /// Opens the port and starts the thread.

@@ -179,7 +179,7 @@ TEST_CASE("a storm of announced and mutilated participants takes no memory, and 
   announce(0, 600, false);  // more than are noted, so that their memory is there
   const double before = resident();
   announce(600, 5'000, false);
-  // The 4,400 that came later would take some 60 MiB if they were noted.
+  // Those that came later are not noted.
   check_growth(before, 24);
   // A newcomer is found when the storm's leases of a second are over.
   FastDdsPeer newcomer(domain());

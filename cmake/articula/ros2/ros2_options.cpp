@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Loops of the program in ROS 2. Without Fast DDS they are refused.
+#include "ros2_options.hpp"
+
+#include "../within.hpp"
+
+#ifdef ARTICULA_PROGRAM_HAS_ROS2
+#include <articula/ros2/bridge/bridge.hpp>
+#include <articula/ros2/dds/fast_dds_transport.hpp>
+#include <articula/ros2/hardware/topic_robot.hpp>
+#endif
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+namespace terminal {
+
+namespace {
+
+/// Refuses what the command line has that ROS 2 does not take.
+void check(const Ros2Options& options) {
+#ifndef ARTICULA_PROGRAM_HAS_ROS2
+  static_cast<void>(options);
+  throw Refusal(
+      "this articula was built without ROS 2: build it where CMake finds Fast DDS (Debian 12: "
+      "libfastrtps-dev)");
+#else
+  const std::string& space = options.name_space;
+  const bool fits = std::ranges::all_of(
+      space, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; });
+  if (!space.empty() && (space.front() != '/' || space.back() == '/' || !fits)) {
+    throw Refusal("--namespace " + space +
+                  ": it begins with /, does not end with it, and has letters, digits, _ and /");
+  }
+#endif
+}
+
+#ifdef ARTICULA_PROGRAM_HAS_ROS2
+
+namespace ros2 = articula::ros2;
+
+ros2::Distribution distribution_of(const Ros2Options& options) {
+  if (options.distribution == "humble") return ros2::Distribution::humble;
+  if (options.distribution == "rolling") return ros2::Distribution::rolling;
+  return ros2::Distribution::jazzy;
+}
+
+ros2::FastDdsOptions dds_of(const Ros2Options& options) {
+  return {.domain = options.domain, .interfaces = options.interfaces};
+}
+
+#endif
+
+}  // namespace
+
+void add_ros2_options(CLI::App& command, Ros2Options& options) {
+  CLI::Option* wanted =
+      command.add_flag("--ros2", options.is_wanted, "programs of ROS 2 see and operate it");
+  command
+      .add_option("--domain", options.domain, "of ROS 2; the variable ROS_DOMAIN_ID sets it, too")
+      ->check(within(0, 232))
+      ->envname("ROS_DOMAIN_ID")
+      ->capture_default_str();
+  command.add_option("--distribution", options.distribution, "of ROS 2")
+      ->check(CLI::IsMember({"humble", "jazzy", "rolling"}))
+      ->needs(wanted)
+      ->capture_default_str();
+  command.add_option("--namespace", options.name_space, "of its nodes and topics, as /left")
+      ->needs(wanted);
+  command
+      .add_option("--interface", options.interfaces,
+                  "an IPv4 address of this host for ROS 2, in place of loopback")
+      ->check(CLI::ValidIPV4)
+      ->allow_extra_args(false)
+      ->needs(wanted);
+}
+
+Attach ros2_bridge(const Ros2Options& options) {
+  if (!options.is_wanted) return {};
+  check(options);
+#ifdef ARTICULA_PROGRAM_HAS_ROS2
+  return [options](articula::remote::Port& port) -> std::shared_ptr<void> {
+    return std::make_shared<ros2::Bridge>(
+        port, ros2::BridgeOptions{.distribution = distribution_of(options),
+                                  .dds = dds_of(options),
+                                  .name_space = options.name_space,
+                                  .operates = options.operates,
+                                  .use_sim_time = options.use_sim_time});
+  };
+#else
+  return {};
+#endif
+}
+
+Attach ros2_robot(const Ros2Options& options) {
+  if (!options.is_wanted) return {};
+  check(options);
+#ifdef ARTICULA_PROGRAM_HAS_ROS2
+  if (!options.operates) throw Refusal("--read-only: a robot behind topics takes commands");
+  return [options](articula::remote::Port& port) -> std::shared_ptr<void> {
+    const ros2::Distribution distribution = distribution_of(options);
+    ros2::TopicRobotOptions topics{.distribution = distribution};
+    topics.joint_states_topic = options.name_space + topics.joint_states_topic;
+    topics.joint_commands_topic = options.name_space + topics.joint_commands_topic;
+    return std::make_shared<ros2::TopicRobot>(
+        port, std::make_unique<ros2::FastDdsTransport>(dds_of(options), distribution), topics);
+  };
+#else
+  return {};
+#endif
+}
+
+}  // namespace terminal

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program articula in ROS 2, over DDS on loopback.
+#include <articula/remote/urdf_text.hpp>
+#include <articula/robots/q2d.hpp>
+
+#include "articula/ros2/messages/rosgraph_msgs.hpp"
+#include "articula/ros2/messages/sensor_msgs.hpp"
+#include "articula/ros2/names.hpp"
+
+#include "catch.hpp"
+#include "fast_dds_peer.hpp"
+#include "scratch_file.hpp"
+#include "support.hpp"
+#include "terminal.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+using namespace articula::ros2;
+using namespace articula::ros2::test;
+using States = sensor_msgs::msg::JointState<Jazzy>;
+using Clock = rosgraph_msgs::msg::Clock;
+
+namespace {
+
+// The program with a robot, until it is destroyed.
+class Program {
+ public:
+  explicit Program(std::vector<std::string> words) : process_(command(std::move(words))) {
+    INFO(robot_.path());
+    REQUIRE(!process_.line().empty());
+  }
+  [[nodiscard]] support::Result end() {
+    process_.interrupt();
+    return process_.end();
+  }
+
+ private:
+  std::vector<std::string> command(std::vector<std::string> words) {
+    std::ofstream(robot_.path()) << articula::remote::urdf_text(articula::Q2d());
+    std::vector<std::string> all{ARTICULA_PROGRAM, "--json", "--port", "0"};
+    for (std::string& word : words) all.push_back(word == "ROBOT" ? robot_.path().string() : word);
+    for (const char* word : {"--ros2", "--domain"}) all.emplace_back(word);
+    all.push_back(std::to_string(domain()));
+    return all;
+  }
+  support::ScratchFile robot_{"q2d.urdf"};
+  support::Process process_;
+};
+
+// The last message that came to a reader, waiting at most 30 s for the first.
+template <class M>
+std::optional<M> newest(FastDdsPeer& peer, std::size_t reader) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (std::chrono::steady_clock::now() < end) {
+    const auto all = peer.take(reader);
+    M message{};
+    if (!all.empty() && decode(all.back(), message) == CdrError::none) return message;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("articula run offers its loop to ROS 2, below a namespace") {
+  FastDdsPeer peer(domain());
+  const auto reader = peer.make_reader(topic_name("/left/joint_states"), dds_type_name<States>());
+  Program program({"run", "ROBOT", CONTROLLERS, "--namespace", "/left"});
+  const auto states = newest<States>(peer, reader);
+  REQUIRE(states);
+  CHECK(states->name == std::vector<std::string>{"shoulder_active_joint", "elbow_active_joint"});
+  CHECK(program.end().exit_code == 0);
+}
+
+TEST_CASE("articula simulate is a robot behind topics, with a clock") {
+  FastDdsPeer peer(domain());
+  const auto states = peer.make_reader(topic_name("/robot_joint_states"), dds_type_name<States>());
+  const auto clock = peer.make_reader(topic_name("/clock"), dds_type_name<Clock>());
+  const auto commands =
+      peer.make_writer(topic_name("/robot_joint_commands"), dds_type_name<States>());
+  Program program({"simulate", "ROBOT"});
+  const auto before = newest<Clock>(peer, clock);
+  REQUIRE(before);
+  States command;
+  command.name = {"elbow_active_joint", "shoulder_active_joint"};
+  command.position = {0.2, -0.1};
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  std::optional<States> state;
+  // A drive's position settles to a hundredth of the way at the latest after some time constants.
+  const auto arrived = [&] {
+    return state && std::abs(state->position.at(0) + 0.1) < 1e-3 &&
+           std::abs(state->position.at(1) - 0.2) < 2e-3;
+  };
+  while (!arrived() && std::chrono::steady_clock::now() < end) {
+    peer.write(commands, bytes_of(command));
+    state = newest<States>(peer, states);
+  }
+  CHECK(arrived());
+  const auto after = newest<Clock>(peer, clock);
+  REQUIRE(after);
+  CHECK(after->clock.sec * 1e9 + after->clock.nanosec >
+        before->clock.sec * 1e9 + before->clock.nanosec);
+  CHECK(program.end().exit_code == 0);
+}
