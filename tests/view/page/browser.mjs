@@ -84,7 +84,7 @@ export async function openPage(
   page.on('pageerror', (error) => errors.push(error));
   await page.emulateMediaFeatures([{name: 'prefers-color-scheme', value: theme}]);
   await page.setViewport({width, height, isMobile: touch, hasTouch: touch});
-  await page.goto(url);
+  await page.goto(url, {timeout: 120000}); // a busy machine is slow
   const robot = {
     page,
     /** Waits until an expression in the page is true. */
