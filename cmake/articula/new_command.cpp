@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct New {
-  std::string robot{}, controllers{}, output{};
+  std::string robot{}, controllers{}, output{}, bus{};
   std::vector<std::string> chosen{};
   bool allows_unphysical = false;
 };
@@ -27,11 +27,14 @@ void write_new(const Program& program, const New& options) {
   const ControllersPlan plan = read_controllers(options.controllers, options.chosen);
   const articula::UrdfSource source = robot_source(options.robot);
   const articula::UrdfDescription robot = read_robot(source, plan, options.allows_unphysical);
+  PlannedDrives drives;
+  if (!options.bus.empty()) drives = read_drives(plan.file, options.bus, robot);
   const Project project = make_project({.robot = options.robot,
                                         .urdf = source.text(),
                                         .controllers = plan,
                                         .groups = joint_groups(robot, plan),
-                                        .allows_unphysical = options.allows_unphysical});
+                                        .allows_unphysical = options.allows_unphysical,
+                                        .drives = drives});
   const std::string where = options.output.empty() ? project.name : options.output;
   std::error_code error;
   if (fs::exists(where, error) && !fs::is_empty(where, error)) {
@@ -57,6 +60,10 @@ void add_new_command(CLI::App& app, Program& program) {
   command->add_option("--controller", options->chosen, "one of the file to use, in place of all")
       ->allow_extra_args(false);
   command->add_option("--output", options->output, "the folder")->default_str("the robot's name");
+  command
+      ->add_option("--can", options->bus,
+                   "the real robot: the CAN interface of the drives that the YAML describes")
+      ->type_name("INTERFACE");
   command->add_flag("--allow-unphysical", options->allows_unphysical,
                     "accept inertias that no body has");
 }

@@ -83,6 +83,7 @@ bool has_gains(const ControllersPlan& plan) {
 std::string cmake_lists(const std::string& type, const std::string& program,
                         const ProjectOptions& options, bool has_visuals) {
   const ControllersPlan& plan = options.controllers;
+  const bool is_on_bus = !options.drives.interface.empty();
   std::string robot = "articula_add_robot(" + type + " URDF robot.urdf";
   if (!plan.root.empty()) robot += " ROOT " + argument(plan.root);
   if (!plan.tip.empty()) robot += " TIP " + argument(plan.tip);
@@ -105,11 +106,12 @@ std::string cmake_lists(const std::string& type, const std::string& program,
          "endif()\n\n"
          "find_package(articula " +
          std::string(articula::library_version) + " REQUIRED COMPONENTS urdf view" +
-         (has_gains(plan) ? " config" : "") + ")\n" + robot +
+         (has_gains(plan) ? " config" : "") + (is_on_bus ? " socketcan" : "") + ")\n" + robot +
          ")\n\n"
          "add_executable(" +
          program + " main.cpp)\n" + "target_link_libraries(" + program + " PRIVATE " + type +
-         " articula::view" + (has_gains(plan) ? " articula::config" : "") + ")\n" +
+         " articula::view" + (has_gains(plan) ? " articula::config" : "") +
+         (is_on_bus ? " articula::socketcan" : "") + ")\n" +
          (definitions.empty() ? "" : "target_compile_definitions(" + program + definitions + ")\n");
 }
 
@@ -185,58 +187,102 @@ std::string controllers_code(const std::string& robot, const ProjectOptions& opt
          "}}" + values + ");\n";
 }
 
+/// The hardware of a project: what it is, the headers that it needs, lines that prepare it, and the
+/// expression that makes it.
+struct HardwareCode {
+  std::string what{}, headers{}, lines{}, value{};
+};
+
+HardwareCode hardware_code(const std::string& type, const ProjectOptions& options) {
+  const ControllersPlan& plan = options.controllers;
+  const std::string period = number_text(plan.period);
+  const std::string count = "<articula::joint_count<" + type + ">>";
+  const std::string command = "articula::" +
+                              std::string(plan.drives == Drives::efforts      ? "EffortCommand"
+                                          : plan.drives == Drives::velocities ? "VelocityCommand"
+                                                                              : "PositionCommand") +
+                              count;
+  const PlannedDrives& drives = options.drives;
+  if (!drives.interface.empty()) {
+    std::string lines = "  const articula::" + drives.list + count + " drives{{\n";
+    for (const PlannedDrive& drive : drives.drives) {
+      lines += "      // " + drive.joint + "\n      " + drive.code + ",\n";
+    }
+    const std::string codec = "articula::" + drives.codec + "<" + type +
+                              (drives.commands_efforts_only ? "" : ", " + command) + ">";
+    lines += "  }};\n  using Codec = " + codec + ";\n  using Can = articula::CanHardware<" + type +
+             ", Codec, articula::SocketCan>;\n";
+    return {"on the CAN bus " + drives.interface,
+            "#include <articula/hardware/can/can_hardware.hpp>\n"
+            "#include <articula/hardware/can/socketcan.hpp>\n#include <" +
+                drives.header + ">\n",
+            lines, "Can(Codec(drives), articula::SocketCan(" + quoted(drives.interface) + "))"};
+  }
+  if (options.is_mock) {
+    return {"as a mock", "#include <articula/hardware/mock/mock_hardware.hpp>\n", "",
+            "articula::MockHardware<" + type + ", " + command + ">({}, " + period + ")"};
+  }
+  const std::string substeps =
+      plan.substeps > 1 ? ", .substeps = " + std::to_string(plan.substeps) : "";
+  return {"in simulation", "", "",
+          "articula::Simulator<" + type + ">({.period = " + period + substeps + "})"};
+}
+
 std::string main_file(const std::string& type, const ProjectOptions& options,
                       const std::string& show_options) {
   const ControllersPlan& plan = options.controllers;
-  const std::string period = number_text(plan.period);
-  const std::string substeps =
-      plan.substeps > 1 ? ", .substeps = " + std::to_string(plan.substeps) : "";
-  const std::string command =
-      plan.drives == Drives::velocities ? "VelocityCommand" : "PositionCommand";
-  const std::string hardware =
-      options.is_mock ? "articula::MockHardware<" + type + ", articula::" + command +
-                            "<articula::joint_count<" + type + ">>>({}, " + period + ")"
-                      : "articula::Simulator<" + type + ">({.period = " + period + substeps + "})";
-  return "// The robot of robot.urdf in simulation, with the controllers of controllers.yaml. For "
-         "the\n"
-         "// real robot put its driver in place of the " +
-         std::string(options.is_mock ? "mock" : "simulator") +
-         ".\n"
+  const HardwareCode hardware = hardware_code(type, options);
+  const bool is_on_bus = !options.drives.interface.empty();
+  const std::string body =
+      controllers_code(type, options) + hardware.lines +
+      (is_on_bus ? ""
+                 : "  // A desktop's overruns harm no simulation; a real robot omits this.\n") +
+      "  articula::SupervisedControlLoop arm(" + hardware.value +
+      ", controllers,\n"
+      "                                      {" +
+      (is_on_bus ? "" : ".overruns = 1000000") + "}, " + number_text(plan.period) +
+      ");\n"
+      "  arm.request_activation();\n"
+      "  // http://127.0.0.1:8765, and `articula status`; options as --port 8766.\n"
+      "  return articula::show_with_arguments(arm, count, words" +
+      show_options + ");\n";
+  return "// The robot of robot.urdf " + hardware.what +
+         ", with the controllers of controllers.yaml.\n"
          "#include <articula/articula.hpp>\n" +
          std::string(has_gains(plan) ? "#include <articula/config/load_pid_gains.hpp>\n" : "") +
-         std::string(options.is_mock ? "#include <articula/hardware/mock/mock_hardware.hpp>\n"
-                                     : "") +
+         hardware.headers +
          "#include <articula/view/show_arguments.hpp>\n"
          "#include <" +
-         snake_case(type) +
-         ".hpp>\n\n"
-         "int main(int count, char** words) {\n" +
-         controllers_code(type, options) +
-         "  // `overruns` bears those of a desktop machine; leave it out for a real robot.\n"
-         "  articula::SupervisedControlLoop arm(" +
-         hardware +
-         ", controllers,\n"
-         "                                      {.overruns = 1000000}, " +
-         period +
-         ");\n"
-         "  arm.request_activation();\n"
-         "  // http://127.0.0.1:8765, and `articula status`; options as --port 8766.\n"
-         "  return articula::show_with_arguments(arm, count, words" +
-         show_options + ");\n}\n";
+         snake_case(type) + ".hpp>\n\n" +
+         (is_on_bus ? "#include <cstdio>\n#include <exception>\n\n" : "") +
+         "int main(int count, char** words) " +
+         // The driver refuses an interface that is not there, and drives that do not fit the robot.
+         (is_on_bus ? "try {\n" + body +
+                          "} catch (const std::exception& error) {\n"
+                          "  std::fprintf(stderr, \"%s\\n\", error.what());\n"
+                          "  return 1;\n}\n"
+                    : "{\n" + body + "}\n");
 }
 
-/// The options of `show` for a robot with visuals.
-std::string show_options(const std::map<std::string, std::string>& mesh_folders) {
+/// The options of `show`: what a robot on a bus needs of its thread, and what a robot with visuals
+/// shows.
+std::string show_options(const ProjectOptions& options, bool has_visuals) {
+  std::vector<std::string> all;
   std::string folders;
-  for (const auto& [package, folder] : mesh_folders) {
-    folders += (folders.empty() ? "" : ", ") + std::string("{") + quoted(package) + ", " +
-               quoted(folder) + "}";
+  if (has_visuals) {
+    for (const auto& [package, folder] : mesh_folders(options.urdf, options.robot)) {
+      folders += (folders.empty() ? "" : ", ") + std::string("{") + quoted(package) + ", " +
+                 quoted(folder) + "}";
+    }
   }
-  const std::string view = folders.empty()
-                               ? ""
-                               : ".view = {.operates = true,\n                .mesh_folders = {" +
-                                     folders + "}},\n       ";
-  return ",\n      {" + view + ".urdf = URDF}";
+  if (!folders.empty()) {
+    all.push_back(".view = {.operates = true,\n                .mesh_folders = {" + folders + "}}");
+  }
+  if (!options.drives.interface.empty()) all.emplace_back(".thread = {.priority = 80}");
+  if (has_visuals) all.emplace_back(".urdf = URDF");
+  std::string text;
+  for (const std::string& each : all) text += (text.empty() ? "" : ",\n       ") + each;
+  return all.empty() ? "" : ",\n      {" + text + "}";
 }
 
 std::string contents_of(const std::string& file) {
@@ -264,13 +310,10 @@ Project make_project(const ProjectOptions& options) {
   const std::string type = type_name(stem);
   Project project{.name = snake_case(type)};
   const bool has_visuals = options.urdf.find("<visual") != std::string::npos;
-  project.files = {
-      {"robot.urdf", options.urdf},
-      {"controllers.yaml", contents_of(options.controllers.file)},
-      {"CMakeLists.txt", cmake_lists(type, project.name, options, has_visuals)},
-      {"main.cpp",
-       main_file(type, options,
-                 has_visuals ? show_options(mesh_folders(options.urdf, options.robot)) : "")}};
+  project.files = {{"robot.urdf", options.urdf},
+                   {"controllers.yaml", contents_of(options.controllers.file)},
+                   {"CMakeLists.txt", cmake_lists(type, project.name, options, has_visuals)},
+                   {"main.cpp", main_file(type, options, show_options(options, has_visuals))}};
   return project;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "controllers_file.hpp"
+#include "drives_file.hpp"
 #include "joint_groups.hpp"
 
 #include <articula/urdf/description.hpp>
@@ -28,6 +29,7 @@ struct ProjectOptions {
   std::vector<PlannedGroup> groups{};  ///< at least one
   bool allows_unphysical = false;
   bool is_mock = false;
+  PlannedDrives drives{};  ///< on a CAN bus; by default a simulation or the mock is in their place
 };
 
 /// A project: the name of its program, and its files by name.

@@ -2,6 +2,7 @@
 /// @file run: a robot from a URDF with the controllers of a YAML file, without a compiler.
 #include "compiled_run.hpp"
 #include "controllers_file.hpp"
+#include "drives_file.hpp"
 #include "joint_groups.hpp"
 #include "loops/loop_plan.hpp"
 #include "mesh_folders.hpp"
@@ -18,6 +19,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -43,9 +45,10 @@ struct Run {
   std::vector<std::string> chosen{};
   bool is_mock = false, shows = false, is_read_only = false, allows_unphysical = false;
   bool compiles = false;
-  int priority = 0;
-  int substeps = 0;  ///< 0: so many that none is longer than a millisecond
-  double rate = 0;   ///< of the loop [Hz]; 0: that of the file
+  std::string bus{};  ///< the CAN interface of the robot's drives; empty: there is none
+  int priority = -1;  ///< of the loop's thread; -1: 80 with a bus, else 0
+  int substeps = 0;   ///< 0: so many that none is longer than a millisecond
+  double rate = 0;    ///< of the loop [Hz]; 0: that of the file
   double seconds = std::numeric_limits<double>::infinity();
   Ros2Options ros2{};
 };
@@ -101,10 +104,9 @@ RunLoop loop_for(const articula::UrdfDescription& robot, const std::vector<Plann
 
 /// What the compiled program needs of the options.
 std::vector<std::string> arguments_of(const Program& program, const Run& options) {
-  if (program.json || options.priority > 0 || options.ros2.is_wanted) {
+  if (program.json || options.ros2.is_wanted) {
     throw WrongUsage(
-        "run: --json, --priority and --ros2 are not for --compile; articula new writes a program "
-        "to "
+        "run: --json and --ros2 are not for --compile and --can; articula new writes a program to "
         "change");
   }
   std::vector<std::string> arguments{"--address", program.address, "--port",
@@ -116,6 +118,7 @@ std::vector<std::string> arguments_of(const Program& program, const Run& options
   if (!program.token.empty()) setenv("ARTICULA_TOKEN", program.token.c_str(), 1);
   if (options.is_read_only) add({"--read-only"});
   if (options.shows) add({"--view"});
+  if (options.priority >= 0) add({"--priority", std::to_string(options.priority)});
   if (std::isfinite(options.seconds)) {
     add({"--seconds", articula::detail::number_text(options.seconds)});
   }
@@ -174,13 +177,16 @@ void run(const Program& program, const Run& options) {
   }
 
   const std::string text = source.text();
-  if (options.compiles) {
+  if (options.compiles || !options.bus.empty()) {
+    PlannedDrives drives;
+    if (!options.bus.empty()) drives = read_drives(controllers.file, options.bus, robot);
     run_compiled(make_project({.robot = options.robot,
                                .urdf = text,
                                .controllers = controllers,
                                .groups = groups,
                                .allows_unphysical = options.allows_unphysical,
-                               .is_mock = options.is_mock}),
+                               .is_mock = options.is_mock,
+                               .drives = drives}),
                  arguments_of(program, options));
   }
   const RunLoop loop = loop_for(robot, groups, controllers);
@@ -195,7 +201,7 @@ void run(const Program& program, const Run& options) {
   plan.port = program.port;
   plan.token = program.token;
   plan.is_read_only = options.is_read_only;
-  plan.priority = options.priority;
+  plan.priority = std::max(options.priority, 0);
   plan.seconds = options.seconds;
   Ros2Options ros2 = options.ros2;
   ros2.operates = !options.is_read_only;
@@ -243,7 +249,7 @@ void add_loop_options(CLI::App& command, Run& options) {
       ->default_str("steps of 1 ms or less");
   command.add_option("--priority", options.priority, "of the loop's thread, SCHED_FIFO; 0: none")
       ->check(within(0, 99))
-      ->capture_default_str();
+      ->default_str("80 with --can, else 0");
   command.add_option("--seconds", options.seconds, "how long [s]")
       ->check(within(0.0, 1e6))
       ->default_str("until Ctrl-C");
@@ -261,8 +267,13 @@ void add_run_command(CLI::App& app, Program& program) {
   command->add_option("controllers", options->controllers, "YAML of ROS's controllers")->required();
   command->add_option("--controller", options->chosen, "one of the file to use, in place of all")
       ->allow_extra_args(false);
-  command->add_flag("--mock", options->is_mock,
-                    "joints follow every position at once, in place of a simulation");
+  CLI::Option* mock = command->add_flag(
+      "--mock", options->is_mock, "joints follow every position at once, in place of a simulation");
+  command
+      ->add_option("--can", options->bus,
+                   "the real robot: the CAN interface of the drives that the YAML describes")
+      ->type_name("INTERFACE")
+      ->excludes(mock);
   command->add_flag("--compile", options->compiles,
                     "compile a program for this robot, keep it, and run it");
   add_loop_options(*command, *options);

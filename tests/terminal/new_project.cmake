@@ -32,3 +32,23 @@ execute_process(COMMAND ${run} --seconds 0.01 ERROR_VARIABLE errors COMMAND_ERRO
 if(errors MATCHES "compiles the robot")
   message(FATAL_ERROR "the program was not kept: ${errors}")
 endif()
+
+# A project for drives on a CAN bus compiles, too.
+file(READ ${CONTROLLERS} controllers)
+file(WRITE ${WORK}/can.yaml "${controllers}can_drives:\n  ros__parameters:\n    protocol: cia402\n")
+execute_process(COMMAND ${PROGRAM} --json joints --moving ${URDF} OUTPUT_VARIABLE joints COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "\"name\":\"[^\"]*\",\"type\"" names "${joints}")
+set(node 0)
+foreach(name IN LISTS names)
+  string(REGEX REPLACE "\"name\":\"([^\"]*)\".*" "\\1" name ${name})
+  math(EXPR node "${node} + 1")
+  file(APPEND ${WORK}/can.yaml "    ${name}: {node: ${node}, rated_effort: 100.0}\n")
+endforeach()
+run(${PROGRAM} new ${URDF} ${WORK}/can.yaml --can can0 --output ${WORK}/on_can)
+run(${CMAKE_COMMAND} -S ${WORK}/on_can -B ${WORK}/on_can/build -DCMAKE_BUILD_TYPE=Debug
+    -Darticula_ROOT=${WORK}/prefix "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
+if(GENERATOR MATCHES Ninja) # the libraries have been built above
+  run(${CMAKE_COMMAND} --build ${WORK}/on_can/build --target CMakeFiles/two_arm_torso.dir/main.cpp.o)
+else()
+  run(${CMAKE_COMMAND} --build ${WORK}/on_can/build)
+endif()

@@ -261,7 +261,8 @@ TEST_CASE("controllers of some joints are active at the same time, and switched 
   Running running({robot.name(), controllers.path().string()});
   const auto list = [&] {
     std::string text;
-    for (const Json& each : running.ask({"controllers"}).at("controllers")) {
+    const Json answer = running.ask({"controllers"});
+    for (const Json& each : answer.at("controllers")) {
       text +=
           each.at("name").get<std::string>() + " " + each.at("status").get<std::string>() + ", ";
     }
@@ -365,12 +366,60 @@ TEST_CASE("a new project has the robot, the controllers and a short program") {
   CHECK(text("CMakeLists.txt").find("TIP \"tool_link\"") != std::string::npos);
   CHECK(text("main.cpp").find("articula::ComputedTorque<") != std::string::npos);
   CHECK(text("robot.urdf") == articula::remote::urdf_text(articula::Q2d()));
-  CHECK(text("main.cpp").find(".urdf =") == std::string::npos);  // it has no visuals
+  CHECK(text("main.cpp").find(".urdf = URDF") != std::string::npos);  // it has visuals
   // What is there is never overwritten.
   check_refused(
       run_articula({"new", robot.name(), files + "/q2d.yaml", "--output", folder.string()}),
       "not empty");
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a project for drives on a CAN bus has their figures") {
+  const Q2dFile robot;
+  const ScratchFile controllers("can.yaml");
+  const std::string arm =
+      "arm:\n  ros__parameters:\n    type: effort_controllers/JointGroupEffortController\n"
+      "    joints: [shoulder_active_joint, elbow_active_joint]\n";
+  const std::string drives = "can_drives:\n  ros__parameters:\n    protocol: cia402\n";
+  const std::string shoulder =
+      "    shoulder_active_joint: {rated_effort: 30, node: 1, watchdog: heartbeat}\n";
+  const std::string elbow = "    elbow_active_joint: {node: 2, zero_position: -7}\n";
+  const auto made = [&](const std::string& text) {
+    write(controllers.path(), arm + text);
+    support::ScratchFolder scratch("articula-new-can");
+    const Result result = run_articula({"new", robot.name(), controllers.path().string(), "--can",
+                                        "can7", "--output", scratch.path().string()});
+    std::ifstream stream(scratch.path() / "main.cpp");
+    const std::string program((std::istreambuf_iterator<char>(stream)), {});
+    return std::pair(result, program);
+  };
+  const auto [result, program] = made(drives + elbow + shoulder);
+  INFO(result.output + result.errors + program);
+  REQUIRE(result.exit_code == 0);
+  for (const char* part :
+       {"{.node = 1, .rated_effort = 30, .watchdog = articula::Cia402Watchdog::heartbeat},\n"
+        "      // elbow_active_joint\n"
+        "      {.node = 2, .zero_position = -7}",
+        "articula::Cia402Codec<", "articula::EffortCommand<", "articula::SocketCan(\"can7\")",
+        ".thread = {.priority = 80}"}) {
+    INFO(part);
+    CHECK(program.find(part) != std::string::npos);
+  }
+
+  const auto refused = [&](const std::string& text) { return made(text).first; };
+  check_refused(refused(""), "can_drives");
+  check_refused(refused("can_drives:\n  ros__parameters:\n" + shoulder + elbow), "protocol");
+  check_refused(refused("can_drives:\n  ros__parameters:\n    protocol: ethercat\n"), "'ethercat'");
+  check_refused(refused(drives + shoulder), "'elbow_active_joint'");
+  check_refused(refused(drives + shoulder + elbow + "    wrist: {node: 3}\n"), "'wrist'");
+  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 128}\n"), "127");
+  check_refused(refused(drives + shoulder + "    elbow_active_joint: {rated_effort: 3}\n"), "node");
+  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 2, rated_efort: 3}\n"),
+                "rated_effort");
+  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 2, watchdog: dog}\n"),
+                "heartbeat");
+  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 2, rated_effort: x}\n"),
+                "a number");
 }
 
 TEST_CASE("a new project shows the visuals and the meshes of its robot") {

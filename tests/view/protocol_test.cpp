@@ -108,7 +108,7 @@ TEST_CASE("texts that are no messages of the protocol are complained about") {
         R"({"op":"unsubscribe"})",
         R"({"op":"subscribe","subscriptions":[7]})",
         R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":0}]})",
-        R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":8}]})",
+        R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":11}]})",
         R"({"op":"subscribe","subscriptions":[{"id":-1,"channelId":1}]})",
         R"({"op":"subscribe","subscriptions":[{"id":4294967296,"channelId":1}]})",
         R"({"op":"subscribe","subscriptions":[{"id":1.5,"channelId":1}]})",

@@ -63,7 +63,7 @@ TEST_CASE("a client reads all topics, operates, sets parameters and publishes") 
   FakePort port;
   const View view(port, operating());
   WebClient client(view.port());
-  CHECK(client.text("advertise")["channels"].size() == 7);
+  CHECK(client.text("advertise")["channels"].size() == 10);
   for (const int channel : {1, 2, 3, 5, 6, 7}) {
     client.subscribe(channel);
     CHECK(client.message(static_cast<std::uint32_t>(channel)).is_object());

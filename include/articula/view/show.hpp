@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A loop in a browser, in one line. POSIX; target articula::view.
+/// @file A loop in a browser, in one line. Linux; target articula::view.
 #pragma once
 
-#include "articula/loop/realtime/monotonic_clock.hpp"
+#include "articula/loop/realtime/run_realtime.hpp"
 #include "articula/loop/realtime/stop_on_signal.hpp"
 #include "articula/remote/remote.hpp"
 #include "articula/urdf/xml/source.hpp"
 #include "articula/view/open_in_browser.hpp"
 #include "articula/view/view.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -25,6 +26,7 @@ struct ShowOptions {
   /// The robot's URDF, whose visuals the view shows: a file's name, or XML. `view.mesh_folders` has the
   /// folders of its meshes. Empty: the view shows links as bones.
   std::string urdf{};
+  ThreadOptions thread{.priority = 0, .lock_memory = false};  ///< of the loop
   bool opens_browser = false;  ///< opens the address on this machine, if it has a screen
 };
 
@@ -35,8 +37,9 @@ struct ShowOptions {
 ///       return articula::show(arm);  // http://127.0.0.1:8765/
 ///     }
 ///
-/// Prints the address and the loop's notices on standard output. For real-time priority, a recorder
-/// or an own thread, use Remote, View and `run` as this function does.
+/// Prints the address on standard output, and the loop's notices on standard error. A robot with drives
+/// needs real-time priority: `{.thread = {.priority = 80}}`. For a recorder or an own thread, use
+/// Remote, View and `run` as this function does.
 /// @return the exit status of a program: 0, or 1 with a line on standard error if the view cannot
 ///         start or the URDF cannot be read
 template <class LoopType>
@@ -47,17 +50,16 @@ int show(LoopType& loop, const ShowOptions& options = {}) {
     StopFlag stop;
     const StopOnSignal on_signal(stop);  // before anybody knows that it runs
     const View view(remote, options.view);
-    for (const std::string& notice : loop.notices()) std::printf("notice: %s\n", notice.c_str());
     std::printf("%s shows the robot. Ctrl-C ends the program.\n", view.url().c_str());
     std::fflush(stdout);
     if (options.opens_browser) open_in_browser(view.url());
     RunOptions run = options.run;
     run.stop = &stop;
     const double cycles = options.seconds / loop.period();
-    if (cycles < static_cast<double>(run.cycles))
-      run.cycles = static_cast<std::uint64_t>(cycles + 0.5);
-    MonotonicClock clock;
-    remote.run(clock, run);
+    if (cycles < static_cast<double>(run.cycles)) {
+      run.cycles = static_cast<std::uint64_t>(std::llround(cycles));
+    }
+    articula::run(remote, {.thread = options.thread, .run = run}, remote.each());
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

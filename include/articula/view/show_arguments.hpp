@@ -25,6 +25,7 @@ namespace articula {
 /// | --read-only | clients watch only |
 /// | --view | opens the address on this machine |
 /// | --seconds 10 | ShowOptions::seconds |
+/// | --priority 80 | ShowOptions::thread: its priority, with the program's memory locked; 0: as any other |
 ///
 /// Without --token the variable ARTICULA_TOKEN is used, which other users cannot read.
 /// @param options  what neither names
@@ -61,9 +62,12 @@ namespace articula {
       options.opens_browser = true;
     } else if (option == "--seconds") {
       options.seconds = number(1e6);
+    } else if (option == "--priority") {
+      options.thread.priority = static_cast<int>(number(99));
+      options.thread.lock_memory = options.thread.priority > 0;
     } else {
       detail::refuse({"'", option, "' is no option; there are --port, --address, --token, ",
-                      "--read-only, --view and --seconds"});
+                      "--read-only, --view, --seconds and --priority"});
     }
   }
   return options;

@@ -181,7 +181,9 @@ TEST_CASE("a storm of announced and mutilated participants takes no memory, and 
   announce(600, 5'000, false);
   // Those that came later are not noted.
   check_growth(before, 24);
-  // A newcomer is found when the storm's leases of a second are over.
+  // Who comes when the storm's leases of a second are over is found. Fast DDS 2.9.1 never looks at
+  // a participant again whose first announcement it had no room for.
+  poll_for(transport, std::chrono::seconds(3));
   FastDdsPeer newcomer(domain());
   const std::size_t late = newcomer.make_writer("rt/text", "std_msgs::msg::dds_::String_");
   REQUIRE(poll_until(transport, [&] { return newcomer.matches_of_writer(late) == 1; }));

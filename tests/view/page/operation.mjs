@@ -84,13 +84,22 @@ export async function gain_slider(browser, url) {
   const slider = await robot.page.waitForSelector(`input[aria-label^="Slider of ${name}"]`);
   const valueOf = () => robot.page.$eval(field, ({valueAsNumber}) => valueAsNumber);
   const before = await valueOf();
-  const {x, y, width, height} = await slider.boundingBox();
-  await robot.page.mouse.move(x + width / 2, y + height / 2);
+  // While the panel fills, the slider moves and shrinks.
+  let box = null;
+  for (let last = ''; JSON.stringify(box) !== last; await pause(500)) {
+    last = JSON.stringify(box);
+    box = await slider.boundingBox();
+  }
+  const moveTo = async (part) => {
+    const {x, y, width, height} = await slider.boundingBox();
+    await robot.page.mouse.move(x + width * part, y + height / 2, {steps: 3});
+  };
+  await moveTo(0.5);
   await robot.page.mouse.down();
   // A hand is never still. A quarter of two decades, but for the width of the thumb.
   const isThere = (value) => value > before / 5 && value < before / 2;
   for (let k = 0; k < 100 && !isThere(await valueOf()); ++k) {
-    await robot.page.mouse.move(x + width / 4 + (k % 2), y + height / 2, {steps: 3});
+    await moveTo(k % 2 ? 0.25 : 0.26);
     await pause(100);
   }
   check(isThere(await valueOf()), `about a third of ${before} by the slider, not ${await valueOf()}`);

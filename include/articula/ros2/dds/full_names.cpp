@@ -44,7 +44,8 @@ void check_full_name(std::string_view what, std::string_view name) {
 }
 
 void check_type_name(std::string_view name) {
-  const std::string path = "/" + std::string(name);
+  std::string path = "/";
+  path += name;
   if (!is_path(path) || std::count(path.begin(), path.end(), '/') != 3 ||
       name.size() > longest_name) {
     articula::detail::refuse({"ros2: the type '", name,
