@@ -74,11 +74,12 @@ endfunction()
 
 # What every such page has. The server's sources for sockets and files are not among them.
 set(articula_live_folder ${PROJECT_SOURCE_DIR}/include/articula/view)
-file(GLOB articula_live_sources CONFIGURE_DEPENDS ${articula_live_folder}/protocol/*.cpp
+file(GLOB_RECURSE articula_live_sources CONFIGURE_DEPENDS ${articula_live_folder}/protocol/*.cpp
      ${articula_live_folder}/live/*.cpp)
-list(APPEND articula_live_sources ${articula_live_folder}/server/broadcast.cpp
-     ${articula_live_folder}/server/client.cpp ${articula_live_folder}/server/futures_desk.cpp
-     ${articula_live_folder}/server/latest.cpp
+list(APPEND articula_live_sources ${articula_live_folder}/server/clients/broadcast.cpp
+     ${articula_live_folder}/server/clients/client.cpp
+     ${articula_live_folder}/server/clients/latest.cpp
+     ${articula_live_folder}/server/futures/futures_desk.cpp
      ${PROJECT_SOURCE_DIR}/examples/webassembly/exceptions.cpp)
 set(articula_live_objects "")
 foreach(source IN LISTS articula_live_sources)

@@ -16,9 +16,9 @@ if(TARGET fastrtps AND TARGET Threads::Threads)
     if(NOT EXISTS ${articula_ros2_folder}/dds/fast_dds_transport.cpp)
       set(articula_ros2_folder ${CMAKE_CURRENT_LIST_DIR}/ros2)
     endif()
-    file(GLOB articula_ros2_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/node/*.cpp
+    file(GLOB_RECURSE articula_ros2_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/node/*.cpp
          ${articula_ros2_folder}/bridge/*.cpp)
-    file(GLOB articula_ros2_dds_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/dds/*.cpp)
+    file(GLOB_RECURSE articula_ros2_dds_sources CONFIGURE_DEPENDS ${articula_ros2_folder}/dds/*.cpp)
     add_library(articula_ros2 STATIC EXCLUDE_FROM_ALL ${articula_ros2_sources}
                                                       ${articula_ros2_dds_sources})
     # Reading the headers of messages and of Fast DDS takes most of the time.

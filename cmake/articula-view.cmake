@@ -18,8 +18,9 @@ if(TARGET Boost::headers AND TARGET nlohmann_json::nlohmann_json AND TARGET Thre
     endif()
     cmake_path(NORMAL_PATH articula_view_page)
 
-    file(GLOB articula_view_protocol_sources CONFIGURE_DEPENDS ${articula_view_folder}/protocol/*.cpp)
-    file(GLOB articula_view_server_sources CONFIGURE_DEPENDS ${articula_view_folder}/server/*.cpp)
+    file(GLOB_RECURSE articula_view_protocol_sources CONFIGURE_DEPENDS
+         ${articula_view_folder}/protocol/*.cpp)
+    file(GLOB_RECURSE articula_view_server_sources CONFIGURE_DEPENDS ${articula_view_folder}/server/*.cpp)
     add_library(articula_view STATIC EXCLUDE_FROM_ALL ${articula_view_protocol_sources}
                                                       ${articula_view_server_sources})
     # Reading the headers of JSON and of Boost takes most of the time.

@@ -19,7 +19,8 @@ for document in "$@"; do
   for name in $names; do
     checked=$((checked + 1))
     found=no
-    for folder in . include include/articula include/articula/* include/articula/*/* docs tests tests/* tests/*/* examples benchmarks \
+    for folder in . include include/articula include/articula/* include/articula/*/* \
+      include/articula/*/*/* docs tests tests/* tests/*/* examples benchmarks \
       benchmarks/results "$(dirname "$document")"; do
       # A name may have a * in it, or lack its ending.
       for file in "$folder"/$name "$folder"/$name.*; do

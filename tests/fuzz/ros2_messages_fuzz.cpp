@@ -3,7 +3,7 @@
 // of the packets that carry them.
 #include <articula/ros2/cdr_decoder.hpp>
 #include <articula/ros2/cdr_encoder.hpp>
-#include <articula/ros2/dds/packet_check.hpp>
+#include <articula/ros2/dds/packets/packet_check.hpp>
 #include <articula/ros2/messages/controller_manager_msgs.hpp>
 #include <articula/ros2/messages/rcl_interfaces.hpp>
 #include <articula/ros2/messages/rmw_dds_common.hpp>

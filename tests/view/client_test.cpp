@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "articula/view/server/client.hpp"
+#include "articula/view/server/clients/client.hpp"
 
 #include "articula/ros2/cdr_decoder.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
-#include "articula/view/server/broadcast.hpp"
-#include "articula/view/server/futures_thread.hpp"
+#include "articula/view/server/clients/broadcast.hpp"
+#include "articula/view/server/futures/futures_thread.hpp"
 #include "catch.hpp"
 #include "fake_port.hpp"
 #include "scratch_folder.hpp"

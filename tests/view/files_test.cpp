@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "articula/view/server/files.hpp"
+#include "articula/view/server/clients/files.hpp"
 
 #include "catch.hpp"
 #include "scratch_folder.hpp"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "articula/view/protocol/messages.hpp"
+#include "articula/view/protocol/messages/messages.hpp"
 
 #include "articula/ros2/cdr_decoder.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
-#include "articula/view/protocol/channels.hpp"
-#include "articula/view/protocol/requests.hpp"
+#include "articula/view/protocol/messages/channels.hpp"
+#include "articula/view/protocol/requests/requests.hpp"
 #include "catch.hpp"
 #include "fake_port.hpp"
 

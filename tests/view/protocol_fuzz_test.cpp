@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "articula/view/server/broadcast.hpp"
+#include "articula/view/server/clients/broadcast.hpp"
 #include "catch.hpp"
 #include "fake_port.hpp"
 #include "random.hpp"

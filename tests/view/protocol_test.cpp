@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/protocol.hpp"
 
-#include "articula/view/protocol/frame.hpp"
-#include "articula/view/protocol/json.hpp"
+#include "articula/view/protocol/json/json.hpp"
+#include "articula/view/protocol/messages/frame.hpp"
 #include "articula/view/protocol/read_stateless.hpp"
 #include "catch.hpp"
 

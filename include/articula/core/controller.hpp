@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The concept of a controller, and the functions that call one.
+/// @file How to write a controller of one's own, and how a loop calls it.
 #pragma once
 
 #include "articula/core/control_input.hpp"
@@ -78,7 +78,9 @@ template <class C, int N, class S = double>
 using CommandOf = typename detail::CommandIn<decltype(detail::called(
     std::declval<C&>(), std::declval<const ControlInput<N, S>&>()))>::Type;
 
-/// A controller for N joints computes one command per cycle. The smallest is a function:
+/// A controller for N joints computes one command in each cycle from the measured state and the
+/// reference. Write one where the ready controllers do not contain your equation. The smallest is a
+/// function:
 ///
 ///     Loop loop{Q2dSim(), [](const ControlInput<2>& in) noexcept {
 ///       return EffortCommand<2>{5 * (in.reference.position - in.state.position)};
@@ -86,21 +88,21 @@ using CommandOf = typename detail::CommandIn<decltype(detail::called(
 ///
 /// One with gains or memory is a struct:
 ///
-/// - `update(const ControlInput<N>&)` gives the command for the coming period, or an Outcome: a
-///   command with a verdict.
-/// - `start(const ControlInput<N>&)`, if there is one, forgets the past, so that the next command
-///   does not depend on it. With a command in `input.applied` that reached the drives, integrals
-///   begin with it; without one it is a cold start. A controller without memory has no `start`.
+/// - `update(const ControlInput<N>&)` returns the command for the coming period. It may return an
+///   Outcome instead: a command with a verdict.
+/// - `start(const ControlInput<N>&)`, if there is one, forgets the past. The next command does not
+///   depend on it. If `input.applied` has a command that reached the drives, integrals begin with
+///   that command. Without one, it is a cold start. A controller without memory has no `start`.
 /// - `brake(const ControlInput<N>&)`, if there is one, brakes the joints: see Brakes.
 ///
-/// The caller guarantees that state, reference and period are finite and the period is positive;
-/// no controller checks them. (`brake` alone is called with a reference that is not finite.) Up to
-/// three consecutive cycles without a call leave the controller's memory valid. After more, the
-/// caller starts it again.
+/// The caller guarantees that state, reference and period are finite, and that the period is
+/// positive. No controller checks them. Only `brake` is called with a reference that is not finite.
+/// Up to three consecutive cycles without a call leave the controller's memory valid. After more,
+/// the caller starts the controller again.
 ///
-/// All functions are noexcept and must not allocate, lock or call the system: they run in the
-/// control loop. Do not write a controller for a sum of terms, for limits, or for several control
-/// modes: see SumController, Limited and Switch.
+/// All functions are noexcept. They run in the control loop, so they must not allocate, lock or
+/// call the system. Do not write a controller for a sum of terms, for limits, or for several
+/// control modes: use SumController, Limited and Switch.
 /// @tparam C  the controller
 /// @tparam N  number of joints
 /// @tparam S  type of a number: double, or a pack with the numbers of several robots
@@ -110,9 +112,9 @@ concept Controller =
     detail::update_is_noexcept<C, N, S>() && JointCommand<CommandOf<C, N, S>, N, S> &&
     detail::StartFits<C, N, S> && detail::start_is_noexcept<C, N, S>();
 
-/// A controller that can brake the joints within limits where the reference is not finite, as
-/// Limited does: `brake(input)` gives the braking command. It has failed where the part that is
-/// active cannot brake. Controllers without `brake` are not called in such a cycle.
+/// A controller that can brake the joints within limits while the reference is not finite. Example:
+/// Limited. `brake(input)` returns the braking command, or a failed outcome if the active part
+/// cannot brake. A controller without `brake` is not called in such a cycle.
 template <class C, int N, class S = double>
 concept Brakes = requires(C& controller, const ControlInput<N, S>& input) {
   { controller.brake(input) } noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The concepts of robots, types with a description or models, with and without masses.
+/// @file The robot that algorithms take: a type with a description, or a model loaded at run time.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"
@@ -12,7 +12,15 @@
 
 namespace articula {
 
-/// A robot known at compile time: an empty type with a constexpr description.
+/// A robot that is known when the program is compiled: an empty type with a constexpr description.
+/// Its algorithms are the fastest, and the compiler refuses a description with a fault:
+///
+///     struct Pendulum {
+///       static constexpr RobotDescription description{.name = "pendulum", ...};
+///     };
+///
+/// CMake's `articula_add_robot` makes such a type from a URDF. Do not write one for a file that a
+/// user of the program chooses: load_urdf gives a Model.
 template <class R>
 concept DescribedRobot = std::is_empty_v<R> && std::is_default_constructible_v<R> &&
                          is_robot_description<std::remove_cvref_t<decltype(R::description)>>;
@@ -47,12 +55,17 @@ inline constexpr auto compiled_model = compile_model<R>();
 
 }  // namespace detail
 
-/// A robot: known at compile time (DescribedRobot) or loaded at run time (a Model). It is the first
-/// argument of all algorithms.
+/// A robot, the first argument of all algorithms. It is known at compile time (DescribedRobot) or
+/// loaded at run time (a Model). A function for both takes `const R& robot`:
+///
+///     template <Robot R>
+///     int moving_joints(const R& robot) { return joint_count<R>; }
+///
+/// An algorithm that needs masses takes a DynamicRobot.
 template <class R>
 concept Robot = DescribedRobot<R> || detail::is_model<R>;
 
-/// The model of a robot: of a described robot, the one made at compile time; of a model, itself.
+/// The model of a robot. For a described robot, the compiler made it. A model is its own.
 /// Real-time: yes.
 template <Robot R>
 [[nodiscard]] constexpr const auto& model_of(const R& robot) noexcept {
@@ -63,7 +76,7 @@ template <Robot R>
   }
 }
 
-/// The number of joints that can be commanded: those that move and mimic no other.
+/// The number of joints that can be commanded. Fixed joints and joints that mimic another are none.
 template <Robot R>
 inline constexpr int joint_count =
     std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::joint_count;
@@ -83,8 +96,8 @@ template <Robot R>
 auto joint_names(const R&& robot) = delete;
 
 /// The index of one of these joints by name.
-/// @throws std::invalid_argument with the reason if it is none of them: the joint is fixed, mimics
-///         another one, or does not exist
+/// @throws std::invalid_argument with the reason if the joint is fixed, mimics another one, or does
+///         not exist
 /// Real-time: no (throws).
 template <Robot R>
 [[nodiscard]] constexpr int joint_index(const R& robot, std::string_view name) {
@@ -113,13 +126,14 @@ template <Robot R>
   return joint_values(robot, [](const JointProperties& joint) { return joint.limits.effort; });
 }
 
-/// True for a robot whose masses are not known: its description has `.kinematic = true`, or it is a
+/// True for a robot without known masses. Its description has `.kinematic = true`, or it is a
 /// KinematicModel.
 template <Robot R>
 inline constexpr bool is_kinematic =
     std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::kinematic;
 
-/// A robot whose masses are known, so that it has dynamics.
+/// A robot with known masses, so that dynamics can be computed. Frames and Jacobians need none:
+/// take a Robot there.
 template <class R>
 concept DynamicRobot = Robot<R> && !is_kinematic<R>;
 

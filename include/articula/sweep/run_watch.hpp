@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What all runs of a closed loop have in common, and what is watched in each of them.
+/// @file The metrics of one simulated run, and whether it ended stable, unstable or not finite.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -19,7 +19,7 @@
 
 namespace articula::detail {
 
-/// The same in all runs.
+/// The settings that all runs of an experiment share: length, target, signals, metrics.
 template <DynamicRobot R>
 struct RunPlan {
   static constexpr int joint_count = articula::joint_count<R>;
@@ -37,7 +37,16 @@ struct RunPlan {
   [[nodiscard]] bool is_last_quarter(int cycle) const noexcept { return 4 * cycle >= 3 * cycles; }
 };
 
-/// Measures one run, or the runs in the lanes of a pack, and notes how they end.
+/// Computes the metrics of one run while it is simulated, or of the runs in the lanes of a pack.
+/// Each run gets a fresh one:
+///
+///     RunWatch<R> watch(plan, start, effort_limits(robot));
+///     watch.begin(cycle, state, reference);       // before each cycle, and after the last one
+///     watch.finish(cycle, state);                 // after each cycle
+///     const FutureEnd end = watch.result(metrics);
+///
+/// It stores no states, so its memory does not grow with the run. For single runs whose states you
+/// want to see, use a Recorder.
 /// @tparam S  double, or a pack
 template <DynamicRobot R, class S = double>
 class RunWatch {
@@ -57,9 +66,9 @@ class RunWatch {
         own_values_(static_cast<std::size_t>(lanes<S>) * plan.own_metrics.size()),
         swings_(limits) {}
 
-  /// Measures at the beginning of a cycle, and after the last one.
+  /// Adds the state to the metrics, at the beginning of a cycle and after the last one.
   /// @param goes_on  the runs that have not ended
-  /// @return         those of them whose motion is finite; the others have ended
+  /// @return         the runs whose motion is finite; the others have ended
   [[nodiscard]] Mask begin(int cycle, const State& truth, const Reference& reference,
                            const Mask& goes_on = mask_of<S>(true)) {
     const Mask good = goes_on & is_finite(truth);
@@ -71,15 +80,15 @@ class RunWatch {
     }
     return good;
   }
-  /// Notes what the drives have given in a cycle.
+  /// Adds the efforts of the drives in a cycle, from which unstable runs are recognised.
   void finish(int cycle, const State& truth) noexcept {
     if (plan_->is_last_quarter(cycle)) swings_.note(truth.effort);
   }
-  /// Runs have ended since a number is not finite.
+  /// Ends these runs: one of their numbers is not finite.
   void fail(const Mask& runs) noexcept { non_finite_ = non_finite_ | runs; }
 
-  /// @param metrics  receives all; NaN if the run was not finite: those of its short life would
-  ///                 make it look good
+  /// @param metrics  receives all metrics. They are NaN for a run that was not finite, since those
+  ///                 of its few cycles would look good.
   [[nodiscard]] FutureEnd result(std::span<double> metrics, int lane = 0) const {
     if (is_true(non_finite_, lane)) {
       std::ranges::fill(metrics, std::numeric_limits<double>::quiet_NaN());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "articula/ros2/dds/packet_check.hpp"
+#include "articula/ros2/dds/packets/packet_check.hpp"
 #include "catch.hpp"
 #include "fast_dds_peer.hpp"
 #include "support.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The plan of which controllers are to be active.
+/// @file Which of several controllers shall be active: requests checked and planned.
 #pragma once
 
 #include "articula/control/switching/switch_request.hpp"
@@ -15,8 +15,15 @@
 
 namespace articula {
 
-/// Who shall be active of a set of controllers, and what a request makes of that. Controllers for
-/// the same joints are of the same group; at most one of a group is active.
+/// Decides which of several controllers are active after a request. Switch and Groups contain one.
+/// It has names and no controllers:
+///
+///     const SwitchOutcome outcome = board.plan({.start = {"bypass"}, .replace = true});
+///     if (outcome.answer == SwitchAnswer::done) ...   // the entries are those of the next cycle
+///
+/// Controllers for the same joints are in the same group. At most one controller of a group is
+/// active. To switch the controllers of a loop, use a Switch or Groups. Use a board only in a
+/// controller of your own that holds several.
 /// @tparam Count  number of controllers
 template <std::size_t Count>
 class SwitchBoard {
@@ -24,16 +31,17 @@ class SwitchBoard {
   struct Entry {
     Name name{};
     int group = 0;
-    bool active = false;   ///< shall be, from the next cycle on
-    bool restart = false;  ///< shall start, even if it is active already
+    bool active = false;   ///< whether the controller is active from the next cycle on
+    bool restart = false;  ///< whether it starts in the next cycle, even if it was active before
   };
 
   std::array<Entry, Count> entries{};
 
   /// Names all controllers.
-  /// @param names     of all; if empty, they have their own
-  /// @param defaults  their own; where one is there before, a number is added
-  /// @throws std::invalid_argument if there are not as many, or one is empty or there twice
+  /// @param names     one for each controller; if the list is empty, `defaults` count
+  /// @param defaults  the controllers' own names; a name that occurs again gets a number
+  /// @throws std::invalid_argument if the number of names is wrong, or a name is empty or occurs
+  ///         twice
   void set_names(const std::vector<Name>& names, const std::array<Name, Count>& defaults) {
     if (!names.empty() && names.size() != Count) {
       detail::refuse({"switch: SwitchOptions::names has ", names.size(), " names for ", Count,
@@ -49,7 +57,7 @@ class SwitchBoard {
     validate();
   }
 
-  /// @throws std::invalid_argument if a name is empty or there twice
+  /// @throws std::invalid_argument if a name is empty or occurs twice
   void validate() const {
     for (std::size_t i = 0; i < Count; ++i) {
       if (entries[i].name.empty()) {
@@ -89,7 +97,8 @@ class SwitchBoard {
     return i;
   }
 
-  /// Plans what is asked for, as far as it can be done, or, if it is strict and cannot, nothing.
+  /// Plans a request. Of a best-effort request, it plans the possible parts. A strict request with
+  /// an impossible part changes nothing.
   /// Real-time: yes.
   [[nodiscard]] SwitchOutcome plan(const SwitchRequest& request) noexcept {
     SwitchBoard planned = *this;
@@ -149,7 +158,7 @@ class SwitchBoard {
   }
 };
 
-/// A controller that holds several and can be asked to switch: a Switch or Groups.
+/// A controller that contains several controllers and takes requests to switch: Switch, Groups.
 template <class C>
 concept Switching = requires(C controller, const SwitchRequest& request) {
   { controller.request(request) } noexcept -> std::same_as<SwitchOutcome>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Requests to a set of controllers, and their outcomes.
+/// @file Which controllers shall start and stop, and the answer to such a request.
 #pragma once
 
 #include "articula/core/name.hpp"
@@ -13,13 +13,13 @@
 
 namespace articula {
 
-/// What a request is worth of which some part cannot be done.
+/// What happens to a request of which some part is impossible.
 enum class Strictness : unsigned char {
-  strict,       ///< Nothing: it is refused as a whole.
-  best_effort,  ///< The rest of it, which is done.
+  strict,       ///< The whole request is refused.
+  best_effort,  ///< The possible parts are done.
 };
 
-/// A few names in place, so that a request can be handed to another thread without heap memory.
+/// The names of up to 16 controllers, without heap memory: a control thread can copy them.
 class ControllerNames {
  public:
   static constexpr std::size_t capacity = 16;
@@ -43,39 +43,47 @@ class ControllerNames {
   std::size_t size_ = 0;
 };
 
-/// What shall start and stop, all of it in one cycle. First the controllers in `stop` stop, then
-/// those in `start` start: one that is in both is restarted. Each list has at most 16 names
-/// (ControllerNames::capacity); beyond that, several requests between two cycles have effect
-/// together.
+/// Starts and stops controllers of a Switch or Groups, all in the same cycle. For a robot that
+/// changes from one control mode to another:
+///
+///     loop.controller().request({.stop = {"pid"}, .start = {"computed_torque"}});
+///
+/// - The controllers in `stop` stop first, then those in `start` start. A controller in both lists
+///   is restarted.
+/// - Each list has at most 16 names (ControllerNames::capacity). For more names, make several
+///   requests between two cycles: they take effect together.
+///
+/// From another thread than the loop's, hand the request to a SwitchExchange. For new gains of a
+/// controller that goes on, use a GainsExchange and no request.
 struct SwitchRequest {
   ControllerNames stop{};
   ControllerNames start{};
   Strictness strictness = Strictness::strict;
-  bool replace = false;  ///< what is active on the same joints stops for what starts, named or not
+  bool replace = false;  ///< what starts also stops the controller that is active on its joints
 };
 
-/// What became of a request, or why not.
+/// Whether a request was done, or the reason why it was not.
 enum class SwitchAnswer : unsigned char {
-  done,            ///< All of it is done, with the next cycle that goes well.
+  done,            ///< The whole request takes effect in the next good cycle.
   unknown_name,    ///< No controller has this name.
-  already_active,  ///< This controller shall start, and is active.
-  not_active,      ///< This controller shall stop, and is not active.
-  occupied,  ///< This controller shall start, but another is active on its joints and stays so.
+  already_active,  ///< The controller to start is active already.
+  not_active,      ///< The controller to stop is not active.
+  occupied,        ///< Another controller stays active on the joints of the controller to start.
 };
 
-/// The answer to a request. Of a strict request that was refused nothing is done.
+/// The answer to a request. A refused strict request changes nothing.
 struct SwitchOutcome {
-  SwitchAnswer answer = SwitchAnswer::done;  ///< done, or the first thing that cannot be done
-  Name controller{};                         ///< which it is about; empty if all is done
+  SwitchAnswer answer = SwitchAnswer::done;  ///< done, or the first obstacle
+  Name controller{};                         ///< the controller of that obstacle, else empty
   int started = 0;                           ///< how many controllers start
   int stopped = 0;                           ///< how many controllers stop
 };
 
-/// What a controller among several is doing.
+/// Whether one of several controllers is in use.
 enum class ControllerStatus : unsigned char {
-  inactive,  ///< It is not asked.
+  inactive,  ///< It is not called.
   active,    ///< It makes the command.
-  failed,    ///< Its last command was no command. If it has no fallback, it is asked again.
+  failed,    ///< Its last outcome was a failure. Without a fallback, it is called again.
 };
 
 /// One entry of a list of controllers.

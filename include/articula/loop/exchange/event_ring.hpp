@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A queue of fixed size between two threads.
+/// @file A queue of events from one thread to another, of which the control thread may be one.
 #pragma once
 
 #include <array>
@@ -10,9 +10,15 @@
 
 namespace articula {
 
-/// Passes every value from one writing to one reading thread, in order: records, events. Neither
-/// thread waits for the other. Values written to a full ring are dropped and counted. If only the
-/// latest value matters, use LatestValue.
+/// Passes every value from one writing thread to one reading thread, in order. For records of
+/// cycles that a slower thread writes to a file:
+///
+///     EventRing<Record, 1024> ring;
+///     ring.push(record);                        // control thread: never waits
+///     while (ring.pop(record)) write(record);   // the other thread
+///
+/// Neither thread waits for the other. A value that does not fit is dropped and counted. If only
+/// the latest value matters, use LatestValue. For several writing threads, use one ring for each.
 /// Source: [Lamport 1977], the ring buffer of one producer and one consumer.
 /// @tparam T         type of the values
 /// @tparam Capacity  number of values in the ring, a power of two

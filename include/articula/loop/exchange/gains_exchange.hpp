@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file New gains for a controller that is running.
+/// @file New gains for a running controller, from another thread.
 #pragma once
 
 #include "articula/control/laws/valid_gains.hpp"
@@ -12,14 +12,15 @@
 
 namespace articula {
 
-/// Hands new gains from any one thread to a controller that runs in another. A set is checked as a
-/// whole before it is handed over, so the controller has the old set or the new one, never a
-/// mixture or a bad one; if several are offered between two cycles, the last one counts.
+/// Gives new gains to a controller that runs in another thread. For tuning while the robot moves. A
+/// set is checked as a whole first. The controller has the old set or the new one, never a mixture
+/// or a bad set. Of several offers between two cycles, the last one counts.
 ///
 ///     GainsExchange<PidGains, 2> exchange(Q2d{});
 ///     exchange.offer(gains);               // another thread: throws if the gains are bad
 ///     exchange.apply(loop.controller());   // the control thread, between two cycles
 ///
+/// In the loop's own thread, call the controller's `set_gains` instead.
 /// @tparam G  the gains of one joint: PidGains, ImpedanceGains or your own, with `validate`
 template <class G, int N>
 class GainsExchange {

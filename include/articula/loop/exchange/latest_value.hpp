@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The latest value, passed from one thread to another.
+/// @file The latest reference, gains or state, from one thread to another without waiting.
 #pragma once
 
 #include <array>
@@ -10,8 +10,15 @@
 
 namespace articula {
 
-/// Passes the latest value from one writing to one reading thread: references, gains, states. A new
-/// value replaces one that was not read. If every value matters, use EventRing.
+/// Passes the latest value from one writing thread to one reading thread. For a reference that an
+/// operator's thread sets while the loop runs:
+///
+///     LatestValue<JointReference<2>> target;
+///     target.write(reference);                                 // operator's thread
+///     if (target.update()) loop.reference() = target.value();  // control thread
+///
+/// A new value replaces one that was not read. Do not use it where every value matters: use
+/// EventRing. Several writing threads need a mutex among them, or a LatestValue each.
 ///
 /// Neither thread waits for the other (triple buffer). The writer fills its own slot and swaps it
 /// for the shared one. The reader swaps its own for the shared one if that is newer. A swap is one
@@ -57,8 +64,8 @@ class LatestValue {
   static constexpr unsigned index = 3;  ///< bits that number a slot
   static constexpr unsigned fresh = 4;  ///< the shared slot was written after the last take-over
 
-  // Each slot and each index has a cache line of its own (64 bytes on x86-64 and ARM), so that the
-  // threads do not slow each other down.
+  // Each slot and each index has a cache line of its own, 64 bytes on x86-64 and ARM. So the threads
+  // do not slow each other down.
   struct alignas(64) Slot {
     T value{};
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Switching controllers from another thread.
+/// @file Starts and stops controllers of a running loop from another thread.
 #pragma once
 
 #include "articula/control/switching/switch_board.hpp"
@@ -16,29 +16,33 @@
 
 namespace articula {
 
-/// What became of a request of this number.
+/// The answer to the request of this number.
 struct NumberedOutcome {
   std::uint64_t request = 0;
   SwitchOutcome outcome{};
 };
 
-/// A controller that does something else than before: it was asked to, or it has failed, or it took
-/// over from one that failed.
+/// A change of one controller's status: by a request, by a failure, or as the fallback of a
+/// controller that failed.
 struct SwitchEvent {
   Name controller{};
   ControllerStatus before = ControllerStatus::inactive;
   ControllerStatus after = ControllerStatus::inactive;
 };
 
-/// Carries requests from any one thread to the Switch, or Groups, of a loop that runs in another,
-/// and brings back what became of them, who is active and what has happened:
+/// Switches controllers of a loop that runs in another thread. For a program whose operator changes
+/// the control mode while the robot moves:
 ///
-///     SwitchExchange exchange(loop.controller());
-///     auto outcome = exchange.ask({.stop = {"pid"}, .start = {"bypass"}});  // another thread
-///     for (const ControllerInfo& controller : exchange.list()) ...          // that thread
-///     exchange.apply(loop.controller());            // the control thread, between two cycles
+///     SwitchExchange exchange(loop.controller());   // before the threads begin
+///     auto outcome = exchange.ask({.stop = {"pid"}, .start = {"bypass"}});  // operating thread
+///     for (const ControllerInfo& controller : exchange.list()) ...          // operating thread
+///     exchange.apply(loop.controller());            // control thread, between two cycles
 ///
-/// Neither thread waits for the other, unless it asks to by `ask`.
+/// One operating thread makes requests. It gets their outcomes, the controllers' status, and
+/// events. Only `ask` waits for the control thread. The control thread never waits.
+///
+/// Do not use it in the loop's own thread: call `request` of the Switch or Groups there. For an
+/// operator in a browser or in another program, use a remote::Remote.
 /// @tparam Count  number of controllers
 template <std::size_t Count>
 class SwitchExchange {
@@ -54,15 +58,15 @@ class SwitchExchange {
   // For the one thread that switches:
 
   /// Hands a request over.
-  /// @return  its number, from 1; 0 if there are too many that the control thread has not taken yet
+  /// @return  its number, from 1; 0 if 16 requests wait for the control thread already
   /// Real-time: yes. Wait-free.
   std::uint64_t request(const SwitchRequest& request) noexcept {
     if (!requests_.push({last_request_ + 1, request})) return 0;
     return ++last_request_;
   }
 
-  /// The oldest outcome that was not taken yet; they come in the order of the requests. Of outcomes
-  /// that nobody takes only the first are kept. Real-time: yes. Wait-free.
+  /// The oldest outcome that was not taken yet. Outcomes have the order of the requests. Where 16
+  /// wait, later ones are dropped. Real-time: yes. Wait-free.
   [[nodiscard]] std::optional<NumberedOutcome> outcome() noexcept {
     NumberedOutcome next;
     if (!outcomes_.pop(next)) return std::nullopt;
@@ -92,13 +96,13 @@ class SwitchExchange {
   }
 #endif
 
-  /// All controllers and what they did at the last `apply`. Real-time: yes. Wait-free.
+  /// All controllers and their status at the last `apply`. Real-time: yes. Wait-free.
   [[nodiscard]] const std::array<ControllerInfo, Count>& list() noexcept {
     if (published_.update()) infos_ = published_.value();
     return infos_;
   }
 
-  /// The oldest event that was not taken yet. Of events that nobody takes only the first are kept.
+  /// The oldest event that was not taken yet. Where 16 wait, later ones are dropped.
   /// Real-time: yes. Wait-free.
   [[nodiscard]] std::optional<SwitchEvent> event() noexcept {
     SwitchEvent next;
@@ -108,10 +112,10 @@ class SwitchExchange {
 
   // For the control thread:
 
-  /// Passes requests on to the controller and publishes what it has done. Between two cycles. An
-  /// outcome is handed over by the next call, so that `list` and `event` know of the cycle in
-  /// between. What shall start or stop in a group with a divisor does so when that is asked next;
-  /// they know of it then.
+  /// Passes requests on to the controller and publishes its status. Call it between two cycles. The
+  /// next call hands the outcomes over, so `list` and `event` then include the cycle in between. A
+  /// group with a divisor starts and stops controllers in its own next cycle. `list` and `event`
+  /// show them after that cycle.
   /// @return  whether a controller started, stopped or failed since the last call
   /// Real-time: yes. Wait-free.
   template <class C>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The gate between a supervised loop and its hardware.
+/// @file The gate of a supervised loop: judges each measurement, and lets allowed commands through.
 #pragma once
 
 #include "articula/control/safety/damping_effort.hpp"
@@ -15,15 +15,24 @@
 
 namespace articula {
 
-/// What a supervised loop lets through to its hardware.
+/// Which commands reach the hardware.
 enum class Passage : unsigned char {
-  closed,     ///< nothing: the hardware is not active
+  closed,     ///< none: the hardware is not active
   command,    ///< the loop's commands
-  behaviour,  ///< the safe behaviour in place of them
+  behaviour,  ///< the safe behaviour in place of the loop's commands
 };
 
-/// Hardware that judges what it measures by the robot's limits, and lets through what a supervised
-/// loop allows. It is hardware to the Loop inside, which stays as it is.
+/// Keeps commands from drives that must not move, and replaces them by a safe behaviour in a fault.
+/// SupervisedControlLoop puts it around its hardware:
+///
+///     gate.open(Passage::behaviour, Status::inactive);   // a fault: the safe behaviour
+///     gate.verdict();                                    // the last measurement's status
+///
+/// - `read` judges each measurement: is it finite, and within the robot's limits and the margins?
+/// - `write` sends the command, the safe behaviour, or nothing, as `open` has set.
+///
+/// Do not use it by itself. It changes its mode only when it is told, and it activates no hardware.
+/// For a loop with faults and their acknowledgement, use SupervisedLoop.
 /// @tparam HardwareType  what is supervised
 /// @tparam CommandType   what it accepts
 template <class HardwareType, class CommandType>
@@ -43,12 +52,12 @@ class SupervisedHardware {
     return hardware_.period();
   }
 
-  /// Nothing: the loop inside is made long before anything shall move.
+  /// Does nothing: the supervised loop activates the hardware later, on request.
   [[nodiscard]] Status activate() noexcept { return Status::ok; }
   [[nodiscard]] Status deactivate() noexcept { return Status::ok; }
 
-  /// Reads and judges. Real-time: yes, if the hardware's read is.
-  /// @return what to tell the loop inside: the verdict, or in its place the status that `open` gave
+  /// Reads a measurement and judges it. Real-time: yes, if the hardware's read is.
+  /// @return the fault of the measurement; without a fault, the status that `open` has set
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     verdict_ = hardware_.read(state);
     if (verdict_ == Status::ok && !is_finite(state)) verdict_ = Status::non_finite_state;
@@ -57,7 +66,7 @@ class SupervisedHardware {
     return verdict_ == Status::ok ? answer_ : verdict_;
   }
 
-  /// Writes what the passage allows. Real-time: yes, if the hardware's write is.
+  /// Sends what the passage allows. Real-time: yes, if the hardware's write is.
   [[nodiscard]] Status write(const CommandType& command) noexcept {
     if (passage_ == Passage::closed) return Status::ok;
     written_ = passage_ == Passage::behaviour ? safe_behaviour(command) : command;
@@ -65,9 +74,10 @@ class SupervisedHardware {
     return hardware_.write(written_);
   }
 
-  /// @param passage  what is let through from now on
-  /// @param answer   status of a read without a fault; anything but Status::ok keeps the loop inside
-  ///                 from calling the controller
+  /// Sets which commands reach the hardware from now on. Real-time: yes.
+  /// @param passage  the commands that are let through
+  /// @param answer   status that `read` returns without a fault; any other than Status::ok keeps
+  ///                 the loop from calling the controller
   void open(Passage passage, Status answer) noexcept {
     passage_ = passage;
     answer_ = answer;
@@ -75,9 +85,9 @@ class SupervisedHardware {
   }
 
   [[nodiscard]] Passage passage() const noexcept { return passage_; }
-  /// How the last state was judged.
+  /// The status of the last measurement.
   [[nodiscard]] Status verdict() const noexcept { return verdict_; }
-  /// What the hardware was given last.
+  /// The command that the hardware got last.
   [[nodiscard]] const CommandType& written() const noexcept { return written_; }
   [[nodiscard]] HardwareType& hardware() noexcept { return hardware_; }
   [[nodiscard]] const HardwareType& hardware() const noexcept { return hardware_; }
@@ -95,7 +105,7 @@ class SupervisedHardware {
     return false;
   }
 
-  /// @param command  what the loop inside found safe, for a state that cannot be trusted
+  /// @param command  the loop's own safe command, for a state that cannot be trusted
   [[nodiscard]] CommandType safe_behaviour(const CommandType& command) const noexcept {
     const bool trusted = verdict_ == Status::ok || verdict_ == Status::limit_exceeded;
     if constexpr (std::same_as<CommandType, EffortCommand<joint_count>>) {

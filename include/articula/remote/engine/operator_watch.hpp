@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Whether the operator of a loop is still there.
+/// @file Detects that the operator of a running loop is gone, as a watchdog does.
 #pragma once
 
 #include <atomic>
@@ -13,25 +13,36 @@ enum class OperatorLoss : unsigned char {
   deactivate,  ///< A supervised loop is deactivated.
 };
 
-/// Tells a loop whether its operator is still there. The outside numbers the signs of life, of all
-/// operators together; each task bears the number of the sign with which it came. The loop counts
-/// the periods without a sign, so that it needs nobody else to notice a silence.
+/// A watchdog for the operator of a robot. A browser is closed, a network fails: the loop notices
+/// it, ends the motion, and ignores tasks that are still under way.
+///
+///     OperatorWatch watch(500);        // lost after 500 periods of silence
+///     watch.report_alive();            // outside: a sign of life from the operator
+///     if (watch.look().lost) stop();   // loop, once a period
+///
+/// - The outside numbers the signs of life, of all operators together. Each task has the number of
+///   the last sign before it.
+/// - The loop counts the periods without a sign. So it notices a silence even if all other threads
+///   hang.
+///
+/// It notices no silent drive or sensor: hardware has limits on the age of its measurements. A
+/// program that gives references itself, with no operator, needs no watch.
 class OperatorWatch {
  public:
-  /// What the loop has to do about its operator.
+  /// The change since the period before.
   struct News {
     bool left = false;  ///< An operator has released the controls, or is lost.
     bool lost = false;  ///< An operator is lost.
   };
 
-  /// @param lifetime  in periods of the loop, after which a silent operator is lost
+  /// @param lifetime  number of periods of the loop after which a silent operator is lost
   explicit OperatorWatch(double lifetime) : lifetime_(lifetime) {}
 
   /// The operator has given a sign of life. For the outside.
   void report_alive() noexcept { signs_.store(++last_sign_, std::memory_order_release); }
   /// The number of the last sign. For the outside.
   [[nodiscard]] std::uint64_t last_sign() const noexcept { return last_sign_; }
-  /// Nobody operates; the motion goes on. For the outside.
+  /// The operator has released the controls. The motion goes on. For the outside.
   void report_release() noexcept { left_.store(last_sign_, std::memory_order_release); }
   /// The operator is lost. For the outside.
   void report_loss() noexcept {
@@ -39,7 +50,7 @@ class OperatorWatch {
     report_release();
   }
 
-  /// One period later. For the loop, after it has taken a task: then it knows of all losses before
+  /// Counts a period. For the loop, after it has taken a task: so it knows of all losses before
   /// that task.
   /// Real-time: yes. Wait-free.
   [[nodiscard]] News look() noexcept {
@@ -60,7 +71,8 @@ class OperatorWatch {
   }
   /// Whether a task with this sign came from an operator who is lost. For the loop. Real-time: yes.
   [[nodiscard]] bool is_void(std::uint64_t sign) const noexcept { return sign <= void_; }
-  /// Whether a task with this sign came from an operator who has left. For the loop. Real-time: yes.
+  /// Whether a task with this sign came from an operator who has left. For the loop.
+  /// Real-time: yes.
   [[nodiscard]] bool has_left(std::uint64_t sign) const noexcept { return sign <= seen_left_; }
 
  private:

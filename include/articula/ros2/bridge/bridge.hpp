@@ -2,7 +2,7 @@
 /// @file A running loop as ROS 2's tools see and steer it.
 #pragma once
 
-#include "articula/ros2/bridge/bridge_options.hpp"
+#include "articula/ros2/bridge/core/bridge_options.hpp"
 #include "articula/ros2/node/context.hpp"
 
 #include <memory>

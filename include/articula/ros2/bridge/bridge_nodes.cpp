@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/bridge/bridge_nodes.hpp"
 
-#include "articula/ros2/bridge/bridge_core.hpp"
-#include "articula/ros2/bridge/controller_parameters.hpp"
-#include "articula/ros2/bridge/controller_topics.hpp"
-#include "articula/ros2/bridge/gripper_action.hpp"
+#include "articula/ros2/bridge/controllers/controller_parameters.hpp"
+#include "articula/ros2/bridge/controllers/controller_topics.hpp"
+#include "articula/ros2/bridge/controllers/gripper_action.hpp"
+#include "articula/ros2/bridge/controllers/trajectory_action.hpp"
+#include "articula/ros2/bridge/core/bridge_core.hpp"
 #include "articula/ros2/bridge/manager_services.hpp"
 #include "articula/ros2/bridge/robot_topics.hpp"
-#include "articula/ros2/bridge/trajectory_action.hpp"
 
 #include <string>
 #include <vector>

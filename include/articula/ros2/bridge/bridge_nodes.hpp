@@ -2,7 +2,7 @@
 /// @file A running loop as ROS 2's tools expect a controller_manager.
 #pragma once
 
-#include "articula/ros2/bridge/bridge_options.hpp"
+#include "articula/ros2/bridge/core/bridge_options.hpp"
 #include "articula/ros2/node/context.hpp"
 
 #include <chrono>

@@ -2,7 +2,7 @@
 /// @file The services of a controller_manager.
 #pragma once
 
-#include "articula/ros2/bridge/bridge_core.hpp"
+#include "articula/ros2/bridge/core/bridge_core.hpp"
 
 #include <memory>
 

@@ -2,7 +2,7 @@
 /// @file The topics that show a robot: joint states, frames, description, clock.
 #pragma once
 
-#include "articula/ros2/bridge/bridge_core.hpp"
+#include "articula/ros2/bridge/core/bridge_core.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/messages/rosgraph_msgs.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"

@@ -2,7 +2,7 @@
 #include "articula/ros2/dds/graph.hpp"
 
 #include "articula/ros2/cdr_encoder.hpp"
-#include "articula/ros2/dds/endpoint.hpp"
+#include "articula/ros2/dds/endpoints/endpoint.hpp"
 #include "articula/ros2/messages/rmw_dds_common.hpp"
 #include "articula/ros2/type_hash.hpp"
 

@@ -2,9 +2,9 @@
 /// @file A participant of a DDS domain with its topics, services and nodes.
 #pragma once
 
+#include "articula/ros2/dds/endpoints/service_server.hpp"
 #include "articula/ros2/dds/fast_dds_options.hpp"
 #include "articula/ros2/dds/graph.hpp"
-#include "articula/ros2/dds/service_server.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/RTPSParticipant.h>

@@ -2,8 +2,8 @@
 #include "articula/ros2/dds/participant_attributes.hpp"
 
 #include "articula/core/refuse.hpp"
-#include "articula/ros2/dds/checked_transport.hpp"
-#include "articula/ros2/dds/endpoint.hpp"
+#include "articula/ros2/dds/endpoints/endpoint.hpp"
+#include "articula/ros2/dds/packets/checked_transport.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>

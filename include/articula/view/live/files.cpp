@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file The files of a view in a page: there are none. In place of server/files.cpp.
-#include "articula/view/server/files.hpp"
+#include "articula/view/server/clients/files.hpp"
 
 namespace articula::view {
 

@@ -4,8 +4,8 @@
 
 #include "articula/loop/run_report.hpp"
 #include "articula/remote/remote.hpp"
-#include "articula/view/server/broadcast.hpp"
-#include "articula/view/server/client.hpp"
+#include "articula/view/server/clients/broadcast.hpp"
+#include "articula/view/server/clients/client.hpp"
 
 #include <algorithm>
 #include <chrono>

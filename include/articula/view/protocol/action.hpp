@@ -3,8 +3,8 @@
 #pragma once
 
 #include "articula/remote/gains/parameter.hpp"
-#include "articula/view/protocol/channels.hpp"
-#include "articula/view/protocol/requests.hpp"
+#include "articula/view/protocol/messages/channels.hpp"
+#include "articula/view/protocol/requests/requests.hpp"
 
 #include <cstdint>
 #include <optional>

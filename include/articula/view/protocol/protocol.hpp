@@ -3,8 +3,8 @@
 #pragma once
 
 #include "articula/view/protocol/action.hpp"
-#include "articula/view/protocol/channels.hpp"
-#include "articula/view/protocol/json.hpp"
+#include "articula/view/protocol/json/json.hpp"
+#include "articula/view/protocol/messages/channels.hpp"
 
 #include <array>
 #include <cstdint>

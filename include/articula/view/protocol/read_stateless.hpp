@@ -4,7 +4,7 @@
 #pragma once
 
 #include "articula/view/protocol/action.hpp"
-#include "articula/view/protocol/json.hpp"
+#include "articula/view/protocol/json/json.hpp"
 
 #include <cstddef>
 #include <cstdint>

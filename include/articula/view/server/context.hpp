@@ -4,8 +4,8 @@
 
 #include "articula/remote/port.hpp"
 #include "articula/view/server/access.hpp"
-#include "articula/view/server/broadcast.hpp"
-#include "articula/view/server/futures_thread.hpp"
+#include "articula/view/server/clients/broadcast.hpp"
+#include "articula/view/server/futures/futures_thread.hpp"
 #include "articula/view/view_options.hpp"
 
 #include <atomic>

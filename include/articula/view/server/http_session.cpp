@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/server/http_session.hpp"
 
-#include "articula/view/server/files.hpp"
+#include "articula/view/server/clients/files.hpp"
 #include "articula/view/server/websocket_session.hpp"
 
 #include <boost/beast/http/read.hpp>

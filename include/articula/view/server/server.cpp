@@ -2,7 +2,7 @@
 #include "articula/view/view.hpp"
 
 #include "articula/core/refuse.hpp"
-#include "articula/view/server/files.hpp"
+#include "articula/view/server/clients/files.hpp"
 #include "articula/view/server/http_session.hpp"
 #include "articula/view/server/websocket_session.hpp"
 

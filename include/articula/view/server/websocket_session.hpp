@@ -2,7 +2,7 @@
 /// @file The WebSocket connection of one client. Boost.Beast.
 #pragma once
 
-#include "articula/view/server/client.hpp"
+#include "articula/view/server/clients/client.hpp"
 #include "articula/view/server/context.hpp"
 
 #include <boost/asio/steady_timer.hpp>

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file The parameters of a bridge's nodes.
+#pragma once
+
+#include "articula/ros2/bridge/core/bridge_core.hpp"
+#include "articula/ros2/node/parameter_server.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace articula::ros2 {
+
+/// Parameters that say how a node was made, and nobody can change.
+class FixedParameters final : public ParameterStore {
+ public:
+  explicit FixedParameters(std::vector<NodeParameter> all) : all_(std::move(all)) {}
+
+  [[nodiscard]] std::vector<NodeParameter> list() override { return all_; }
+  void set(const NamedValues&, OnSet on_set) override { on_set("the parameters are read-only"); }
+
+ private:
+  std::vector<NodeParameter> all_;
+};
+
+/// The parameters of a controller: its gains as gains.<joint>.<gain> (see BridgeOptions::gain_prefix), which the loop checks and sets
+/// between two cycles; constraints of trajectories that bring no tolerances; its joints and
+/// interfaces, which are read-only.
+class ControllerParameters final : public ParameterStore {
+ public:
+  /// @param core        outlives this
+  /// @param controller  likewise
+  ControllerParameters(BridgeCore& core, BridgedController& controller);
+
+  [[nodiscard]] std::vector<NodeParameter> list() override;
+  void set(const NamedValues& values, OnSet on_set) override;
+
+ private:
+  BridgeCore& core_;
+  /// A constraint and its parameter.
+  struct Constraint {
+    std::string name;
+    double& value;
+    std::string description;
+  };
+  [[nodiscard]] std::vector<Constraint> constraints();
+
+  BridgedController& controller_;
+  std::vector<NodeParameter> fixed_{};
+};
+
+}  // namespace articula::ros2

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/ros2/bridge/controllers/controller_topics.hpp"
+
+#include "articula/ros2/node/service.hpp"
+#include "articula/ros2/node/subscription.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace articula::ros2 {
+
+namespace {
+
+using Values = std::vector<double>;
+
+/// The same point in the layout of a distribution.
+template <class Layout>
+trajectory_msgs::msg::JointTrajectoryPoint<Layout> convert(const TrajectoryPointMessage& from) {
+  return {from.positions, from.velocities, from.accelerations, from.effort, from.time_from_start};
+}
+
+/// The state of a follower of trajectories.
+template <class Layout>
+control_msgs::msg::JointTrajectoryControllerState<Layout> state_of(
+    const std_msgs::msg::Header<Jazzy>& header, const std::vector<std::string>& joints,
+    const CyclePoints& points, double speed) {
+  control_msgs::msg::JointTrajectoryControllerState<Layout> state;
+  state.header = {header.stamp, header.frame_id};
+  state.joint_names = joints;
+  state.reference = convert<Layout>(points.reference);
+  state.feedback = convert<Layout>(points.measured);
+  state.error = convert<Layout>(points.error);
+  state.output = convert<Layout>(points.output);
+  if constexpr (Layout::distribution == Distribution::humble) {
+    state.desired = state.reference;
+    state.actual = state.feedback;
+  } else {
+    state.speed_scaling_factor = speed;
+  }
+  return state;
+}
+
+std::vector<remote::JointValue> named(const std::vector<std::string>& joints,
+                                      const Values& values) {
+  std::vector<remote::JointValue> all;
+  for (std::size_t k = 0; k < values.size(); ++k) all.push_back({joints[k], values[k]});
+  return all;
+}
+
+bool any(const Values& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+}
+
+}  // namespace
+
+ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
+                                   const BridgedController& controller)
+    : core_(core), controller_(controller), state_due_(core.options.controller_state_rate) {
+  const auto& joints = core.port.robot().joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (std::find(controller.joints.begin(), controller.joints.end(), joints[j].name) !=
+        controller.joints.end()) {
+      joints_.push_back(j);
+    }
+  }
+  // The factor is the loop's, so all of its controllers show and set the same one.
+  if (core.options.distribution == Distribution::humble) {
+    humble_state_.emplace(node, "~/controller_state", quality_of_service::states);
+  } else {
+    state_.emplace(node, "~/controller_state", quality_of_service::states);
+  }
+  const auto in = quality_of_service::states;
+  const auto taken = [this](const auto& message) { take(message); };
+  subscribe<std_msgs::msg::Float64MultiArray<Jazzy>>(node, "~/commands", in, taken);
+  for (const std::string& joint : controller.joints) {
+    subscribe<std_msgs::msg::Float64>(node, "~/" + ros_name(joint) + "/command", in,
+                                      [this, joint](const auto& message) { take(joint, message); });
+  }
+  subscribe<TrajectoryPointMessage>(node, "~/reference", in, taken);
+  subscribe<TrajectoryMessage>(node, "~/joint_trajectory", in, taken);
+  if (core.options.distribution != Distribution::humble) {
+    subscribe<control_msgs::msg::SpeedScalingFactor>(node, "~/speed_scaling_input",
+                                                     quality_of_service::speed_scaling, taken);
+  }
+  serve<control_msgs::srv::QueryTrajectoryState<Jazzy>>(
+      node, "~/query_state",
+      [this](const auto& request, const auto& reply) { reply.send(query(request.time)); });
+}
+
+void ControllerTopics::update() {
+  if (moving_since_) moving_since_ = std::min(*moving_since_, core_.context.now);
+  if (moving_since_ &&
+      core_.context.now - *moving_since_ > to_duration(core_.options.controls_time)) {
+    moving_since_.reset();
+    if (core_.watch.situation.motion == "set") {  // nobody has asked for another motion since
+      refuse("no reference has followed one with a velocity: the joints stop");
+      ask(remote::Stop{});
+    }
+  }
+  if (!core_.watch.has_new_cycle(published_cycle_) || !state_due_.due(core_.context.now)) return;
+  published_cycle_ = core_.watch.cycle.number;
+  const CyclePoints points = points_of(core_.watch.cycle, joints_, core_.port.robot().commands);
+  if (humble_state_) {
+    humble_state_->publish(state_of<Humble>(core_.header(), controller_.joints, points, 1));
+  } else {
+    state_->publish(state_of<Jazzy>(core_.header(), controller_.joints, points,
+                                    core_.watch.situation.trajectory_speed));
+  }
+}
+
+void ControllerTopics::take(const std_msgs::msg::Float64MultiArray<Jazzy>& message) {
+  if (!is_active("commands")) return;
+  if (message.data.size() != controller_.joints.size()) {
+    return refuse("commands: " + std::to_string(message.data.size()) + " numbers for " +
+                  std::to_string(controller_.joints.size()) + " joints");
+  }
+  set(named(controller_.joints, message.data));
+}
+
+void ControllerTopics::take(const std::string& joint, const std_msgs::msg::Float64& message) {
+  if (is_active("command")) set({{joint, message.data}});
+}
+
+void ControllerTopics::take(const TrajectoryPointMessage& message) {
+  if (!is_active("reference")) return;
+  for (const Values* values : {&message.positions, &message.velocities, &message.effort}) {
+    if (values->empty() || values->size() == controller_.joints.size()) continue;
+    return refuse("reference: " + std::to_string(values->size()) + " numbers for " +
+                  std::to_string(controller_.joints.size()) + " joints");
+  }
+  set({.positions = named(controller_.joints, message.positions),
+       .velocities = named(controller_.joints, message.velocities),
+       .efforts = named(controller_.joints, message.effort)},
+      any(message.velocities));
+}
+
+void ControllerTopics::take(const TrajectoryMessage& message) {
+  if (!is_active("joint_trajectory")) return;
+  for (const std::string& joint : message.joint_names) {
+    if (std::find(controller_.joints.begin(), controller_.joints.end(), joint) !=
+        controller_.joints.end()) {
+      continue;
+    }
+    return refuse("Incoming joint " + joint + " doesn't match the controller's joints.");
+  }
+  remote::PlayTrajectory request = to_request(message, core_.context.now);
+  controller_.constraints.complete(request, controller_.joints);
+  ask(request);
+}
+
+void ControllerTopics::take(const control_msgs::msg::SpeedScalingFactor& message) {
+  ask(remote::SetTrajectorySpeed{message.factor});
+}
+
+void ControllerTopics::set(std::vector<remote::JointValue> values) {
+  const bool is_velocity = controller_.quantity == "velocity";
+  const bool moves = is_velocity && std::any_of(values.begin(), values.end(),
+                                                [](const auto& own) { return own.value != 0; });
+  remote::SetReference reference;
+  auto& column = is_velocity                          ? reference.velocities
+                 : controller_.quantity == "position" ? reference.positions
+                                                      : reference.efforts;
+  column = std::move(values);
+  set(reference, moves);
+}
+
+void ControllerTopics::set(const remote::SetReference& reference, bool moves) {
+  const std::chrono::nanoseconds asked = core_.context.now;
+  core_.loop_operator.ask(reference, [this, moves, asked](const remote::Answer& answer) {
+    if (answer.verdict != remote::Verdict::done) return refuse(answer.text);
+    moving_since_ = moves ? std::optional(asked) : std::nullopt;
+  });
+}
+
+void ControllerTopics::ask(const remote::Request& request) {
+  core_.loop_operator.ask(request, [this](const remote::Answer& answer) {
+    if (answer.verdict != remote::Verdict::done) refuse(answer.text);
+  });
+}
+
+void ControllerTopics::refuse(const std::string& reason) {
+  core_.log.refuse(controller_.node, reason);
+}
+
+bool ControllerTopics::is_active(const char* topic) {
+  const bool active = core_.watch.is_active(controller_.name);
+  if (!active) refuse(std::string(topic) + ": controller '" + controller_.name + "' is not active");
+  return active;
+}
+
+control_msgs::srv::QueryTrajectoryState<Jazzy>::Response ControllerTopics::query(
+    const builtin_interfaces::msg::Time& time) const {
+  control_msgs::srv::QueryTrajectoryState<Jazzy>::Response response;
+  const auto& all = core_.watch.references;
+  const auto wanted = from_message(time);
+  if (!core_.watch.is_active(controller_.name)) {
+    response.message = "controller '" + controller_.name + "' is not active";
+    return response;
+  }
+  const auto later =
+      std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.time > wanted; });
+  if (later == all.begin() || (later == all.end() && wanted > core_.context.now)) {
+    response.message = "only references of the last cycles are known";
+    return response;
+  }
+  const PastReference& past = *std::prev(later);
+  response.success = true;
+  response.name = controller_.joints;
+  for (const std::size_t j : joints_) {
+    response.position.push_back(past.position[j]);
+    response.velocity.push_back(past.velocity[j]);
+    response.acceleration.push_back(past.acceleration[j]);
+  }
+  return response;
+}
+
+}  // namespace articula::ros2

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/ros2/dds/endpoints/payload_pool.hpp"
+
+namespace articula::ros2::dds {
+
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+// Until all fragments have come, Fast DDS keeps a list of four bytes an entry in the message's own
+// memory. Its last entry may begin at the last byte, rounded up to a multiple of four.
+constexpr std::size_t room_for_list = 8;
+
+}  // namespace
+
+bool PayloadPool::get_payload(std::uint32_t size, rtps::CacheChange_t& change) {
+  if (size > largest_) return false;
+  const std::size_t room = size + room_for_list;
+  if (used_.fetch_add(room) + room > total_) {
+    used_.fetch_sub(room);
+    return false;
+  }
+  change.serializedPayload.reserve(static_cast<std::uint32_t>(room));
+  change.payload_owner(this);
+  return true;
+}
+
+bool PayloadPool::get_payload(rtps::SerializedPayload_t& data, rtps::IPayloadPool*& /*owner*/,
+                              rtps::CacheChange_t& change) {
+  if (!get_payload(data.length, change)) return false;
+  return change.serializedPayload.copy(&data);
+}
+
+bool PayloadPool::release_payload(rtps::CacheChange_t& change) {
+  used_.fetch_sub(change.serializedPayload.max_size);
+  change.serializedPayload.empty();
+  change.payload_owner(nullptr);
+  return true;
+}
+
+}  // namespace articula::ros2::dds

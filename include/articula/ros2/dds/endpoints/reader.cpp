@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "articula/ros2/dds/endpoints/reader.hpp"
+
+#include "articula/ros2/names.hpp"
+
+#include <fastdds/rtps/RTPSDomain.h>
+#include <fastdds/rtps/participant/RTPSParticipant.h>
+#include <fastrtps/qos/ReaderQos.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace articula::ros2::dds {
+
+namespace rtps = eprosima::fastrtps::rtps;
+
+namespace {
+
+// In the history are messages of which fragments, or the messages before, have not come yet.
+constexpr std::size_t incomplete_messages = 256;
+constexpr std::size_t incomplete_largest_messages = 8;
+constexpr std::size_t waiting_largest_messages = 4;
+
+}  // namespace
+
+Reader::Reader(rtps::RTPSParticipant& participant, Inbox& inbox, const Endpoint& endpoint,
+               std::function<void(Arrival&)> deliver)
+    : inbox_(&inbox),
+      queue_(endpoint.quality.depth, waiting_largest_messages * endpoint.largest_message,
+             std::move(deliver)),
+      pool_(std::make_shared<PayloadPool>(endpoint.largest_message,
+                                          incomplete_largest_messages * endpoint.largest_message)),
+      history_(history_attributes(endpoint, incomplete_messages)) {
+  rtps::ReaderAttributes attributes;
+  attributes.endpoint.reliabilityKind =
+      endpoint.quality.best_effort ? rtps::BEST_EFFORT : rtps::RELIABLE;
+  attributes.endpoint.durabilityKind =
+      endpoint.quality.transient_local ? rtps::TRANSIENT_LOCAL : rtps::VOLATILE;
+  attributes.matched_writers_allocation = {0, most_matches, 1};
+  reader_ = rtps::RTPSDomain::createRTPSReader(&participant, attributes, pool_, &history_, this);
+  if (reader_ == nullptr) {
+    throw std::runtime_error("ros2: Fast DDS made no reader of " + endpoint.topic);
+  }
+
+  eprosima::fastrtps::ReaderQos quality;
+  quality.m_reliability.kind = endpoint.quality.best_effort
+                                   ? eprosima::fastrtps::BEST_EFFORT_RELIABILITY_QOS
+                                   : eprosima::fastrtps::RELIABLE_RELIABILITY_QOS;
+  quality.m_durability.kind = endpoint.quality.transient_local
+                                  ? eprosima::fastrtps::TRANSIENT_LOCAL_DURABILITY_QOS
+                                  : eprosima::fastrtps::VOLATILE_DURABILITY_QOS;
+  if (!endpoint.hash.empty()) {
+    quality.m_userData.data_vec(octets(type_hash_user_data(endpoint.hash)));
+  }
+  if (!participant.registerReader(reader_, topic_attributes(endpoint), quality)) {
+    rtps::RTPSDomain::removeRTPSReader(reader_);
+    throw std::runtime_error("ros2: Fast DDS announced no reader of " + endpoint.topic);
+  }
+}
+
+Reader::~Reader() { rtps::RTPSDomain::removeRTPSReader(reader_); }
+
+void Reader::onReaderMatched(rtps::RTPSReader* /*reader*/, rtps::MatchingInfo& info) {
+  writers_.set(info.remoteEndpointGuid, info.status == rtps::MATCHED_MATCHING);
+  inbox_->wake();
+}
+
+void Reader::onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* change) {
+  if (change->kind == rtps::ALIVE) {
+    Arrival arrival;
+    const auto* const data = reinterpret_cast<const std::byte*>(change->serializedPayload.data);
+    arrival.bytes.assign(data, data + change->serializedPayload.length);
+    arrival.identity.writer_guid(change->writerGUID);
+    arrival.identity.sequence_number(change->sequenceNumber);
+    arrival.related = change->write_params.sample_identity();
+    inbox_->put(queue_, std::move(arrival));
+  }
+  reader->getHistory()->remove_change(const_cast<rtps::CacheChange_t*>(change));
+}
+
+}  // namespace articula::ros2::dds

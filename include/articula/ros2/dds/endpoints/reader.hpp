@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file One reader of DDS, whose messages go to an inbox.
+#pragma once
+
+#include "articula/ros2/dds/endpoints/endpoint.hpp"
+#include "articula/ros2/dds/endpoints/inbox.hpp"
+#include "articula/ros2/dds/endpoints/payload_pool.hpp"
+
+#include <fastdds/rtps/history/ReaderHistory.h>
+#include <fastdds/rtps/reader/RTPSReader.h>
+#include <fastdds/rtps/reader/ReaderListener.h>
+
+#include <functional>
+#include <memory>
+
+namespace articula::ros2::dds {
+
+/// A reliable reader. Each message leaves the history of Fast DDS as soon as it has come, so slow
+/// users do not keep the peers' writers waiting.
+class Reader final : public eprosima::fastrtps::rtps::ReaderListener {
+ public:
+  /// @throws std::runtime_error if Fast DDS refuses
+  Reader(eprosima::fastrtps::rtps::RTPSParticipant& participant, Inbox& inbox,
+         const Endpoint& endpoint, std::function<void(Arrival&)> deliver);
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() override;
+
+  [[nodiscard]] const Matched& writers() const { return writers_; }
+  [[nodiscard]] const eprosima::fastrtps::rtps::GUID_t& guid() const { return reader_->getGuid(); }
+
+  // Called by threads of Fast DDS.
+  void onReaderMatched(eprosima::fastrtps::rtps::RTPSReader* reader,
+                       eprosima::fastrtps::rtps::MatchingInfo& info) override;
+  void onNewCacheChangeAdded(eprosima::fastrtps::rtps::RTPSReader* reader,
+                             const eprosima::fastrtps::rtps::CacheChange_t* change) override;
+  using ReaderListener::onReaderMatched;
+
+ private:
+  Inbox* inbox_;
+  Inbox::Queue queue_;
+  Matched writers_{};
+  std::shared_ptr<PayloadPool> pool_;
+  eprosima::fastrtps::rtps::ReaderHistory history_;
+  eprosima::fastrtps::rtps::RTPSReader* reader_;
+};
+
+}  // namespace articula::ros2::dds
