@@ -421,17 +421,21 @@ TEST_CASE("the command line changes the options of show") {
   const auto read = [](const std::vector<const char*>& words) {
     return articula::with_arguments({}, static_cast<int>(words.size()), words.data());
   };
-  const articula::ShowOptions all = read({"arm", "--port", "0", "--address", "::1", "--token",
-                                          "abc", "--read-only", "--view", "--seconds", "2.5"});
+  const articula::ShowOptions all =
+      read({"arm", "--port", "0", "--address", "::1", "--token", "abc", "--read-only", "--view",
+            "--seconds", "2.5", "--priority", "7"});
   CHECK(all.view.port == 0);
   CHECK(all.view.address == "::1");
   CHECK(all.view.token == "abc");
   CHECK(!all.view.operates);
   CHECK(all.opens_browser);
   CHECK(all.seconds == 2.5);
+  CHECK(all.thread.priority == 7);
+  CHECK(all.thread.lock_memory);
   CHECK(read({"arm"}).view.operates);
   using Wrong = std::vector<const char*>;
   for (const Wrong& wrong : {Wrong{"arm", "--port"}, Wrong{"arm", "--port", "65536"},
+                             Wrong{"arm", "--port", "1.5"}, Wrong{"arm", "--priority", "100"},
                              Wrong{"arm", "--seconds", "nan"}, Wrong{"arm", "--prot", "1"}}) {
     CHECK_THROWS_AS(read(wrong), std::invalid_argument);
   }

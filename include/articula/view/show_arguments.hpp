@@ -6,6 +6,7 @@
 #include "articula/text/numbers.hpp"
 #include "articula/view/show.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -50,8 +51,15 @@ namespace articula {
       }
       return *x;
     };
+    const auto whole = [&](double most) {
+      const double x = number(most);
+      if (x != std::floor(x)) {
+        detail::refuse({"option ", option, ": ", x, " is not a whole number"});
+      }
+      return static_cast<int>(x);
+    };
     if (option == "--port") {
-      options.view.port = static_cast<std::uint16_t>(number(65535));
+      options.view.port = static_cast<std::uint16_t>(whole(65535));
     } else if (option == "--address") {
       options.view.address = text();
     } else if (option == "--token") {
@@ -63,7 +71,7 @@ namespace articula {
     } else if (option == "--seconds") {
       options.seconds = number(1e6);
     } else if (option == "--priority") {
-      options.thread.priority = static_cast<int>(number(99));
+      options.thread.priority = whole(99);
       options.thread.lock_memory = options.thread.priority > 0;
     } else {
       detail::refuse({"'", option, "' is no option; there are --port, --address, --token, ",
