@@ -165,6 +165,14 @@ void add_listed(Reading& reading, const articula::ControllerManagerConfig& manag
 
 const KindTraits& traits_of(ControllerKind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
+std::vector<std::string> sections_with_tolerances(const ControllersPlan& plan) {
+  std::vector<std::string> sections;
+  for (const PlannedController& controller : plan.controllers) {
+    if (controller.has_tolerances) sections.push_back(controller.section);
+  }
+  return sections;
+}
+
 int default_substeps(double period) {
   return std::max(1, static_cast<int>(std::ceil(period / 1e-3 - 1e-9)));
 }

@@ -60,6 +60,9 @@ struct ControllersPlan {
   std::vector<std::string> notes{};  ///< what has no effect, a line each
 };
 
+/// The sections of controllers that have tolerances of trajectories, in the order of the file.
+[[nodiscard]] std::vector<std::string> sections_with_tolerances(const ControllersPlan& plan);
+
 /// So many steps of a simulation in a period that none is longer than a millisecond.
 [[nodiscard]] int default_substeps(double period);
 

@@ -24,6 +24,7 @@ enum class Kind : unsigned char { whole, real, watchdog };
 /// A member of the struct that describes a drive.
 struct Member {
   std::string name{};
+  bool is_needed = false;  ///< nothing is right for all drives
   Kind kind = Kind::real;
   int least = 0, most = 0;  ///< of a whole number
 };
@@ -41,22 +42,22 @@ Protocol protocol_called(const ConfigNode& name) {
     return {{.header = "articula/hardware/cia402/cia402_codec.hpp",
              .codec = "Cia402Codec",
              .list = "Cia402DriveList"},
-            {{"node", Kind::whole, 1, 127},
-             {"rated_effort"},
-             {"position_scale"},
-             {"velocity_scale"},
-             {"zero_position", Kind::whole, -any, any},
-             {"watchdog", Kind::watchdog},
-             {"host_node", Kind::whole, 1, 127}}};
+            {{"node", true, Kind::whole, 1, 127},
+             {"rated_effort", true},
+             {"position_scale", true},
+             {"velocity_scale", true},
+             {"zero_position", false, Kind::whole, -any, any},
+             {"watchdog", false, Kind::watchdog},
+             {"host_node", false, Kind::whole, 1, 127}}};
   }
   return {{.header = "articula/hardware/quanser/quanser_codec.hpp",
            .codec = "QuanserCodec",
            .list = "QuanserModules",
            .commands_efforts_only = true},
-          {{"node", Kind::whole, 1, 31},
-           {"motor_counts_per_turn"},
-           {"gear_ratio"},
-           {"load_counts_per_turn"},
+          {{"node", true, Kind::whole, 1, 31},
+           {"motor_counts_per_turn", true},
+           {"gear_ratio", true},
+           {"load_counts_per_turn", true},
            {"position_at_zero"},
            {"encoder_tolerance"}}};
 }
@@ -85,10 +86,13 @@ std::string code_of(const ConfigNode& drive, const Protocol& protocol) {
     throw FileError(item.key_place, "a drive has no '" + item.key + "'",
                     articula::detail::one_of_words(item.key, names));
   }
-  if (drive.find("node") == nullptr) drive.refuse("its node on the bus, such as node: 1");
   std::string code;
   for (const Member& member : protocol.members) {
     const ConfigNode* const value = drive.find(member.name);
+    if (value == nullptr && member.is_needed) {
+      throw FileError(drive.place, "the drive has no " + member.name,
+                      member.name + ": a figure of docs/hardware.md");
+    }
     if (value == nullptr) continue;
     code += (code.empty() ? "{." : ", .") + member.name + " = " + value_of(*value, member);
   }
@@ -97,8 +101,9 @@ std::string code_of(const ConfigNode& drive, const Protocol& protocol) {
 
 }  // namespace
 
-PlannedDrives read_drives(const std::string& file, const std::string& interface,
+PlannedDrives read_drives(const ControllersPlan& plan, const std::string& interface,
                           const articula::UrdfDescription& robot) {
+  const std::string& file = plan.file;
   const auto all = articula::detail::find_sections(file);
   const auto section = std::ranges::find(all.sections, "can_drives", &ConfigSection::name);
   if (section == all.sections.end()) {
@@ -110,6 +115,12 @@ PlannedDrives read_drives(const std::string& file, const std::string& interface,
   const ConfigNode* const name = parameters.find("protocol");
   if (name == nullptr) parameters.refuse("the protocol of the drives: protocol: cia402 or quanser");
   const Protocol protocol = protocol_called(*name);
+  if (protocol.types.commands_efforts_only && plan.drives != Drives::efforts) {
+    throw FileError(name->place,
+                    "drives of this protocol take efforts alone, and controller '" +
+                        plan.controllers.front().name + "' commands another quantity",
+                    "a controller of efforts, or protocol: cia402");
+  }
 
   PlannedDrives planned = protocol.types;
   planned.interface = interface;

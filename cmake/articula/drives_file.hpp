@@ -2,6 +2,8 @@
 /// @file The drives of a robot on a CAN bus, as a configuration file describes them.
 #pragma once
 
+#include "controllers_file.hpp"
+
 #include <articula/urdf/description.hpp>
 
 #include <string>
@@ -33,8 +35,10 @@ struct PlannedDrives {
 ///         protocol: cia402
 ///         shoulder: {node: 1, rated_effort: 30.0, position_scale: 166886.1, velocity_scale: 1.0e6}
 ///
+/// @param plan       controllers of the file, which say what the drives are commanded
+/// @param interface  of the bus
 /// @throws articula::FileError with place, value and what was expected
-[[nodiscard]] PlannedDrives read_drives(const std::string& file, const std::string& interface,
+[[nodiscard]] PlannedDrives read_drives(const ControllersPlan& plan, const std::string& interface,
                                         const articula::UrdfDescription& robot);
 
 }  // namespace terminal

@@ -28,7 +28,7 @@ void write_new(const Program& program, const New& options) {
   const articula::UrdfSource source = robot_source(options.robot);
   const articula::UrdfDescription robot = read_robot(source, plan, options.allows_unphysical);
   PlannedDrives drives;
-  if (!options.bus.empty()) drives = read_drives(plan.file, options.bus, robot);
+  if (!options.bus.empty()) drives = read_drives(plan, options.bus, robot);
   const Project project = make_project({.robot = options.robot,
                                         .urdf = source.text(),
                                         .controllers = plan,

@@ -80,6 +80,11 @@ bool has_gains(const ControllersPlan& plan) {
   return false;
 }
 
+/// Whether the program reads the controllers' file.
+bool reads_file(const ControllersPlan& plan) {
+  return has_gains(plan) || !sections_with_tolerances(plan).empty();
+}
+
 std::string cmake_lists(const std::string& type, const std::string& program,
                         const ProjectOptions& options, bool has_visuals) {
   const ControllersPlan& plan = options.controllers;
@@ -93,7 +98,7 @@ std::string cmake_lists(const std::string& type, const std::string& program,
   }
   if (options.allows_unphysical) robot += " ALLOW_UNPHYSICAL";
   std::string definitions;
-  if (has_gains(plan)) {
+  if (reads_file(plan)) {
     definitions += "\n  PRIVATE CONTROLLERS=\"${CMAKE_CURRENT_SOURCE_DIR}/controllers.yaml\"";
   }
   if (has_visuals) definitions += "\n  PRIVATE URDF=\"${CMAKE_CURRENT_SOURCE_DIR}/robot.urdf\"";
@@ -106,11 +111,11 @@ std::string cmake_lists(const std::string& type, const std::string& program,
          "endif()\n\n"
          "find_package(articula " +
          std::string(articula::library_version) + " REQUIRED COMPONENTS urdf view" +
-         (has_gains(plan) ? " config" : "") + (is_on_bus ? " socketcan" : "") + ")\n" + robot +
+         (reads_file(plan) ? " config" : "") + (is_on_bus ? " socketcan" : "") + ")\n" + robot +
          ")\n\n"
          "add_executable(" +
          program + " main.cpp)\n" + "target_link_libraries(" + program + " PRIVATE " + type +
-         " articula::view" + (has_gains(plan) ? " articula::config" : "") +
+         " articula::view" + (reads_file(plan) ? " articula::config" : "") +
          (is_on_bus ? " articula::socketcan" : "") + ")\n" +
          (definitions.empty() ? "" : "target_compile_definitions(" + program + definitions + ")\n");
 }
@@ -121,8 +126,9 @@ struct Code {
 };
 
 /// A Switch with the controllers of a group. Joints without a controller are held.
-Code switch_code(const std::string& robot, const ControllersPlan& plan, const PlannedGroup& group,
+Code switch_code(const std::string& robot, const ProjectOptions& options, const PlannedGroup& group,
                  const std::string& indent) {
+  const ControllersPlan& plan = options.controllers;
   Code code;
   std::string names, values;
   const auto add = [&](ControllerKind kind, const std::string& name, const std::string& section) {
@@ -146,6 +152,12 @@ Code switch_code(const std::string& robot, const ControllersPlan& plan, const Pl
     add(forward, std::string(traits_of(forward).name), "");
     active = ", .active = \"\"";
   }
+  // Passed-on efforts are 0 until somebody commands some: an arm of real drives would fall.
+  const bool is_on_bus = !options.drives.interface.empty();
+  if (is_on_bus && !group.controllers.empty() &&
+      plan.controllers[group.controllers.front()].kind == ControllerKind::bypass) {
+    active = ", .active = \"\"";
+  }
   code.type = "articula::Switch<" + robot + code.type + ">";
   code.value = "({.names = {" + names + "}" + active + "}" + values + ")";
   return code;
@@ -166,12 +178,12 @@ std::string controllers_code(const std::string& robot, const ProjectOptions& opt
         "  };\n";
   }
   if (options.groups.size() == 1) {
-    const Code code = switch_code(robot, plan, options.groups.front(), "  ");
+    const Code code = switch_code(robot, options, options.groups.front(), "  ");
     return gains + "  const " + code.type + " controllers" + code.value + ";\n";
   }
   std::string types, groups, values;
   for (const PlannedGroup& group : options.groups) {
-    const Code code = switch_code(robot, plan, group, "      ");
+    const Code code = switch_code(robot, options, group, "      ");
     std::string joints;
     for (const std::string& joint : group.joints) {
       joints += (joints.empty() ? "" : ", ") + quoted(joint);
@@ -250,6 +262,9 @@ std::string main_file(const std::string& type, const ProjectOptions& options,
          ", with the controllers of controllers.yaml.\n"
          "#include <articula/articula.hpp>\n" +
          std::string(has_gains(plan) ? "#include <articula/config/load_pid_gains.hpp>\n" : "") +
+         (sections_with_tolerances(plan).empty()
+              ? ""
+              : "#include <articula/config/load_trajectory_tolerances.hpp>\n") +
          hardware.headers +
          "#include <articula/view/show_arguments.hpp>\n"
          "#include <" +
@@ -266,7 +281,7 @@ std::string main_file(const std::string& type, const ProjectOptions& options,
 
 /// The options of `show`: what a robot on a bus needs of its thread, and what a robot with visuals
 /// shows.
-std::string show_options(const ProjectOptions& options, bool has_visuals) {
+std::string show_options(const std::string& type, const ProjectOptions& options, bool has_visuals) {
   std::vector<std::string> all;
   std::string folders;
   if (has_visuals) {
@@ -278,10 +293,29 @@ std::string show_options(const ProjectOptions& options, bool has_visuals) {
   if (!folders.empty()) {
     all.push_back(".view = {.operates = true,\n                .mesh_folders = {" + folders + "}}");
   }
-  if (!options.drives.interface.empty()) all.emplace_back(".thread = {.priority = 80}");
+  const ControllersPlan& plan = options.controllers;
+  std::string processors;
+  for (const int processor : plan.processors) {
+    processors += (processors.empty() ? "" : ", ") + std::to_string(processor);
+  }
+  if (!processors.empty()) processors = ", .processors = {" + processors + "}";
+  if (!options.drives.interface.empty()) {
+    all.push_back(".thread = {.priority = " +
+                  std::to_string(plan.priority > 0 ? plan.priority : 80) + processors + "}");
+  } else if (!processors.empty()) {
+    all.push_back(".thread = {.priority = 0" + processors + ", .lock_memory = false}");
+  }
   if (has_visuals) all.emplace_back(".urdf = URDF");
   std::string text;
   for (const std::string& each : all) text += (text.empty() ? "" : ",\n       ") + each;
+  std::string sections;
+  for (const std::string& section : sections_with_tolerances(plan)) {
+    sections += (sections.empty() ? "" : ", ") + quoted(section);
+  }
+  if (!sections.empty()) {
+    return ",\n      {" + text + "},\n      {.tolerances = articula::load_all_tolerances(" + type +
+           "(), CONTROLLERS, {" + sections + "})}";
+  }
   return all.empty() ? "" : ",\n      {" + text + "}";
 }
 
@@ -310,10 +344,11 @@ Project make_project(const ProjectOptions& options) {
   const std::string type = type_name(stem);
   Project project{.name = snake_case(type)};
   const bool has_visuals = options.urdf.find("<visual") != std::string::npos;
-  project.files = {{"robot.urdf", options.urdf},
-                   {"controllers.yaml", contents_of(options.controllers.file)},
-                   {"CMakeLists.txt", cmake_lists(type, project.name, options, has_visuals)},
-                   {"main.cpp", main_file(type, options, show_options(options, has_visuals))}};
+  project.files = {
+      {"robot.urdf", options.urdf},
+      {"controllers.yaml", contents_of(options.controllers.file)},
+      {"CMakeLists.txt", cmake_lists(type, project.name, options, has_visuals)},
+      {"main.cpp", main_file(type, options, show_options(type, options, has_visuals))}};
   return project;
 }
 

@@ -46,7 +46,7 @@ struct Run {
   bool is_mock = false, shows = false, is_read_only = false, allows_unphysical = false;
   bool compiles = false;
   std::string bus{};  ///< the CAN interface of the robot's drives; empty: there is none
-  int priority = -1;  ///< of the loop's thread; -1: 80 with a bus, else 0
+  int priority = -1;  ///< of the loop's thread; -1: that of the file or 80 with a bus, else 0
   int substeps = 0;   ///< 0: so many that none is longer than a millisecond
   double rate = 0;    ///< of the loop [Hz]; 0: that of the file
   double seconds = std::numeric_limits<double>::infinity();
@@ -179,7 +179,7 @@ void run(const Program& program, const Run& options) {
   const std::string text = source.text();
   if (options.compiles || !options.bus.empty()) {
     PlannedDrives drives;
-    if (!options.bus.empty()) drives = read_drives(controllers.file, options.bus, robot);
+    if (!options.bus.empty()) drives = read_drives(controllers, options.bus, robot);
     run_compiled(make_project({.robot = options.robot,
                                .urdf = text,
                                .controllers = controllers,
@@ -205,7 +205,7 @@ void run(const Program& program, const Run& options) {
   plan.seconds = options.seconds;
   Ros2Options ros2 = options.ros2;
   ros2.operates = !options.is_read_only;
-  plan.attach = options.controllers.empty() ? ros2_robot(ros2) : ros2_bridge(ros2);
+  plan.attach = options.controllers.empty() ? ros2_robot(ros2) : ros2_bridge(ros2, controllers);
   plan.ready = [&](const std::string& url) {
     Json names = Json::array();
     std::vector<Row> rows;
@@ -249,7 +249,7 @@ void add_loop_options(CLI::App& command, Run& options) {
       ->default_str("steps of 1 ms or less");
   command.add_option("--priority", options.priority, "of the loop's thread, SCHED_FIFO; 0: none")
       ->check(within(0, 99))
-      ->default_str("80 with --can, else 0");
+      ->default_str("that of the file or 80 with --can, else 0");
   command.add_option("--seconds", options.seconds, "how long [s]")
       ->check(within(0.0, 1e6))
       ->default_str("until Ctrl-C");

@@ -42,7 +42,7 @@ set(node 0)
 foreach(name IN LISTS names)
   string(REGEX REPLACE "\"name\":\"([^\"]*)\".*" "\\1" name ${name})
   math(EXPR node "${node} + 1")
-  file(APPEND ${WORK}/can.yaml "    ${name}: {node: ${node}, rated_effort: 100.0}\n")
+  file(APPEND ${WORK}/can.yaml "    ${name}: {node: ${node}, rated_effort: 100.0, position_scale: 10.0, velocity_scale: 1.0}\n")
 endforeach()
 run(${PROGRAM} new ${URDF} ${WORK}/can.yaml --can can0 --output ${WORK}/on_can)
 run(${CMAKE_COMMAND} -S ${WORK}/on_can -B ${WORK}/on_can/build -DCMAKE_BUILD_TYPE=Debug

@@ -377,49 +377,65 @@ TEST_CASE("a new project has the robot, the controllers and a short program") {
 TEST_CASE("a project for drives on a CAN bus has their figures") {
   const Q2dFile robot;
   const ScratchFile controllers("can.yaml");
-  const std::string arm =
-      "arm:\n  ros__parameters:\n    type: effort_controllers/JointGroupEffortController\n"
-      "    joints: [shoulder_active_joint, elbow_active_joint]\n";
-  const std::string drives = "can_drives:\n  ros__parameters:\n    protocol: cia402\n";
+  const std::string head =
+      "controller_manager:\n  ros__parameters:\n    cpu_affinity: 1\n"
+      "    arm: {type: TYPE}\n"
+      "arm:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+      "    constraints: {elbow_active_joint: {trajectory: 0.05}}\n";
+  const std::string section = "can_drives:\n  ros__parameters:\n    protocol: ";
+  const std::string figures = "rated_effort: 30, position_scale: 10, velocity_scale: 2";
   const std::string shoulder =
-      "    shoulder_active_joint: {rated_effort: 30, node: 1, watchdog: heartbeat}\n";
-  const std::string elbow = "    elbow_active_joint: {node: 2, zero_position: -7}\n";
-  const auto made = [&](const std::string& text) {
-    write(controllers.path(), arm + text);
-    support::ScratchFolder scratch("articula-new-can");
+      "    shoulder_active_joint: {node: 1, watchdog: heartbeat, " + figures + "}\n";
+  const auto elbow = [](const std::string& items) {
+    return "    elbow_active_joint: {" + items + "}\n";
+  };
+  const auto made = [&](const std::string& text,
+                        const std::string& type = "effort_controllers/JointGroupEffortController") {
+    std::string before = head;
+    before.replace(before.find("TYPE"), 4, type);
+    write(controllers.path(), before + text);
+    const support::ScratchFolder scratch("articula-new-can");
     const Result result = run_articula({"new", robot.name(), controllers.path().string(), "--can",
                                         "can7", "--output", scratch.path().string()});
     std::ifstream stream(scratch.path() / "main.cpp");
     const std::string program((std::istreambuf_iterator<char>(stream)), {});
     return std::pair(result, program);
   };
-  const auto [result, program] = made(drives + elbow + shoulder);
+  const std::string drives = section + "cia402\n" + shoulder;
+  const auto [result, program] =
+      made(section + "cia402\n" + elbow("zero_position: -7, node: 2, " + figures) + shoulder);
   INFO(result.output + result.errors + program);
   REQUIRE(result.exit_code == 0);
   for (const char* part :
-       {"{.node = 1, .rated_effort = 30, .watchdog = articula::Cia402Watchdog::heartbeat},\n"
+       {"{.node = 1, .rated_effort = 30, .position_scale = 10, .velocity_scale = 2, "
+        ".watchdog = articula::Cia402Watchdog::heartbeat},\n"
         "      // elbow_active_joint\n"
-        "      {.node = 2, .zero_position = -7}",
+        "      {.node = 2, .rated_effort = 30, .position_scale = 10, .velocity_scale = 2, "
+        ".zero_position = -7}",
         "articula::Cia402Codec<", "articula::EffortCommand<", "articula::SocketCan(\"can7\")",
-        ".thread = {.priority = 80}"}) {
+        ".thread = {.priority = 80, .processors = {1}}", "CONTROLLERS, {\"arm\"})}",
+        // Efforts that are passed on are 0 at first: the arm would fall.
+        ".active = \"\""}) {
     INFO(part);
     CHECK(program.find(part) != std::string::npos);
   }
 
   const auto refused = [&](const std::string& text) { return made(text).first; };
   check_refused(refused(""), "can_drives");
-  check_refused(refused("can_drives:\n  ros__parameters:\n" + shoulder + elbow), "protocol");
-  check_refused(refused("can_drives:\n  ros__parameters:\n    protocol: ethercat\n"), "'ethercat'");
-  check_refused(refused(drives + shoulder), "'elbow_active_joint'");
-  check_refused(refused(drives + shoulder + elbow + "    wrist: {node: 3}\n"), "'wrist'");
-  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 128}\n"), "127");
-  check_refused(refused(drives + shoulder + "    elbow_active_joint: {rated_effort: 3}\n"), "node");
-  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 2, rated_efort: 3}\n"),
-                "rated_effort");
-  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 2, watchdog: dog}\n"),
-                "heartbeat");
-  check_refused(refused(drives + shoulder + "    elbow_active_joint: {node: 2, rated_effort: x}\n"),
-                "a number");
+  check_refused(refused("can_drives:\n  ros__parameters:\n" + shoulder), "protocol");
+  check_refused(refused(section + "ethercat\n"), "'ethercat'");
+  check_refused(refused(drives), "'elbow_active_joint'");
+  check_refused(refused(drives + elbow("node: 2, " + figures) + "    wrist: {node: 3}\n"),
+                "'wrist'");
+  check_refused(refused(drives + elbow("node: 128, " + figures)), "127");
+  check_refused(refused(drives + elbow(figures)), "node");
+  check_refused(refused(drives + elbow("node: 2, rated_effort: 3")), "position_scale");
+  check_refused(refused(drives + elbow("node: 2, rated_efort: 3")), "rated_effort");
+  check_refused(refused(drives + elbow("node: 2, watchdog: dog, " + figures)), "heartbeat");
+  check_refused(refused(drives + elbow("node: 2, rated_effort: x")), "a number");
+  check_refused(
+      made(section + "quanser\n", "position_controllers/JointGroupPositionController").first,
+      "efforts alone");
 }
 
 TEST_CASE("a new project shows the visuals and the meshes of its robot") {

@@ -79,30 +79,6 @@ struct Family<R, Drives::velocities> {
   }
 };
 
-/// The tolerances of trajectories: for each joint those of the first controller that has some.
-template <articula::Robot R>
-auto tolerances(const LoopPlan& plan, const R& robot) {
-  constexpr int n = articula::joint_count<R>;
-  articula::TrajectoryTolerances<n> all{.stopped_velocity = articula::JointVector<n>::Zero()};
-  articula::JointArray<bool, n> has{};
-  bool is_first = true;
-  for (const PlannedController& planned : plan.controllers.controllers) {
-    if (!planned.has_tolerances) continue;
-    const auto own =
-        articula::load_trajectory_tolerances(robot, plan.controllers.file, planned.section)
-            .tolerances;
-    for (const articula::ConfiguredJoint& joint : planned.joints) {
-      const int j = articula::joint_index(robot, joint.name);
-      if (std::exchange(has[j], true)) continue;
-      all.path_position[j] = own.path_position[j];
-      all.goal_position[j] = own.goal_position[j];
-      all.stopped_velocity[j] = own.stopped_velocity[j];
-    }
-    if (std::exchange(is_first, false)) all.goal_time = own.goal_time;
-  }
-  return all;
-}
-
 /// Runs a loop with this hardware.
 template <Drives D, articula::Robot R, class Hardware>
 LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
@@ -130,7 +106,10 @@ LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
   articula::SupervisedControlLoop<Hardware, Controllers> loop(
       std::move(hardware), Controllers(robot, groups), {.overruns = any_number},
       plan.controllers.period);
-  articula::Remote remote(loop, {.tolerances = tolerances(plan, robot), .urdf = plan.urdf_text});
+  articula::Remote remote(
+      loop, {.tolerances = articula::load_all_tolerances(
+                 robot, plan.controllers.file, sections_with_tolerances(plan.controllers)),
+             .urdf = plan.urdf_text});
   articula::View view(remote, {.address = plan.address,
                                .port = plan.port,
                                .operates = !plan.is_read_only,

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <string>
 
 namespace terminal {
@@ -52,6 +53,13 @@ ros2::FastDdsOptions dds_of(const Ros2Options& options) {
   return {.domain = options.domain, .interfaces = options.interfaces};
 }
 
+/// What the numbers for a controller are.
+std::string quantity_of(ControllerKind kind) {
+  using enum ControllerKind;
+  if (kind == bypass) return "effort";
+  return kind == velocity_by_effort || kind == forward_velocity ? "velocity" : "position";
+}
+
 #endif
 
 }  // namespace
@@ -78,19 +86,30 @@ void add_ros2_options(CLI::App& command, Ros2Options& options) {
       ->needs(wanted);
 }
 
-Attach ros2_bridge(const Ros2Options& options) {
+Attach ros2_bridge(const Ros2Options& options, const ControllersPlan& plan) {
   if (!options.is_wanted) return {};
   check(options);
 #ifdef ARTICULA_PROGRAM_HAS_ROS2
-  return [options](articula::remote::Port& port) -> std::shared_ptr<void> {
-    return std::make_shared<ros2::Bridge>(
-        port, ros2::BridgeOptions{.distribution = distribution_of(options),
-                                  .dds = dds_of(options),
-                                  .name_space = options.name_space,
-                                  .operates = options.operates,
-                                  .use_sim_time = options.use_sim_time});
+  ros2::BridgeOptions bridge{.distribution = distribution_of(options),
+                             .dds = dds_of(options),
+                             .name_space = options.name_space,
+                             .operates = options.operates,
+                             .use_sim_time = options.use_sim_time};
+  for (const PlannedController& controller : plan.controllers) {
+    const std::string& name = controller.name;
+    if (controller.type.find('/') != std::string::npos) {
+      bridge.controller_types[name] = controller.type;
+    }
+    bridge.command_quantities[name] = quantity_of(controller.kind);
+    for (const articula::ConfiguredJoint& joint : controller.joints) {
+      bridge.controller_joints[name].push_back(joint.name);
+    }
+  }
+  return [bridge](articula::remote::Port& port) -> std::shared_ptr<void> {
+    return std::make_shared<ros2::Bridge>(port, bridge);
   };
 #else
+  static_cast<void>(plan);
   return {};
 #endif
 }
@@ -103,6 +122,10 @@ Attach ros2_robot(const Ros2Options& options) {
   return [options](articula::remote::Port& port) -> std::shared_ptr<void> {
     const ros2::Distribution distribution = distribution_of(options);
     ros2::TopicRobotOptions topics{.distribution = distribution};
+    topics.name_space = options.name_space;
+    topics.warn = [](const std::string& warning) {
+      std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    };
     topics.joint_states_topic = options.name_space + topics.joint_states_topic;
     topics.joint_commands_topic = options.name_space + topics.joint_commands_topic;
     return std::make_shared<ros2::TopicRobot>(

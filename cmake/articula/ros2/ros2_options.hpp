@@ -2,6 +2,7 @@
 /// @file Loops of the program in ROS 2.
 #pragma once
 
+#include "../controllers_file.hpp"
 #include "../program.hpp"
 
 #include <functional>
@@ -33,8 +34,9 @@ void add_ros2_options(CLI::App& command, Ros2Options& options);
 using Attach = std::function<std::shared_ptr<void>(articula::remote::Port&)>;
 
 /// Offers a loop as a controller_manager with its controllers, if it is wanted.
+/// @param plan  types, joints and quantities of the controllers
 /// @throws Refusal if the program was built without ROS 2, or an option makes no sense
-[[nodiscard]] Attach ros2_bridge(const Ros2Options& options);
+[[nodiscard]] Attach ros2_bridge(const Ros2Options& options, const ControllersPlan& plan);
 
 /// Offers a loop as a robot behind topics, which controllers in ROS 2 command, if it is wanted.
 /// @throws Refusal if the program was built without ROS 2, or an option makes no sense

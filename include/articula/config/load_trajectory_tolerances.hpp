@@ -8,8 +8,10 @@
 #include "articula/reference/trajectory/trajectory_tolerances.hpp"
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace articula {
 
@@ -53,6 +55,32 @@ template <Robot R>
   result.tolerances.goal_time = config.goal_time;
   static_cast<ControllerConfig&>(result) = std::move(config);
   return result;
+}
+
+/// The tolerances of a robot that several controllers of a file move: for each joint those of the
+/// first that lists it, and the first goal_time. Without names a trajectory has succeeded when its
+/// reference has arrived.
+/// @param names  of the controllers, each of which has constraints
+/// @throws FileError as load_trajectory_tolerances
+/// Real-time: no (reads a file, allocates, throws).
+template <Robot R>
+[[nodiscard]] TrajectoryTolerances<joint_count<R>> load_all_tolerances(
+    const R& robot, const ConfigSource& source, const std::vector<std::string>& names) {
+  constexpr int n = joint_count<R>;
+  TrajectoryTolerances<n> all{.stopped_velocity = JointVector<n>::Zero()};
+  JointArray<bool, n> has{};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const TrajectoryConfig<n> own = load_trajectory_tolerances(robot, source, names[k]);
+    for (const ConfiguredJoint& joint : own.joints) {
+      const int j = joint_index(robot, joint.name);
+      if (std::exchange(has[j], true)) continue;
+      all.path_position[j] = own.tolerances.path_position[j];
+      all.goal_position[j] = own.tolerances.goal_position[j];
+      all.stopped_velocity[j] = own.tolerances.stopped_velocity[j];
+    }
+    if (k == 0) all.goal_time = own.tolerances.goal_time;
+  }
+  return all;
 }
 
 }  // namespace articula

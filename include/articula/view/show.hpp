@@ -40,13 +40,17 @@ struct ShowOptions {
 /// Prints the address on standard output, and the loop's notices on standard error. A robot with drives
 /// needs real-time priority: `{.thread = {.priority = 80}}`. For a recorder or an own thread, use
 /// Remote, View and `run` as this function does.
+/// @param options         of the view and the run
+/// @param remote_options  of the operation, as tolerances of trajectories; `options.urdf` comes before its URDF
 /// @return the exit status of a program: 0, or 1 with a line on standard error if the view cannot
 ///         start or the URDF cannot be read
 template <class LoopType>
-int show(LoopType& loop, const ShowOptions& options = {}) {
+int show(LoopType& loop, const ShowOptions& options = {},
+         const typename Remote<LoopType>::Options& remote_options = {}) {
   try {
-    const std::string urdf = options.urdf.empty() ? "" : UrdfSource(options.urdf).text();
-    Remote remote(loop, {.urdf = urdf});
+    auto own = remote_options;
+    if (!options.urdf.empty()) own.urdf = UrdfSource(options.urdf).text();
+    Remote remote(loop, own);
     StopFlag stop;
     const StopOnSignal on_signal(stop);  // before anybody knows that it runs
     const View view(remote, options.view);

@@ -36,7 +36,8 @@ namespace articula {
 /// Real-time: no (allocates, throws).
 [[nodiscard]] inline ShowOptions with_arguments(ShowOptions options, int count,
                                                 const char* const* words) {
-  if (const char* token = std::getenv("ARTICULA_TOKEN")) options.view.token = token;
+  const char* const token = std::getenv("ARTICULA_TOKEN");
+  if (token != nullptr && *token != 0) options.view.token = token;
   for (int i = 1; i < count; ++i) {
     const std::string_view option = words[i];
     const auto text = [&]() -> std::string_view {
@@ -92,9 +93,10 @@ namespace articula {
 ///         option is wrong
 template <class LoopType>
 int show_with_arguments(LoopType& loop, int count, const char* const* words,
-                        const ShowOptions& options = {}) {
+                        const ShowOptions& options = {},
+                        const typename Remote<LoopType>::Options& remote_options = {}) {
   try {
-    return show(loop, with_arguments(options, count, words));
+    return show(loop, with_arguments(options, count, words), remote_options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -108,7 +108,7 @@ class TrajectoryFollower {
       begin(trajectory, tolerances, *bridge);
       waiting_.reset();
     } else {
-      waiting_.emplace(Waiting{trajectory, tolerances, start_time});
+      waiting_.emplace(trajectory, tolerances, start_time);  // no copy on the stack
     }
     return outcome_ = TrajectoryOutcome::active;
   }

@@ -64,7 +64,8 @@ class TopicRobot {
         options_((validate(options), options)),
         session_(port.connect("ROS 2 topics", true)),
         context_(transport, options.distribution),
-        node_(context_, options.node.empty() ? port.robot().name : options.node),
+        node_(context_, options.node.empty() ? port.robot().name : options.node,
+              options.name_space),
         states_(node_, options.joint_states_topic, quality_of_service::states) {
     if (options.publishes_clock) clock_.emplace(node_, "/clock", quality_of_service::clock);
     for (const remote::SheetJoint& joint : port.robot().joints) state_.name.push_back(joint.name);
@@ -84,7 +85,12 @@ class TopicRobot {
     const std::lock_guard lock(mutex_);
     if (std::exchange(has_new_command_, false)) commanded_ = now;
     while (const auto answer = session_->answer()) {
-      ++(answer->verdict == remote::Verdict::done ? statistics_.accepted : statistics_.refused);
+      const bool is_done = answer->verdict == remote::Verdict::done;
+      ++(is_done ? statistics_.accepted : statistics_.refused);
+      if (!is_done) warn(now, answer->text);
+    }
+    if (std::exchange(unusable_, false)) {
+      warn(now, "a command has none of the quantities that the drives take");
     }
     statistics_.malformed = refused_messages_ + context_.dropped.malformed;
     end_old_command(now);
@@ -157,12 +163,19 @@ class TopicRobot {
     if (commands("effort")) reference.efforts = named(message, message.effort);
     if (reference.positions.empty() && reference.velocities.empty() && reference.efforts.empty()) {
       ++statistics_.refused;
+      unusable_ = true;
       return;
     }
     moves_ = !reference.velocities.empty();
     pushes_ = !reference.efforts.empty();
     has_new_command_ = true;
     static_cast<void>(session_->ask(reference));
+  }
+
+  void warn(std::chrono::nanoseconds now, const std::string& reason) {
+    if (!options_.warn || (warned_ && now - *warned_ < std::chrono::seconds(1))) return;
+    warned_ = now;
+    options_.warn(options_.joint_commands_topic + ": " + reason);
   }
 
   void end_old_command(std::chrono::nanoseconds now) {
@@ -210,6 +223,8 @@ class TopicRobot {
   bool has_new_command_ = false;
   bool moves_ = false, pushes_ = false;  ///< the last command has velocities, efforts
   std::uint64_t refused_messages_ = 0;
+  bool unusable_ = false;                             ///< a command that moves nothing has come
+  std::optional<std::chrono::nanoseconds> warned_{};  ///< when the last warning was given
   mutable std::mutex mutex_{};
   TopicRobotStatistics statistics_{};  ///< under the mutex
 };

@@ -6,6 +6,7 @@
 #include "articula/ros2/layout.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace articula::ros2 {
@@ -21,6 +22,9 @@ struct TopicRobotOptions {
   bool publishes_clock = true;                      ///< the loop's time on /clock
   Distribution distribution = Distribution::jazzy;  ///< of the ROS programs in the domain
   std::string node{};                               ///< name of the node; empty: the robot's
+  std::string name_space{};                         ///< of the node, as "/left"; empty: none
+  /// Receives a line for commands that the robot refuses, at most one a second.
+  std::function<void(const std::string&)> warn{};
 };
 
 /// Refuses options that make no sense.

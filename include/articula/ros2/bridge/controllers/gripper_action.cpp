@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/bridge/controllers/gripper_action.hpp"
 
+#include "articula/core/finite.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/node/action_server.hpp"
 #include "articula/ros2/node/periodic.hpp"
@@ -148,7 +149,10 @@ class GripperAction final : public ControllerAction {
     if (const std::string reason = refusal_of(command); !reason.empty()) return reject(id, reason);
     remote::Go go{.positions = {{options_.joint, command.position[0]}}};
     if (!command.velocity.empty() && command.velocity[0] > 0) {
-      go.speed = std::min(1.0, command.velocity[0] / joint().limits.velocity);
+      // A motion has at least a hundredth of the joint's velocity. A joint without a limit moves by
+      // the port's own.
+      const double most = joint().limits.velocity;
+      if (is_finite(most)) go.speed = std::clamp(command.velocity[0] / most, 0.01, 1.0);
     }
     core_.loop_operator.ask(
         go, [this, id, position = command.position[0]](const remote::Answer& answer) {

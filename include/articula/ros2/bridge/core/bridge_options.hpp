@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace articula::ros2 {
 
@@ -35,6 +36,8 @@ struct BridgeOptions {
   /// The types that clients see. MoveIt and rqt choose by them what they offer.
   std::string controller_type = "joint_trajectory_controller/JointTrajectoryController";
   std::map<std::string, std::string> controller_types{};  ///< of single controllers, by name
+  /// The joints of single controllers, by name. Otherwise those of its gains, or all.
+  std::map<std::string, std::vector<std::string>> controller_joints{};
   /// Of controllers whose type is a gripper's, by name. They offer the action gripper_cmd.
   std::map<std::string, GripperOptions> grippers{};
   /// Of the parameters of gains: gains.<joint>.<gain>. With an empty one they are <joint>.<gain>.

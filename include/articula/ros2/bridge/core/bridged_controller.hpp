@@ -54,8 +54,8 @@ struct BridgedController {
   return gripper;
 }
 
-/// The controllers of a port. One with gains commands the joints of its gains; others command all.
-/// A gripper's commands one.
+/// The controllers of a port, with the joints that the options name. Otherwise one with gains commands
+/// the joints of its gains, and others command all. A gripper's commands one.
 /// @throws std::invalid_argument as gripper_of
 /// Real-time: no (allocates).
 [[nodiscard]] inline std::vector<BridgedController> bridged_controllers(
@@ -79,6 +79,8 @@ struct BridgedController {
     } else {
       own.quantity = own.joints.empty() ? "effort" : "position";
     }
+    const auto joints = options.controller_joints.find(own.name);
+    if (joints != options.controller_joints.end()) own.joints = joints->second;
     if (own.joints.empty()) {
       for (const remote::SheetJoint& joint : port.robot().joints) own.joints.push_back(joint.name);
     }

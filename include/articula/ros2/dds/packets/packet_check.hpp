@@ -40,8 +40,10 @@ constexpr std::size_t parameters_size(Packet bytes, bool little) noexcept {
 }
 
 /// A message or a fragment: its inline parameters and its payload begin within it.
-/// @param fields  bytes before the inline parameters, at least
-constexpr bool is_good_data(Packet part, std::uint32_t flags, std::size_t fields) noexcept {
+/// @param fields    bytes before the inline parameters, at least
+/// @param is_whole  it is no fragment
+constexpr bool is_good_data(Packet part, std::uint32_t flags, std::size_t fields,
+                            bool is_whole) noexcept {
   const bool little = (flags & 1U) != 0, has_parameters = (flags & 2U) != 0;
   if (part.size() < fields) return false;
   std::size_t at = 4 + number_at(part, 2, 2, little);
@@ -51,10 +53,11 @@ constexpr bool is_good_data(Packet part, std::uint32_t flags, std::size_t fields
     if (size == 0) return false;
     at += size;
   }
-  // Messages of discovery are lists of parameters themselves.
+  // Messages of discovery are lists of parameters themselves; a fragment ends anywhere in the list.
   const bool is_builtin = std::to_integer<unsigned>(part[11]) >= 0xc0;
   const Packet payload = part.subspan(at);
-  if (!is_builtin || payload.size() < 4 || (number_at(payload, 0, 2, false) & ~1U) != 2) {
+  if (!is_whole || !is_builtin || payload.size() < 4 ||
+      (number_at(payload, 0, 2, false) & ~1U) != 2) {
     return true;
   }
   return parameters_size(payload.subspan(4), number_at(payload, 1, 1, false) == 3) > 0;
@@ -90,9 +93,9 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
     case 0x13:  // HEARTBEAT_FRAG
       return part.size() >= 24;
     case 0x15:  // DATA
-      return is_good_data(part, flags, 20);
+      return is_good_data(part, flags, 20, true);
     case 0x16:  // DATA_FRAG: neither the number of fragments nor their size is 0
-      return is_good_data(part, flags, 32) && number_at(part, 20, 4, little) > 0 &&
+      return is_good_data(part, flags, 32, false) && number_at(part, 20, 4, little) > 0 &&
              number_at(part, 24, 2, little) > 0 && number_at(part, 26, 2, little) > 0;
     default:
       return true;  // Unknown parts are skipped.
