@@ -149,6 +149,18 @@ TEST_CASE("packets are well-formed if all their parts are within them") {
   CHECK_FALSE(with(26, 8));     // a payload that begins in the fields
   CHECK_FALSE(with(50, 0xff));  // a parameter longer than the packet
   CHECK(with(20, 0x55));        // unknown parts are skipped
+  // A fragment of a long list of parameters ends anywhere in it.
+  Bytes fragment(packet.begin(), packet.begin() + 20);
+  for (const unsigned byte :
+       {0x16U, 0x01U, 44U,   0U,    0U,    0U,    28U,   0U,    0x00U, 0x01U, 0x00U, 0xc7U,
+        0x00U, 0x01U, 0x00U, 0xc2U, 0U,    0U,    0U,    0U,    1U,    0U,    0U,    0U,
+        1U,    0U,    0U,    0U,    1U,    0U,    12U,   0U,    200U,  0U,    0U,    0U,
+        0x00U, 0x03U, 0x00U, 0x00U, 0x50U, 0x00U, 0x10U, 0x00U, 1U,    2U,    3U,    4U}) {
+    fragment.push_back(static_cast<std::byte>(byte));
+  }
+  CHECK(dds::is_well_formed(fragment));
+  fragment.at(26) = static_cast<std::byte>(0xff);  // as above: its payload begins behind the end
+  CHECK_FALSE(dds::is_well_formed(fragment));
 }
 
 TEST_CASE("a storm of announced and mutilated participants takes no memory, and peers stay") {

@@ -5,6 +5,7 @@
 
 #include "articula/ros2/messages/rosgraph_msgs.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
+#include "articula/ros2/messages/std_msgs.hpp"
 #include "articula/ros2/names.hpp"
 
 #include "catch.hpp"
@@ -25,6 +26,7 @@ using namespace articula::ros2;
 using namespace articula::ros2::test;
 using States = sensor_msgs::msg::JointState<Jazzy>;
 using Clock = rosgraph_msgs::msg::Clock;
+using Numbers = std_msgs::msg::Float64MultiArray<Jazzy>;
 
 namespace {
 
@@ -75,6 +77,33 @@ TEST_CASE("articula run offers its loop to ROS 2, below a namespace") {
   const auto states = newest<States>(peer, reader);
   REQUIRE(states);
   CHECK(states->name == std::vector<std::string>{"shoulder_active_joint", "elbow_active_joint"});
+  CHECK(program.end().exit_code == 0);
+}
+
+TEST_CASE("numbers for a controller are those of its joints, in what the file commands") {
+  const support::ScratchFile file("groups.yaml");
+  std::ofstream(file.path())
+      << "controller_manager:\n  ros__parameters:\n    update_rate: 100\n"
+         "    arm: {type: position_controllers/JointGroupPositionController}\n"
+         "    hand: {type: position_controllers/JointGroupPositionController}\n"
+         "arm:\n  ros__parameters:\n    joints: [shoulder_active_joint]\n"
+         "hand:\n  ros__parameters:\n    joints: [elbow_active_joint]\n";
+  FastDdsPeer peer(domain());
+  const auto states = peer.make_reader(topic_name("/joint_states"), dds_type_name<States>());
+  const auto commands = peer.make_writer(topic_name("/hand/commands"), dds_type_name<Numbers>());
+  Program program({"run", "ROBOT", file.path().string(), "--mock"});
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  std::optional<States> state;
+  const auto arrived = [&] {
+    return state && state->position.at(0) == 0 && std::abs(state->position.at(1) - 0.2) < 1e-9;
+  };
+  Numbers command;
+  command.data = {0.2};
+  while (!arrived() && std::chrono::steady_clock::now() < end) {
+    peer.write(commands, bytes_of(command));
+    state = newest<States>(peer, states);
+  }
+  CHECK(arrived());
   CHECK(program.end().exit_code == 0);
 }
 
