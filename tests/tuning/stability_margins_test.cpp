@@ -57,14 +57,14 @@ double fastest_growth(const JointPlant& plant, const PidGains& g) {
   return growth;
 }
 
-struct Loop {
+struct JointLoop {
   JointPlant plant;
   PidGains gains;
 };
 
 /// Loops of moderate size, stable or not, with and without damping, filter and each of the gains.
-Loop random_loop(support::Random& random) {
-  Loop loop;
+JointLoop random_loop(support::Random& random) {
+  JointLoop loop;
   loop.plant.inertia = random.number(0.1, 10);
   if (!random.one_in(4)) loop.plant.time_constant = random.number(0.05, 5);
   loop.gains.proportional = random.number(0.1, 100);
@@ -153,7 +153,7 @@ TEST_CASE(
     "magnitude and phase are those of the transfer functions, and |L| = 1 at crossovers only") {
   support::Random random(21);
   for (int k = 0; k < 300; ++k) {
-    Loop loop = random_loop(random);
+    JointLoop loop = random_loop(random);
     if (random.one_in(2)) loop.gains.derivative_filter_time = random.number(0, 0.3);
     const double delay = random.one_in(2) ? random.number(0, 0.1) : 0;
     const LoopGain gain(loop.plant, loop.gains, delay);
@@ -185,7 +185,7 @@ TEST_CASE("stable is what has its poles on the left, and margins are where it en
   support::Random random(22);
   int stable = 0, raised = 0, lowered = 0;
   for (int k = 0; k < 1000; ++k) {
-    const Loop loop = random_loop(random);
+    const JointLoop loop = random_loop(random);
     CAPTURE(k, loop.plant.inertia, loop.plant.time_constant, loop.gains.proportional,
             loop.gains.integral, loop.gains.derivative);
     const StabilityMargins margins = stability_margins(loop.plant, loop.gains);
