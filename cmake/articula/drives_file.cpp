@@ -78,7 +78,7 @@ std::string value_of(const ConfigNode& node, const Member& member) {
 
 /// The initialiser of a drive. The driver itself checks what the figures mean.
 std::string code_of(const ConfigNode& drive, const Protocol& protocol) {
-  if (!drive.is_map()) drive.refuse("a map of the drive's figures, such as {node: 1}");
+  if (!drive.is_map()) drive.refuse("a map of the drive's figures, such as {node: 1, ...}");
   std::vector<std::string> names;
   for (const Member& member : protocol.members) names.push_back(member.name);
   for (const ConfigNode& item : drive.items) {
@@ -131,7 +131,7 @@ PlannedDrives read_drives(const ControllersPlan& plan, const std::string& interf
     const ConfigNode* const drive = parameters.find(joint_name);
     if (drive == nullptr) {
       parameters.refuse("the drive of joint '" + joint_name + "', such as " + joint_name +
-                        ": {node: 1}");
+                        ": {node: 1, ...}");
     }
     planned.drives.push_back({joint_name, code_of(*drive, protocol)});
     words.push_back(joint_name);

@@ -104,7 +104,8 @@ TEST_CASE("commands by name become the loop's reference, until none follows") {
 }
 
 TEST_CASE("commands that are wrong, foreign or refused change nothing") {
-  RobotBehindTopics arm;
+  std::vector<std::string> warnings;
+  RobotBehindTopics arm({.warn = [&](const std::string& warning) { warnings.push_back(warning); }});
   const States good{.name = {shoulder_joint, elbow_joint}, .effort = {0.5, 0.25}};
   States shorter = good, twice = good, foreign = good, other_quantity = good;
   shorter.effort.pop_back();
@@ -121,6 +122,8 @@ TEST_CASE("commands that are wrong, foreign or refused change nothing") {
   CHECK(statistics.foreign == 1);
   CHECK(statistics.refused == 1);
   CHECK(statistics.accepted == 0);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("quantities") != std::string::npos);
 
   const auto other = arm.loop->port().connect("another client", true);
   REQUIRE(other->take_controls().empty());
@@ -128,6 +131,12 @@ TEST_CASE("commands that are wrong, foreign or refused change nothing") {
   arm.run(3);
   CHECK(arm.reference_effort(0) == 0);
   CHECK(arm.topics.statistics().refused == 2);
+  CHECK(warnings.size() == 1);  // within a second of the other
+  arm.run(1000);
+  arm.command(good);
+  arm.run(3);
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings[1].find("another client") != std::string::npos);
   other->release_controls();
   arm.command(good);
   arm.run(3);

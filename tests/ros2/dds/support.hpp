@@ -56,7 +56,7 @@ inline std::string text_of(Sample sample) {
   return decode(sample, text) == CdrError::none ? text.data : "not a text";
 }
 
-/// Polls until the condition holds, at most for 10 s.
+/// Polls until the condition holds, at most for a minute.
 template <class Condition>
 bool poll_until(Transport& transport, Condition condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
