@@ -46,7 +46,7 @@ function finish() {
   if (whole ~ /int main\(/) {
     printf "#line %d \"%s\"\n%s", first, file, whole > (folder "/programs/" name "_" first ".cpp")
   } else {
-    part = "namespace block_" first " {\n" parts["file"] "[[maybe_unused]] int block() {\n" \
+    part = "namespace " name "_" first " {\n" parts["file"] "[[maybe_unused]] int block() {\n" \
            parts["function"] "  return 0;\n}\n}\n"
     if (includes == "") fragments = fragments part
     else print includes part > (folder "/" name "_" first ".cpp")
