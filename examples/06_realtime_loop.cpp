@@ -10,7 +10,6 @@
 #include <articula/robots/q2d.hpp>
 
 #include <cstdio>
-#include <string>
 
 using namespace articula;
 
@@ -27,18 +26,11 @@ int main() {
 
   // Another thread writes the records, so that the loop never waits for the disk.
   CsvWriter<Q2d, EffortCommand<2>> csv("realtime_loop.csv");
-  RecordStream<CycleRecordOf<decltype(remote)>> stream(
-      {[&](const auto& record) { csv.write(record); }});
-
+  RecordStream stream(csv);
   StopFlag stop;
   const StopOnSignal ctrl_c(stop);
-  RealtimeOptions options{.thread = {.priority = 99}, .run = {.cycles = 2000, .stop = &stop}};
-  options.thread.warn = [](const std::string& refusal) { std::puts(refusal.c_str()); };
-  const RunReport report = run(remote, options, [&](auto& loop, const RunReport& now) {
-    loop.report(now);
-    stream.push(record_of(loop, now));
-    return true;
-  });
+  const RealtimeOptions options{.thread = {.priority = 99}, .run = {.cycles = 2000, .stop = &stop}};
+  const RunReport report = run(remote, options, remote.each(stream));
   stream.close();
   csv.close();
 

@@ -100,6 +100,20 @@ TEST_CASE("a stream hands on all that it took, in order, to all sinks") {
   CHECK(stream.dropped() == 5000 - accepted);
 }
 
+TEST_CASE("a stream takes writers as they are") {
+  struct Writer {
+    using Record = int;
+    void write(int record) { records.push_back(record); }
+    std::vector<int> records;
+  };
+  Writer first, second;
+  RecordStream stream(first, second);
+  for (int k = 0; k < 10; ++k) stream.push(k);
+  stream.close();
+  CHECK(first.records == std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  CHECK(second.records == first.records);
+}
+
 TEST_CASE("a sink that fails is heard of, and the others go on") {
   int count = 0;
   RecordStream<int, 64> stream({[](int record) {

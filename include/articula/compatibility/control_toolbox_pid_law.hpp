@@ -26,9 +26,9 @@ enum class ControlToolbox : unsigned char {
   noetic_antiwindup,  ///< ROS 1 Noetic, antiwindup true; the same law as humble_antiwindup
 };
 
-/// The PID of each of N joints as control_toolbox computes it, to the last bit where it matters:
-/// for comparing with, or moving from, a robot under ros_control or ros2_control. For new work see
-/// PidLaw. With e = q_ref - q, e' = v_ref - v or (e - e_last)/dt, as `derivative_of` says:
+/// The PID of each of N joints as control_toolbox computes it, to the last bit where it matters.
+/// Use it to compare with, or move from, a robot under ros_control or ros2_control. For new work
+/// see PidLaw. With e = q_ref - q, e' = v_ref - v or (e - e_last)/dt, as `derivative_of` says:
 ///
 ///     current:  u  = p e + I + d e',   u' = clamp(u, output_clamp_min, output_clamp_max)
 ///               unless |e| <= error_deadband:
@@ -46,9 +46,9 @@ enum class ControlToolbox : unsigned char {
 ///               with antiwindup, i E itself is kept between the clamps, else it goes on
 ///
 /// e_last is 0 at the start, so that the first e' kicks. A period of 0 gives the last output again
-/// (current, jazzy) or 0. An error or e' that is not finite gives NaN (current, jazzy) or 0, and
-/// the integral stays. The other gains are not used, and what is cut off from the total has no
-/// effect. Negative gains are taken, as control_toolbox takes them; only the T_t that follows from
+/// (current, jazzy) or 0. An error or e' that is not finite gives NaN (current, jazzy) or 0. The
+/// integral then stays. The other gains are not used, and what is cut off from the total has no
+/// effect. Negative gains are taken, as control_toolbox takes them. Only the T_t that follows from
 /// gains is that of their sizes, where theirs would be negative or none. Output clamps need not
 /// have 0 between them.
 /// Source: control_toolbox, pid.cpp of the branches named.

@@ -177,8 +177,9 @@ inline void keep_declared(std::vector<ConfigSection>& sections, std::vector<std:
 ///                if the file has one controller
 /// @param signs   allowed signs of p, i and d. `any` allows output clamps without 0, too, for
 ///                ControlToolboxPidLaw
-/// @throws FileError with file, line, key and what was expected: no YAML, no such controller or
-///         several, an unknown or missing key, a wrong type, a value out of range
+/// @throws FileError with file, line, key and what was expected: for no YAML, no such controller or
+///         several, or an unknown or missing key
+/// @throws FileError likewise for a wrong type, or a value out of range
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ControllerConfig load_controller(const ConfigSource& source,
                                                       std::string_view name = {},

@@ -32,8 +32,8 @@ struct PidConfig : ControllerConfig {
 /// Arranges gains in the order of a robot's joints, and checks that the file fits the robot.
 /// @param config  from load_controller
 /// @param whose   joints whose gains must be there
-/// @throws FileError if the robot lacks a joint of the file, a joint of it has no gains, the
-///         chain leaves a joint out, or the file's gravity is not the robot's
+/// @throws FileError if the robot lacks a joint of the file, or a joint of it has no gains
+/// @throws FileError if the chain leaves a joint out, or the file's gravity is not the robot's
 /// Real-time: no (allocates, throws).
 template <Robot R>
 [[nodiscard]] PidConfig<joint_count<R>> pid_gains(const R& robot, ControllerConfig config,

@@ -25,9 +25,9 @@ namespace articula {
 /// docs/configuration.md.
 /// @param source  a file, or a ConfigSource::text
 /// @param name    of the section; empty: all waveforms of the file
-/// @throws FileError with file, line, key and what was expected: an unknown joint or key, a
-///         signal that cannot be evaluated, an effort beyond the drive's limit, alone or summed up,
-///         or no waveform at all
+/// @throws FileError with file, line, key and what was expected: for an unknown joint or key, a
+///         signal that cannot be evaluated, or no waveform at all
+/// @throws FileError likewise if an effort is beyond the drive's limit, alone or summed up
 /// Real-time: no (reads a file, allocates, throws).
 template <Robot R>
 [[nodiscard]] SignalConfig load_signals(const R& robot, const ConfigSource& source,

@@ -57,9 +57,9 @@ template <Robot R>
   return result;
 }
 
-/// The tolerances of a robot that several controllers of a file move: for each joint those of the
-/// first that lists it, and the first goal_time. Without names a trajectory has succeeded when its
-/// reference has arrived.
+/// The tolerances of a robot that several controllers of a file move. Each joint has those of the
+/// first controller that lists it. goal_time is the first one. Without names a trajectory has
+/// succeeded when its reference has arrived.
 /// @param names  of the controllers, each of which has constraints
 /// @throws FileError as load_trajectory_tolerances
 /// Real-time: no (reads a file, allocates, throws).

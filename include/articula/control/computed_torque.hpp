@@ -16,9 +16,8 @@
 
 namespace articula {
 
-/// The effort that makes the rigid bodies accelerate as reference and feedback ask:
-/// effort = M(q) (a_ref + PID(q_ref - q, v_ref - v)) + h(q, v), where the PID's output is an
-/// acceleration.
+/// The effort that makes the rigid bodies accelerate as reference and feedback ask. effort = M(q)
+/// (a_ref + PID(q_ref - q, v_ref - v)) + h(q, v), where the PID's output is an acceleration.
 /// @tparam R  the robot
 /// @tparam S  type of a number: double, or a pack with the numbers of several robots
 template <Robot R, class S = double>
@@ -52,9 +51,10 @@ class ComputedTorqueLaw {
     return inverse_dynamics(robot_, in.state.position, in.state.velocity, acceleration);
   }
 
-  /// The effort [N m or N], N x 1. The feedback asks for accelerations, so its cut is the
-  /// acceleration that was lost, M(q)^-1 cut at the position of the cut output. Through the coupling
-  /// of the joints an effort may be cut off on the side that its own joint is not asked to go to.
+  /// The effort [N m or N], N x 1. The feedback asks for accelerations. So its cut is the
+  /// acceleration that was lost, M(q)^-1 cut at the position of the cut output. Through the
+  /// coupling of the joints an effort may be cut off on the side that its own joint is not asked to
+  /// go to.
   /// Real-time: yes.
   [[nodiscard]] Vector output(const Input& in) noexcept {
     Input inner{in.state, in.reference, in.period, in.applied};
@@ -91,10 +91,10 @@ class ComputedTorqueLaw {
   PidLaw<joint_count, PidOf::position, S> feedback_;
 };
 
-/// Computed torque control (inverse dynamics control): with an exact model every joint's error
-/// obeys e'' + d e' + p e = 0, whatever the others do.
-/// effort = clamp(M(q) (a_ref + PID) + h(q, v) + D v + f sign(v) + effort_ref).
-/// Uses all of the reference.   Source: [Siciliano et al. 2009, section 8.5.2].
+/// Computed torque control (inverse dynamics control). With an exact model every joint's error
+/// obeys e'' + d e' + p e = 0, whatever the others do. effort = clamp(M(q) (a_ref + PID) + h(q, v)
+/// + D v + f sign(v) + effort_ref). Uses all of the reference. Source: [Siciliano et al. 2009,
+/// section 8.5.2].
 /// @tparam R  the robot
 /// @tparam S  type of a number: double, or a pack with the numbers of several robots
 template <Robot R, class S = double>

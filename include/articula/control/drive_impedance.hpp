@@ -11,9 +11,9 @@
 
 namespace articula {
 
-/// Joint impedance control closed in the drives, at their own rate: they are given K, D, q_ref and
-/// v_ref, and the effort clamp(g(q) + effort_ref) to add. The counterpart of JointImpedance for
-/// drives that take a MultiModeCommand. Uses the reference's position, velocity and effort.
+/// Joint impedance control closed in the drives, at their own rate. They get K, D, q_ref and v_ref,
+/// and the effort clamp(g(q) + effort_ref) to add. The counterpart of JointImpedance for drives
+/// that take a MultiModeCommand. Uses the reference's position, velocity and effort.
 /// @tparam R  the robot
 /// @tparam S  type of a number: double, or a pack with the numbers of several robots
 template <Robot R, class S = double>

@@ -48,7 +48,7 @@ class ImpedanceLaw {
   ValidImpedanceGains<N> gains_;
 };
 
-/// Joint impedance control: the robot, relieved of its weight, gives way to pushes as if each joint
+/// Joint impedance control. The robot, relieved of its weight, gives way to pushes as if each joint
 /// hung on a spring and a damper. effort = clamp(K (q_ref - q) + D (v_ref - v) + g(q) +
 /// effort_ref). Uses the reference's position, velocity and effort.
 /// Source: [Siciliano et al. 2009, section 8.5.1], PD control with gravity compensation.

@@ -49,8 +49,8 @@ struct ControlInput {
   const JointReference<N, Scalar>& reference;  ///< what the joints are asked to do, finite
   double period;                               ///< dt, time until the next cycle, > 0 [s]
   Applied<N, Scalar> applied{};                ///< of the whole robot
-  /// The callee's own last command minus what was left of it, in the unit of the command, N x 1;
-  /// exactly 0 where nothing was cut off, after a start, and after a failed command.
+  /// The callee's own last command minus what was left of it, in the unit of the command, N x 1.
+  /// Exactly 0 where nothing was cut off, after a start, and after a failed command.
   JointVector<N, Scalar> cut = JointVector<N, Scalar>::Zero();
 };
 

@@ -12,7 +12,7 @@
 
 namespace articula {
 
-// A compiler that was told that there is no NaN removes the checks that keep NaN from the drives.
+// A compiler that assumes that there is no NaN removes the checks that keep NaN from the drives.
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "articula checks for NaN: add -fno-finite-math-only after -ffast-math or -Ofast"
 #endif

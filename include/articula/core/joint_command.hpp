@@ -39,7 +39,7 @@ struct VelocityCommand {
 };
 
 /// A spring, a damper and an effort for each of N drives that close this loop of their own, known
-/// as MIT mode: effort = stiffness (position - q) + damping (velocity - v) + effort.
+/// as MIT mode. effort = stiffness (position - q) + damping (velocity - v) + effort.
 /// @tparam N       number of joints
 /// @tparam Scalar  as that of JointVector
 template <int N, class Scalar = double>

@@ -10,9 +10,9 @@
 
 namespace articula {
 
-/// The name of a link or joint. It owns its text without heap memory, so that robots known at
-/// compile time and robots loaded at run time store names in the same way. It can be a template
-/// argument, so that compilers print it in their messages; only for this its members are public.
+/// The name of a link or joint. It owns its text without heap memory. So robots known at compile
+/// time and robots loaded at run time store names in the same way. It can be a template argument,
+/// so that compilers print it in their messages; only for this its members are public.
 class Name {
  public:
   static constexpr std::size_t capacity = 63;  ///< characters at most

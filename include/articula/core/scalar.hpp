@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Selection and access by lane: what algorithms over any scalar need beyond arithmetic.
 ///
-/// An algorithm over a scalar S computes for one robot where S is double, and for several robots
-/// where S is a pack, which holds the number of one robot in each lane. A comparison of packs gives
-/// a mask with a truth value for each lane, so such an algorithm selects where others branch:
+/// An algorithm over a scalar S computes for one robot where S is double. Where S is a pack, it
+/// computes for several robots. The pack holds the number of one robot in each lane. A comparison
+/// of packs gives a mask with a truth value for each lane, so such an algorithm selects where
+/// others branch:
 ///
 ///     x = select(x > limit, limit, x);
 ///

@@ -10,7 +10,7 @@ namespace articula {
 
 namespace detail {
 
-/// The inertia of a body and of all that it carries on free joints, about the origin of its frame:
+/// The inertia of a body and of all that it carries on free joints, about the origin of its frame.
 /// n = I alpha + H a, f = H^T alpha + M a.
 template <class S>
 struct ArticulatedInertia {
@@ -107,8 +107,9 @@ struct ArticulatedBodies {
 
   /// Whether it is faster than the factors for a model loaded at run time, without known zeros. The
   /// time of the factors is proportional to the sum of the squared depths of the bodies, plus N^2
-  /// for the matrix; the time of this algorithm to N. Both take about the same time for chains of
-  /// twelve joints and for trees of twenty to thirty; the constants are fitted to times there.
+  /// for the matrix. The time of this algorithm is proportional to N. Both take about the same time
+  /// for chains of twelve joints and for trees of twenty to thirty; the constants are fitted to
+  /// times there.
   template <int N, int B>
   [[nodiscard]] static constexpr bool pays_for_numbers(const Mechanism<N, B>& mechanism) noexcept {
     constexpr double per_body = 73, per_element = 1.6;  // relative to the time of a squared depth

@@ -21,7 +21,7 @@ template <class S, Robot R>
 
 }  // namespace detail
 
-/// The efforts that damping and Coulomb friction exert on moving joints, against their velocity:
+/// The efforts that damping and Coulomb friction exert on moving joints, against their velocity.
 /// effort_j = -(damping_j v_j + friction_j sign(v_j)), with sign(0) = 0. The friction that holds a
 /// joint at rest depends on the other efforts; the simulator computes it.
 /// @param robot  a described robot or a model

@@ -15,8 +15,8 @@ using LinkJacobian = Eigen::Matrix<double, 6, N>;
 namespace detail {
 
 /// Adds a body's contribution to the column of its joint. A body that turns about the axis z moves
-/// a point at r from a point of the axis by z x r and turns it by z. A body that slides along z
-/// moves it by z. Source: [Siciliano et al. 2009, section 3.1.3].
+/// a point at r from a point of the axis by z x r. It turns the point by z. A body that slides
+/// along z moves it by z. Source: [Siciliano et al. 2009, section 3.1.3].
 /// @param jacobian  6 x N, column by column
 template <class S, int N, int B>
 [[gnu::always_inline]] constexpr void add_column(const Mechanism<N, B>& mechanism, int body,
@@ -84,10 +84,10 @@ struct JacobianOf {
   }
 };
 
-/// The geometric Jacobian of a link: J(q) v are the velocity of the origin of the link's frame
-/// (rows 0 to 2) and the angular velocity of the link (rows 3 to 5), both in the frame of the
-/// robot's root link. J(q)^T (f, n) are the joint efforts that do the work of a force f at that
-/// origin and a moment n. Joints that do not move the link have columns of zeros.
+/// The geometric Jacobian of a link. J(q) v are the velocity of the link's origin (rows 0 to 2) and
+/// the angular velocity of the link (rows 3 to 5). Both are in the frame of the robot's root link.
+/// J(q)^T (f, n) are the joint efforts that do the work of a force f at that origin and a moment n.
+/// Joints that do not move the link have columns of zeros.
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @param link   the link, from link_index of the same robot

@@ -6,8 +6,8 @@
 
 namespace articula {
 
-/// The algorithm of kinetic_energy: velocities from the base outwards, then the sum over the
-/// bodies of m u.u/2 + u.(w x h) + w.I w/2, with u the velocity of the frame's origin.
+/// The algorithm of kinetic_energy. It computes velocities from the base outwards, then the sum
+/// over the bodies of m u.u/2 + u.(w x h) + w.I w/2. u is the velocity of the frame's origin.
 struct KineticEnergy {
   template <class S, int N, int B>
   [[nodiscard]] static constexpr S evaluate(const Mechanism<N, B>& mechanism,

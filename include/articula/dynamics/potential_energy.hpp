@@ -27,8 +27,8 @@ struct PotentialEnergy {
   }
 };
 
-/// The potential energy of the moving bodies in the robot's gravity, -sum of m g . c, zero for
-/// masses at the origin of the base frame.
+/// The potential energy of the moving bodies in the robot's gravity, -sum of m g . c. It is zero
+/// for masses at the origin of the base frame.
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @return       energy [J]

@@ -80,7 +80,7 @@ class VariedRobot : public detail::ModelOf<R> {
       : VariedRobot(detail::changed_model<R>(changed), changed.right_angle_tolerance) {}
 
   /// A changed copy of model_of(R()): numbers of its `mechanism` and its `joints` may differ. The
-  /// canonical mechanism is computed anew.
+  /// canonical mechanism is recomputed.
   /// @throws std::invalid_argument as above, and if a mass is negative or a number is not finite
   explicit VariedRobot(const ModelType& changed)
       : VariedRobot(changed, R::description.right_angle_tolerance) {}

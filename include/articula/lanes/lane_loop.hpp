@@ -34,9 +34,9 @@ struct LaneVerdict {
 ///
 /// The controller knows the described robot only. Each lane gives what
 /// `ControlLoop<Simulator<VariedRobot<R>>, C>` gives, up to rounding, as long as it runs. A lane
-/// whose state, reference or command is not finite ends: its verdict says why, its robot stands still
-/// from then on, and no other lane changes by a bit. Lanes have the gains of the controller, which may
-/// differ: `PidPlusGravity<Q2d, Pack>` takes a `JointPidGains<2, Pack>`.
+/// whose state, reference or command is not finite ends. Its verdict states the cause. Its robot
+/// stands still from then on, and no other lane changes by a bit. Lanes have the gains of the
+/// controller, which may differ: `PidPlusGravity<Q2d, Pack>` takes a `JointPidGains<2, Pack>`.
 /// @tparam R  the kind of robot
 /// @tparam C  a controller over S that commands efforts
 /// @tparam S  a pack, which has one number for each lane

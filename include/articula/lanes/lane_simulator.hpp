@@ -23,8 +23,9 @@ namespace articula {
 /// Each moves as `Simulator<VariedRobot<R>>` moves it alone, up to rounding. It is hardware of the
 /// described robot, which is what a controller knows. Drives take efforts.
 ///
-/// A step is computed for all lanes together, and once more alone for each lane that has an event in
-/// it (a stop, friction that brings a joint to rest). No lane changes a bit of another one.
+/// A step is computed for all lanes together. It is computed once more alone for each lane that has
+/// an event in it (a stop, friction that brings a joint to rest). No lane changes a bit of another
+/// one.
 /// @tparam R  the kind of robot
 /// @tparam S  a pack, which has one number for each lane
 template <DescribedRobot R, PackedScalar S = symbolic::Pack<>>

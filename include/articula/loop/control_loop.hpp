@@ -43,14 +43,14 @@ namespace articula {
 ///   Brakes). Any other is not called.
 /// - The state is not finite, or not known: the controller is not called.
 ///
-/// Up to `borne_cycles` consecutive bad cycles leave the controller's state unchanged. After more,
-/// or after one in which the hardware could not be read or written, the first good cycle starts the
-/// controller again, since its memory is of a motion that is over. So does the first one after
-/// cycles in which the hardware was not active (Status::inactive). Where the joints were held
-/// meanwhile, the controller starts with the command that held them.
+/// Up to `borne_cycles` consecutive bad cycles leave the controller's state unchanged. More of them
+/// end the motion that the controller's memory is of, and so does one in which the hardware could
+/// not be read or written. The first good cycle then starts the controller again. So does the first
+/// one after cycles in which the hardware was not active (Status::inactive). Where the joints were
+/// held meanwhile, the controller starts with the command that held them.
 ///
 /// Several robots of a kind run in one loop where hardware and controller are over packs:
-/// `Loop<Simulator<R, symbolic::Pack<>>, Pid>`. They share the Status: where one robot's state,
+/// `Loop<Simulator<R, symbolic::Pack<>>, Pid>`. They share the Status. Where one robot's state,
 /// reference or command is not finite, the cycle is bad for all, and each gets its safe command.
 ///
 /// For a robot that people work beside, see SupervisedControlLoop.
@@ -83,7 +83,7 @@ class ControlLoop {
     requires std::default_initializable<HardwareType>
       : ControlLoop(HardwareType(), detail::default_controller<C>()) {}
 
-  /// A given controller on default hardware.
+  /// A controller on default hardware.
   explicit ControlLoop(C controller)
     requires std::default_initializable<HardwareType>
       : ControlLoop(HardwareType(), std::move(controller)) {}

@@ -41,8 +41,8 @@ class DurationHistogram {
     return Duration(count_ == 0 ? 0 : std::llround(sum_ / static_cast<double>(count_)));
   }
 
-  /// A duration that at least this share of the durations does not exceed: the upper edge of the
-  /// bucket in which the share is reached, or max() where that is less.
+  /// A duration that at least this share of the durations does not exceed. It is the upper edge of
+  /// the bucket in which the share is reached, or max() where that is less.
   /// @param share  0 .. 1, such as 0.99
   /// Real-time: yes. O(number of buckets).
   [[nodiscard]] Duration percentile(double share) const noexcept {

@@ -11,8 +11,8 @@ namespace articula {
 ///
 /// - `now()` is the time since some fixed moment. It never runs backwards.
 /// - `wait_until(due)` waits for the cycle that is due at that time and returns when it was due
-///   indeed: `due` itself for a clock of its own, the arrival of the bus's cycle for hardware that
-///   dictates the pace. The next cycle is due one period after what it returned.
+///   indeed. That is `due` itself for a clock of its own. For hardware that dictates the pace it is
+///   the arrival of the bus's cycle. The next cycle is due one period after what it returned.
 template <class C>
 concept LoopClock = requires(C clock, std::chrono::nanoseconds due) {
   { clock.now() } noexcept -> std::same_as<std::chrono::nanoseconds>;

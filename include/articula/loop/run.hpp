@@ -34,7 +34,7 @@ struct RunOptions {
   const StopFlag* stop = nullptr;      ///< ends the run at the next cycle once it is raised
 };
 
-/// What `run` does after each cycle unless told otherwise: goes on as long as all is well.
+/// What `run` does after each cycle by default: goes on as long as all is well.
 struct WhileOk {
   template <class LoopType>
   [[nodiscard]] bool operator()(const LoopType&, const RunReport& report) const noexcept {
@@ -46,7 +46,7 @@ struct WhileOk {
 /// it (see stop.hpp).
 ///
 /// Updates are due on a grid: one period after another from the first on, whatever the updates
-/// take, so that no delay adds up. A cycle that ends after the next one was due is an overrun; the
+/// take, so that no delay adds up. A cycle that ends after the next one was due is an overrun. The
 /// periods that it has used up are skipped, and the grid stays. Their number is passed to
 /// `missed_periods(count)` of the loop, if it has that function.
 /// @param loop     what to run

@@ -9,8 +9,9 @@
 namespace articula {
 
 /// Ends control: writes one more safe command and deactivates the hardware. After a good cycle the
-/// command is the one that holds (see safe_command), after a bad one the safe command that the loop
-/// found for it. A loop that has its own `stop()`, such as SupervisedLoop, does that instead.
+/// command is the one that holds (see safe_command). After a bad one it is the safe command that
+/// the loop found for it. A loop that has its own `stop()`, such as SupervisedLoop, does that
+/// instead.
 /// @param loop    a Loop, or something like it
 /// @param status  of its last update
 /// @return        the first thing that went wrong

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file An equivalent mechanism whose equations of motion are shorter.
 ///
-/// Some parameters of a mechanism can be chosen without a change of its motion: the position of a
-/// body's frame on its joint's axis, its angle about that axis, and the side of the joint on which a
-/// part of the inertia is counted. The canonical form chooses them so that as many numbers as
-/// possible become zero.
+/// Some parameters of a mechanism can be chosen without a change of its motion. They are the
+/// position of a body's frame on its joint's axis, and its angle about that axis. A third is the
+/// side of the joint on which a part of the inertia is counted. The canonical form chooses them so
+/// that as many numbers as possible become zero.
 #pragma once
 
 #include "articula/core/constant_math.hpp"
@@ -34,7 +34,7 @@ struct CanonicalMechanism {
 
 namespace detail {
 
-/// x, or 0 if x may be a rounding error of a difference of numbers as large as `scale`: the
+/// x, or 0 if x may be a rounding error of a difference of numbers as large as `scale`. The
 /// tolerance covers some tens of operations, each with an error of 1e-16.
 [[nodiscard]] constexpr double without_rounding(double x, double scale) noexcept {
   return magnitude(x) <= 1e-14 * scale ? 0 : x;
@@ -65,7 +65,7 @@ namespace detail {
   return with_exact_components((1 / constant_math::square_root(dot(a, a))) * a);
 }
 
-/// The rotation with all elements up to the tolerance set to zero, made orthonormal again: the z
+/// The rotation with all elements up to the tolerance set to zero, made orthonormal again. The z
 /// axis keeps its direction, and x is made perpendicular to it. If other elements are small but
 /// above the tolerance, the small angle is probably intended. Then only rounding is removed.
 [[nodiscard]] constexpr Matrix3<double> with_right_angles(Matrix3<double> rotation,
@@ -153,8 +153,8 @@ constexpr void move_frame(CanonicalMechanism<N, Bodies>& canonical, int index,
 
 /// The canonical form of a mechanism.
 ///
-/// 1. Right angles that were written with few digits become exact: elements of rotation matrices up
-///    to `right_angle_tolerance` become 0, unless some are only little larger, and the matrices are
+/// 1. Right angles that were written with few digits become exact. Elements of rotation matrices up
+///    to `right_angle_tolerance` become 0, unless some are only little larger. The matrices are
 ///    made orthonormal again. Efforts change in proportion to the angles' error, accelerations by
 ///    that times the condition of the mass matrix. A tolerance of 0 turns this step off.
 /// 2. Frames are rotated about their z axes so that rotations have more zeros, and parallel axes

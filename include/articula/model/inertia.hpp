@@ -39,9 +39,10 @@ template <class S>
           dot(r.rows[1], ir[1]), dot(r.rows[1], ir[2]), dot(r.rows[2], ir[2])};
 }
 
-/// A body's inertia in frame A from that in frame B, with the translation t and h_A = R h_B: first
-/// moment h_A + m t, moment R I_B R^T + 2 (a . t) 1 - (a t^T + t a^T) where a = h_A
-/// + m t / 2. Source: [Featherstone 2008, section 2.13], written out in blocks.
+/// A body's inertia in frame A from that in frame B, with the translation t and h_A = R h_B. The
+/// first moment is h_A + m t. The moment is R I_B R^T + 2 (a . t) 1 - (a t^T + t a^T) where a = h_A
+/// + m t / 2.
+/// Source: [Featherstone 2008, section 2.13], written out in blocks.
 /// @param ab       the placement of B in A
 /// @param inertia  the body's inertia in B
 template <class S>

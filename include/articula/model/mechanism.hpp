@@ -8,8 +8,8 @@
 
 namespace articula {
 
-/// The rigid body that one joint moves, with everything welded to it. Its frame's origin lies on the
-/// joint's axis, and the axis is +z: a revolute joint rotates the body about z, and a prismatic
+/// The rigid body that one joint moves, with everything welded to it. Its frame's origin lies on
+/// the joint's axis, and the axis is +z. A revolute joint rotates the body about z, and a prismatic
 /// joint translates it along z.
 struct Body {
   int parent = -1;         ///< index of the body that carries the joint; -1 for the fixed base

@@ -22,7 +22,7 @@ struct Placement {
 };
 
 /// The rotation of fixed-axis roll, pitch, yaw angles, as URDF defines them: R = Rz(yaw) Ry(pitch)
-/// Rx(roll). Sines and cosines within 1e-15 of 0 are set to 0, so that a right angle written as the
+/// Rx(roll). Sines and cosines within 1e-15 of 0 are set to 0. So a right angle written as the
 /// double nearest to pi/2 gives exact zeros and ones.
 /// @param rpy  roll, pitch, yaw [rad], 3 x 1; by value, because g++ 12 misreads a reference to a
 ///             part of a constant that a function has filled member by member

@@ -48,7 +48,7 @@ enum class Rule {
   shared_inertia_is_too_large,
 };
 
-/// True for the rules about a link's inertia that `allow_unphysical` waives: no real body has such
+/// True for the rules about a link's inertia that `allow_unphysical` waives. No real body has such
 /// an inertia, but the equations of motion can be evaluated.
 [[nodiscard]] constexpr bool concerns_inertia(Rule rule) noexcept {
   return rule == Rule::link_has_inertia_but_no_mass ||

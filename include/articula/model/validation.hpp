@@ -102,9 +102,9 @@ constexpr Rule broken_mimic_rule(std::span<const Joint> joints, const Joint& joi
 }
 
 /// The first rule about shared rotors that a joint breaks. The kinetic energy of rotors must not be
-/// negative at any velocity: c^2 <= a b, with the shared inertia c and the reflected inertias a and
-/// b of the two joints. One drive for both joints has c^2 = a b, so the tolerance for rounding is
-/// 1e-12.
+/// negative at any velocity. That is c^2 <= a b, with the shared inertia c and the reflected
+/// inertias a and b of the two joints. One drive for both joints has c^2 = a b, so the tolerance
+/// for rounding is 1e-12.
 constexpr Rule broken_rotor_rule(std::span<const Joint> joints, const Joint& joint) {
   const auto& [name, inertia] = joint.shared_rotors;
   if (name.empty()) {

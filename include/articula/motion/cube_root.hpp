@@ -6,9 +6,9 @@
 
 namespace articula {
 
-/// The cube root of x >= 0, within two units in the last place. Unlike std::cbrt it has the same bits
-/// with every C library: five steps of Newton's iteration y <- y - (y - z/y^2)/3 on a z from 1/2 to 4,
-/// from a line that is at most 9 % off.
+/// The cube root of x >= 0, within two units in the last place. Unlike std::cbrt it has the same
+/// bits with every C library. It runs five steps of Newton's iteration y <- y - (y - z/y^2)/3 on a
+/// z from 1/2 to 4. They start from a line that is at most 9 % off.
 /// @param x  any; infinity and NaN are their own
 /// Real-time: yes.
 [[nodiscard]] inline double cube_root(double x) noexcept {

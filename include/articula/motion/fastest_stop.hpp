@@ -50,16 +50,16 @@ namespace articula {
 }
 
 /// The fastest stop (fastest_stop) within a range of positions, with the acceleration k A and the
-/// jerk k^2 J. The factor k >= 1 is the smallest one with which the joint stays in the range; with
+/// jerk k^2 J. The factor k >= 1 is the smallest one with which the joint stays in the range. With
 /// these powers a stop from a mere velocity takes 1/k of the time and of the distance.
 ///
 /// - At the end of the range, and where the stop would take less than a nanosecond, the joint
 ///   stands at once.
 /// - A joint that is outside already moves no further out, if some k allows that. Otherwise k = 1.
 /// - While an acceleration fades, the velocity changes by a^2/(2 J). This may be much where a
-///   trajectory accelerates harder than A. What would lead beyond V, or beyond the initial velocity
-///   where that is higher, is dropped at once: the acceleration steps down to sqrt(2 J (V - v)),
-///   while position and velocity do not jump.
+///   trajectory accelerates harder than A. The part that would lead beyond V, or beyond the initial
+///   velocity where that is higher, is dropped at once. The acceleration then steps down to sqrt(2
+///   J (V - v)), while position and velocity do not jump.
 ///
 /// @param start         the motion to stop
 /// @param velocity      V [rad/s or m/s], as MotionLimits allows

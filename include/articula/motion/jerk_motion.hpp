@@ -120,7 +120,8 @@ class JerkMotion {
   }
 
   /// Whether the motion keeps limits and has no jump. A motion that starts beyond a limit may go as
-  /// far as its start, and as far as the velocity goes while the initial acceleration fades.
+  /// far as its start. It may also go as far as the velocity goes while the initial acceleration
+  /// fades.
   /// Real-time: yes. O(Capacity).
   [[nodiscard]] bool keeps(const MotionBounds& bounds) const noexcept {
     if (size_ == 0) return true;

@@ -48,8 +48,8 @@ struct RootList {
 
 namespace detail {
 
-/// The root between two arguments with values of opposite sign, to rounding: Newton's method, and
-/// bisection where a Newton step would leave the bracket or would converge more slowly.
+/// The root between two arguments with values of opposite sign, to rounding. It uses Newton's
+/// method, and bisection where a Newton step would leave the bracket or would converge more slowly.
 template <std::size_t Count>
 [[nodiscard]] double root_between(const std::array<double, Count>& c, double low, double high,
                                   bool rises) noexcept {
@@ -105,8 +105,8 @@ template <std::size_t Count>
 /// The highest value of a polynomial on 0..1, or `known` where that is higher. A coefficient that
 /// is not finite makes the result infinite.
 /// @param c      coefficients, c_0 first
-/// @param known  the limit of interest, or -infinity; a polynomial below it costs little time, and
-///               one above it by less than 1e-10 of it counts as below
+/// @param known  the limit of interest, or -infinity. A polynomial below it costs little time. One
+///               above it by less than 1e-10 of it counts as below.
 /// Real-time: yes.
 template <std::size_t Count>
 [[nodiscard]] double polynomial_peak(const std::array<double, Count>& c, double known) noexcept {

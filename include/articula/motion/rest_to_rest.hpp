@@ -11,8 +11,8 @@
 namespace articula {
 
 /// The fastest motion from rest to rest over a distance D within the limits V, A, J of velocity,
-/// acceleration and jerk: seven stretches, jerk +J 0 -J, cruise, -J 0 +J [Biagiotti, Melchiorri
-/// 2008, section 3.4]. The highest acceleration and velocity are
+/// acceleration and jerk. Its seven stretches have jerk +J 0 -J, cruise, -J 0 +J [Biagiotti,
+/// Melchiorri 2008, section 3.4]. The highest acceleration and velocity are
 ///
 ///     a = min(A, sqrt(V J), cbrt(D J^2 / 2)),
 ///     v = min(V, (sqrt(b^2 + 4 a D) - b)/2) with b = a^2/J.

@@ -14,8 +14,8 @@
 namespace articula {
 
 /// Motions of one joint from a state (position, velocity, acceleration) to another one within
-/// limits of velocity, acceleration and jerk: the fastest motion, and one of each longer possible
-/// duration [Berscheid, Kröger 2021].
+/// limits of velocity, acceleration and jerk. They are the fastest motion, and one of each longer
+/// possible duration [Berscheid, Kröger 2021].
 ///
 /// All motions of duration T between two velocities and accelerations form a convex set. So their
 /// distances form an interval from D-(T) to D+(T), whose ends belong to two known motions

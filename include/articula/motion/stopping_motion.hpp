@@ -12,9 +12,9 @@
 namespace articula {
 
 /// A stop of one joint within limits B of deceleration and J of jerk, in whole cycles. It is about
-/// as fast as whole cycles allow. The deceleration starts at its present value d, grows in steps of
-/// s = J dt to a level p <= B, stays there, and returns to 0 in such steps. A deceleration above B
-/// first returns to B.
+/// as fast as whole cycles allow. The deceleration starts at its present value d and grows in steps
+/// of s = J dt to a level p <= B. It stays there, and returns to 0 in such steps. A deceleration
+/// above B first returns to B.
 ///
 /// n steps lead to p = d + n s and reduce v/dt by n d + s n (n + 1)/2. The return to 0 reduces it by
 /// (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which the

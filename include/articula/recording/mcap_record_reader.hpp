@@ -23,8 +23,9 @@ namespace articula {
 /// @tparam Command  of the recorded loop
 /// @param robot     whose loop was recorded
 /// @param path      of the file
-/// @throws std::runtime_error naming the file and the record, if the file cannot be read, was written
-///         by another program, or for another robot or kind of command
+/// @throws std::runtime_error naming the file and the record, if the file cannot be read or was
+///         written by another program
+/// @throws std::runtime_error likewise, if it was written for another robot or kind of command
 /// Real-time: no (allocates, calls the system, throws).
 template <class Command, Robot R>
 [[nodiscard]] Recording<joint_count<R>, Command> read_mcap_recording(

@@ -16,9 +16,13 @@
 
 namespace articula {
 
+/// A type such as CsvWriter whose `write` takes records.
+template <class W, class Record>
+concept WriterOf = requires(W& writer, const Record& record) { writer.write(record); };
+
 /// Passes records of a loop to sinks (files, sockets) on a thread of its own:
 ///
-///     RecordStream<Record> stream({[&](const Record& record) { csv.write(record); }});
+///     RecordStream stream(csv, mcap);
 ///     stream.push(record_of(loop, report));  // after each cycle
 ///
 /// The loop never waits: if the ring is full, a record is dropped and counted. A sink that throws
@@ -35,6 +39,13 @@ class RecordStream {
   /// @param sinks  called with each record, in order
   explicit RecordStream(std::vector<Sink> sinks)
       : sinks_(std::move(sinks)), thread_([this] { work(); }) {}
+  /// Likewise with writers as sinks, such as CsvWriter and McapRecordWriter. They outlive the stream.
+  /// @param writers  whose `write` takes a record
+  template <WriterOf<Record>... Writers>
+    requires(sizeof...(Writers) > 0)
+  explicit RecordStream(Writers&... writers)
+      : RecordStream(
+            std::vector<Sink>{[&writers](const Record& record) { writers.write(record); }...}) {}
   ~RecordStream() { finish(); }
   RecordStream(const RecordStream&) = delete;
   RecordStream& operator=(const RecordStream&) = delete;
@@ -90,5 +101,8 @@ class RecordStream {
   std::exception_ptr error_;
   std::thread thread_;  // last, since it uses the others
 };
+
+template <class Writer, class... Writers>
+RecordStream(Writer&, Writers&...) -> RecordStream<typename Writer::Record>;
 
 }  // namespace articula

@@ -19,7 +19,7 @@ namespace articula {
 ///     loop.reference() = profile.sample(loop.next_time());
 ///
 /// - From rest to rest, all joints arrive together. The slowest joint takes its least time
-///   (rest_to_rest). The motions of the others are stretched in time by a factor s, which divides
+///   (rest_to_rest). The motions of the others are stretched in time by a factor s. It divides
 ///   their velocities by s, accelerations by s^2 and jerks by s^3.
 /// - A stop is the fastest one of each joint alone (fastest_stop).
 ///
@@ -38,9 +38,10 @@ class JerkLimitedProfile {
   /// @param from    start [rad or m], N x 1; may be outside the joints' limits
   /// @param to      end [rad or m], N x 1
   /// @param limits  V, A, J
-  /// @throws std::invalid_argument if a limit is out of range, a position is not finite, `to` is
-  ///         outside a joint's limits, or the duration overflows; the message names joint, value
-  ///         and limit
+  /// @throws std::invalid_argument if a limit is out of range, a position is not finite or `to` is
+  ///         outside a joint's limits
+  /// @throws std::invalid_argument if the duration overflows; each message names joint, value and
+  ///         limit
   JerkLimitedProfile(const R& robot, const JointVector<joint_count>& from,
                      const JointVector<joint_count>& to, const Limits& limits) {
     validate(robot, limits);

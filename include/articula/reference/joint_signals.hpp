@@ -33,9 +33,9 @@ struct JointSignal {
 ///     JointSignals<Q2d> waves({{"shoulder_active_joint", SineSignal{.amplitude = 0.5,
 ///                                                                   .frequency = 1}}});
 ///
-/// Joints without a signal stay at `around`. A position outside the joint's limits is clamped to the
-/// limit, with velocity and acceleration 0. A time that is not finite gives NaN, which a loop
-/// refuses.
+/// Joints without a signal stay at `around`. A position outside the joint's limits is clamped to
+/// the limit. Its velocity and acceleration are then 0. A time that is not finite gives NaN, which
+/// a loop refuses.
 /// @tparam Capacity  largest number of signals of all joints together
 template <Robot R, int Capacity = 32>
 class JointSignals {
@@ -45,8 +45,9 @@ class JointSignals {
   /// @param signals  in any order; those of one joint add up
   /// @param around   the reference to which they are added
   /// @throws std::invalid_argument if there are too many signals, a joint is unknown, a signal
-  ///         cannot be evaluated, their sum overflows, or `around` is not finite or outside a
-  ///         joint's limits; the message names joint and signal
+  ///         cannot be evaluated or their sum overflows
+  /// @throws std::invalid_argument if `around` is not finite or outside a joint's limits; each
+  ///         message names joint and signal
   JointSignals(const R& robot, std::span<const JointSignal> signals,
                const JointReference<joint_count>& around = {})
       : around_(around), range_(joint_range(robot)) {

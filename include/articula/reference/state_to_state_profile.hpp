@@ -55,9 +55,12 @@ class StateToStateProfile {
   /// @param to       state at the end; the feed-forward effort changes linearly
   /// @param limits   of each joint
   /// @param minimum  least duration [s]
-  /// @throws std::invalid_argument if a limit is out of range, a number is not finite, `to` is
-  ///         beyond a limit or no motion within the limits can end there, the minimum is negative,
-  ///         or a joint leaves its position limits in between; the message names joint, value, limit
+  /// @throws std::invalid_argument if a limit is out of range, a number is not finite or the
+  ///         minimum is negative
+  /// @throws std::invalid_argument if `to` is beyond a limit, or no motion within the limits can
+  ///         end there
+  /// @throws std::invalid_argument if a joint leaves its position limits in between; each message
+  ///         names joint, value, limit
   StateToStateProfile(const R& robot, const Reference& from, const Reference& to,
                       const Limits& limits, double minimum = 0) {
     validate(robot, limits);
@@ -132,8 +135,8 @@ class StateToStateProfile {
   /// The time at which all joints arrive [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
 
-  /// The reference at a time since the start [s]; before 0 as at 0. A time that is not finite gives
-  /// NaN, which a loop refuses.
+  /// The reference at a time since the start [s]; before 0 it is that at 0. A time that is not
+  /// finite gives NaN. A loop refuses NaN.
   /// Real-time: yes. O(N).
   [[nodiscard]] Reference sample(double time) const noexcept {
     if (!is_finite(time)) return detail::undefined_reference<joint_count>();

@@ -11,7 +11,7 @@
 namespace articula {
 
 /// The fastest stop from any motion, followed by a motion from rest to a given position. If the
-/// joints start within their position limits, they stay there: where the fastest stop would leave
+/// joints start within their position limits, they stay there. Where the fastest stop would leave
 /// them, acceleration and jerk exceed their limits as little as possible (stop_within). The
 /// reference's effort stays.
 template <Robot R>

@@ -18,8 +18,8 @@
 
 namespace articula::remote {
 
-/// The tasks that a loop has: handed over, taken back with an answer, or answered in its place when
-/// it does not take them in time. For the outside, not for several threads at a time.
+/// The tasks that a loop has. They are handed over, taken back with an answer, or answered in its
+/// stead when it does not take them in time. For the outside, not for several threads at a time.
 /// @tparam R        the robot
 /// @tparam Command  of the loop
 template <Robot R, class Command>

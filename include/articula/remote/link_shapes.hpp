@@ -65,8 +65,9 @@ class ShapeMaker {
   }
 
  private:
-  /// Points to which a body reaches, in the frame of its own link: the joints that it carries; if
-  /// there is none, the links that are welded to it; if there is none, beyond its centre of mass.
+  /// Points to which a body reaches, in the frame of its own link. They are the joints that it
+  /// carries; if there is none, the links that are welded to it. If there is none of these, the
+  /// point is beyond its centre of mass.
   [[nodiscard]] std::vector<Vector3<double>> ends_of(std::size_t own, bool& is_tip) const {
     const Placement<double> back = inverse(tree_[own].on_body);
     std::vector<Vector3<double>> joints, welded;

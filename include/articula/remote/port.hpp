@@ -56,9 +56,9 @@ class Session {
   /// Gives the controls back. A motion goes on; a pull ends.
   virtual void release_controls() = 0;
   [[nodiscard]] virtual bool has_controls() const = 0;
-  /// Tells that the client is still there. Who has the controls and does not call this, or make
-  /// requests, for RemoteOptions::operator_lifetime loses them, as by its destruction; the loop then
-  /// does as RemoteOptions::when_operator_is_lost says.
+  /// Tells that the client is still there. A client that has the controls loses them if it neither
+  /// calls this nor makes requests for RemoteOptions::operator_lifetime. This is as by its
+  /// destruction. The loop then does as RemoteOptions::when_operator_is_lost says.
   virtual void keep_alive() = 0;
 
   /// Hands a request to the loop, which does requests in their order. A request takes the controls

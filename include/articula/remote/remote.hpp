@@ -4,6 +4,7 @@
 
 #include "articula/loop/loop_clock.hpp"
 #include "articula/loop/run.hpp"
+#include "articula/recording/cycle_record.hpp"
 #include "articula/remote/engine/loop_side.hpp"
 #include "articula/remote/outside.hpp"
 #include "articula/remote/remote_options.hpp"
@@ -70,6 +71,16 @@ class Remote final : public Port {
   [[nodiscard]] auto each() noexcept {
     return [](Remote& remote, const RunReport& report) noexcept {
       remote.report(report);
+      return true;
+    };
+  }
+  /// Likewise, and push a record of the cycle: `each(stream)`.
+  /// @param records  a RecordStream, or another object whose `push` does not wait
+  template <class Records>
+  [[nodiscard]] auto each(Records& records) noexcept {
+    return [&records](Remote& remote, const RunReport& report) noexcept {
+      remote.report(report);
+      records.push(record_of(remote, report));
       return true;
     };
   }

@@ -31,7 +31,7 @@ struct RemoteOptions {
   std::string urdf{};
 };
 
-/// The limits of the robot's description. Where it has none, the velocity is 1 rad/s or 1 m/s, the
+/// The limits of the robot's description. Where it has none, the velocity is 1 rad/s or 1 m/s. The
 /// acceleration reaches it in 0.25 s, and the jerk reaches the acceleration in 0.1 s.
 /// Real-time: yes.
 template <Robot R>

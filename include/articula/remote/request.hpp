@@ -44,7 +44,7 @@ struct Go {
 };
 
 /// Sets the reference of some joints at once, for references that another program computes. The
-/// others stay as they are, or stop if they move. Velocities and efforts that are not given are 0.
+/// others stay as they are, or stop if they move. Velocities and efforts that are not set are 0.
 struct SetReference {
   std::vector<JointValue> positions{};   ///< [rad or m]
   std::vector<JointValue> velocities{};  ///< [rad/s or m/s]
@@ -112,7 +112,7 @@ struct Step {
 struct SetSpeed {
   double factor = 1;  ///< 0.01 .. 100
 };
-/// Simulations: puts the robot at rest into a position. Joints that are not given are at 0, or at
+/// Simulations: puts the robot at rest into a position. Joints that are not listed are at 0, or at
 /// the limit next to it.
 struct Reset {
   std::vector<JointValue> positions{};  ///< [rad or m]

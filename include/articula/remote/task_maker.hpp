@@ -22,8 +22,8 @@
 
 namespace articula::remote {
 
-/// Makes tasks of requests, or refuses them: unknown names, numbers that are not finite or beyond the
-/// robot's limits, requests that this loop does not understand. So nothing unchecked reaches the loop.
+/// Makes tasks of requests. Refuses unknown names, numbers that are not finite or beyond the robot's
+/// limits, and requests that this loop does not understand. So nothing unchecked reaches the loop.
 /// For the outside. All functions throw std::invalid_argument, naming joint, value and limit.
 /// @tparam LoopType  a ControlLoop or SupervisedControlLoop
 template <class LoopType>

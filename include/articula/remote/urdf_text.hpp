@@ -184,10 +184,11 @@ void add_joint(XmlText& xml, const R& robot, const std::vector<TreeLink>& tree,
 }  // namespace detail
 
 /// A robot as a URDF document: links with inertias, joints with axes, limits, friction and mimics,
-/// and the shapes of link_shapes. load_urdf makes the same robot of it up to rounding, with joints
-/// and links in the same order. What a URDF has no place for is missing: gravity, inertias of
+/// and the shapes of link_shapes. load_urdf makes the same robot from it, up to rounding. Joints
+/// and links have the same order. What a URDF has no place for is missing: gravity, inertias of
 /// rotors, limits of acceleration and jerk; and soft limits are. Links that are welded together
-/// have their mass at one of them. A limit that a joint does not have is 1e9 where URDF demands one.
+/// have their mass at one of them. A limit that a joint does not have is 1e9 where URDF demands
+/// one.
 /// @throws std::invalid_argument if a name has a control character, which XML cannot hold
 /// Real-time: no (allocates).
 template <Robot R>

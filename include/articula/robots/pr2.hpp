@@ -129,8 +129,8 @@ constexpr auto pr2_trunk_joints() {
 
 }  // namespace detail
 
-/// The Willow Garage PR2 on a fixed base: twenty joints (torso, head, laser, and eight in each arm,
-/// the last of them for the gripper) and ten that mimic a gripper's. Figures: the
+/// The Willow Garage PR2 on a fixed base. It has twenty joints: torso, head, laser, and eight in
+/// each arm, the last of them for the gripper. Ten more mimic a gripper's joint. Figures: the
 /// public robot description (pr2_description), with the links that move mass, the base and the
 /// grippers' tool frames.
 struct Pr2 {

@@ -114,7 +114,7 @@ constexpr auto pr2_arm_links(Side side, const Link& upper_arm) {
 }
 
 /// The joints of one arm of the PR2. All joints of the gripper mimic that of one finger. In public
-/// descriptions the right inner finger has a multiplier of -1, which leaves its limits; here it
+/// descriptions the right inner finger has a multiplier of -1, which leaves its limits. Here it
 /// mirrors the left one, as on the robot.
 /// @param pan          limits of the shoulder's pan joint; only the positions are used
 /// @param roll_limits  limits of the upper arm's roll joint; only the positions are used

@@ -11,10 +11,10 @@ namespace articula {
 /// turn. These figures are our own: check them on your arm, see docs/hardware.md.
 ///
 /// Motor and load may differ by 0.4 rad. Where a joint is not locked, it has a torsion spring
-/// between them: 9 N m/rad in the shoulder, 4 N m/rad in the elbow (the maker's figures, not
-/// measured). In simulation, steps of 0.1 rad under the course's gains twist these springs by at
-/// most 0.33 rad. With locked joints 0.05 rad is enough; steps of 1 rad with free springs need
-/// 0.8 rad.
+/// between them. The springs have 9 N m/rad in the shoulder and 4 N m/rad in the elbow (the maker's
+/// figures, not measured). In simulation, steps of 0.1 rad under the course's gains twist these
+/// springs by at most 0.33 rad. With locked joints 0.05 rad is enough; steps of 1 rad with free
+/// springs need 0.8 rad.
 inline constexpr QuanserModules<2> q2d_modules{{
     {.node = 1,
      .motor_counts_per_turn = 4096,

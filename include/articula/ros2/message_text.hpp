@@ -75,7 +75,8 @@ void collect_sections(ReferencedTypes<TextSink>& types) {
 }  // namespace detail
 
 /// The definition of a message type with all types that it refers to, in the form that MCAP files
-/// name "ros2msg": the fields, and a section for each other type. It has no constants or defaults.
+/// name "ros2msg". It holds the fields, and a section for each other type. It has no constants or
+/// defaults.
 /// @tparam M  a message struct
 /// Real-time: no (allocates).
 template <Message M>

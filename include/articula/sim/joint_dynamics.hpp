@@ -224,8 +224,8 @@ class JointDynamics {
     return answer;
   }
 
-  /// The largest distance of a joint beyond its stop [rad or m], or power that friction would give
-  /// to a joint that has turned back [W], by robot. Positive after an event.
+  /// The largest distance of a joint beyond its stop [rad or m], by robot. Or the power that
+  /// friction would give to a joint that has turned back [W]. Positive after an event.
   template <class S>
   [[nodiscard]] S excess(const Phase<S>& phase, const State<S>& later) const noexcept {
     S most = -JointLimits::infinity;

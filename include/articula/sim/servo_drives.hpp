@@ -21,15 +21,16 @@ namespace articula {
 ///
 /// with the bandwidth w and the joint's velocity limit V. The drives give the effort that causes
 /// this acceleration: effort = M(q) a + h(q, v) + D v + f sign(v). So a joint follows its position
-/// command as w^2/(s + w)^2, critically damped, and its velocity command as w/(s + w), independent
-/// of its inertia, weight and friction and of the other joints. This is the cascaded control of
-/// industrial drives with a perfect feed-forward, [Siciliano et al. 2009, section 8.5.2].
+/// command as w^2/(s + w)^2, critically damped, and its velocity command as w/(s + w). This is
+/// independent of its inertia, weight and friction and of the other joints. This is the cascaded
+/// control of industrial drives with a perfect feed-forward, [Siciliano et al. 2009, section
+/// 8.5.2].
 ///
 /// A drive gives no more than its effort limit. While one is at its limit, its joint lags behind,
-/// or overshoots where it cannot brake as hard as it should, and the others still follow. Position
+/// or overshoots where it cannot brake as hard as it should. The others still follow. Position
 /// commands are clamped to the joint's limits, and a drive does not push where its joint rests at a
-/// stop. Where a joint has no velocity limit, V is 1e6 rad/s or m/s, so that a command of any size
-/// to one drive leaves the others their share.
+/// stop. Where a joint has no velocity limit, V is 1e6 rad/s or m/s. So a command of any size to
+/// one drive leaves the others their share.
 ///
 /// All functions take a pack of robots as well as one robot: S is double or a pack.
 template <Robot R>

@@ -30,8 +30,8 @@ namespace articula {
 /// - The same options and commands give the same motion to the last bit.
 ///
 /// docs/simulator.md has the details. `Simulator<R, symbolic::Pack<>>` simulates several robots at
-/// once, with a command for each. Steps without events are computed for all robots together, a step
-/// with an event (a stop, friction that brings a joint to rest) for each robot alone.
+/// once, with a command for each. Steps without events are computed for all robots together. A step
+/// with an event (a stop, friction that brings a joint to rest) is computed for each robot alone.
 /// @tparam S  type of a number: double, or a pack with the numbers of several robots
 template <Robot R, class S = double>
 class Simulator {

@@ -103,9 +103,10 @@ template <Robot R>
   return 2.785 / 2 / rate;
 }
 
-/// Refuses options that cannot be simulated: periods, steps, bandwidths, resolutions or deviations
-/// out of range, drives of no kind, a start outside the joint limits, a mass matrix that is
-/// singular at the start, damping too strong for the step.
+/// Refuses options that cannot be simulated:
+/// - periods, steps, bandwidths, resolutions or deviations out of range
+/// - drives of no kind, or a start outside the joint limits
+/// - a mass matrix that is singular at the start, or damping too strong for the step
 /// @throws std::invalid_argument naming the option or joint, the value and the limit
 /// Real-time: no (throws).
 template <Robot R>

@@ -55,8 +55,9 @@ class ClosedLoopExperiment {
   using Controller = std::remove_cvref_t<std::invoke_result_t<const Make&, const Gains&>>;
 
   /// @param gains  nominal
-  /// @throws std::invalid_argument naming the option, link or joint, value and limit: also if a loop
-  ///         with all parameters at their low or high ends cannot be simulated
+  /// @throws std::invalid_argument naming the option, link or joint, value and limit
+  /// @throws std::invalid_argument likewise if a loop with all parameters at their low or high ends
+  ///         cannot be simulated
   ClosedLoopExperiment(R robot, const Gains& gains, Make make,
                        ClosedLoopOptions<joint_count> options)
       : robot_(std::move(robot)), make_(std::move(make)), options_(std::move(options)) {
@@ -145,8 +146,8 @@ class ClosedLoopExperiment {
     }
   }
 
-  /// One run without lanes, to the last bit as in lanes; where the compiler fuses multiplications and
-  /// additions, metrics differ by some 1e-7 of their size.
+  /// One run without lanes, to the last bit as in lanes. Where the compiler fuses multiplications
+  /// and additions, metrics differ by some 1e-7 of their size.
   /// @param own  from `loop`
   /// @throws std::invalid_argument if the loop cannot be simulated
   /// Real-time: no (allocates).

@@ -22,8 +22,8 @@
 
 namespace articula::detail {
 
-/// True if the runs of a robot under a controller can be simulated in lanes: the robot is known at
-/// compile time, and its drives take efforts.
+/// True if the runs of a robot under a controller can be simulated in lanes. The robot must be
+/// known at compile time, and its drives must take efforts.
 template <class R, class C>
 inline constexpr bool can_run_in_lanes = false;
 template <DescribedRobot R, class C>

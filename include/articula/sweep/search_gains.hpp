@@ -67,9 +67,9 @@ struct SearchedCost {
 
 }  // namespace detail
 
-/// Minimises a cost by NLopt's DIRECT-L, which needs no derivatives and finds its way over the whole
-/// range (Gablonsky, Kelley: A locally-biased form of the DIRECT algorithm, 2001), and then its
-/// BOBYQA from the best point (Powell, 2009). The cost is usually a quantile over a sweep:
+/// Minimises a cost by NLopt's DIRECT-L, and then by its BOBYQA from the best point (Powell, 2009).
+/// DIRECT-L needs no derivatives and searches the whole range (Gablonsky, Kelley: A locally-biased
+/// form of the DIRECT algorithm, 2001). The cost is usually a quantile over a sweep:
 ///
 ///     const SearchResult best = search_gains(options, [&](const std::vector<double>& gains) {
 ///       return sweep(experiment_with(gains), runs).summary("elbow.settling_time").quantile(0.95);

@@ -10,7 +10,7 @@
 
 namespace articula::symbolic {
 
-/// Writes the nodes on which the outputs of a graph depend as a program, in three stages: the
+/// Writes the nodes on which the outputs of a graph depend as a program. It has three stages: the
 /// operands of the angles, the sines and cosines, and the rest. A node that no angle needs comes in
 /// the last stage: no register is free to hold its value while sines are computed.
 /// @tparam Capacity  the largest program
@@ -58,7 +58,7 @@ class Assembler {
   }
 
   /// Determines the stage of each node and the number of instructions of each stage, from the
-  /// outputs to the inputs: an operand's stage is that of the node or an earlier one. Sines of
+  /// outputs to the inputs. An operand's stage is that of the node or an earlier one. Sines of
   /// angles that depend on no other sine belong to the stage of the angles, and their operands to
   /// the stage before. Nodes of that stage depend on no sine.
   constexpr void find_stages(const GrowingArray<Term>& outputs) {

@@ -32,8 +32,8 @@ struct Node {
 };
 
 /// A value during the construction of an expression: a number or the value of a node, perhaps
-/// negated. Signs belong to terms and not to nodes: a sum of two terms is a node for their sum or
-/// difference, and a remaining sign moves to the next operation.
+/// negated. Signs belong to terms and not to nodes. A sum of two terms is a node for their sum or
+/// difference. A remaining sign moves to the next operation.
 struct Term {
   static constexpr int none = Node::none;
 

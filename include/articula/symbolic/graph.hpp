@@ -26,7 +26,7 @@ namespace articula::symbolic {
 /// - Opposite terms cancel: (x + y) + (z - y) = x + z, also if they differ by a constant.
 /// - Operands of sums and products are sorted, so that x y and y x are one node.
 ///
-/// The rules are those of real numbers: 0 x is 0 even for an infinite x, and results may differ in
+/// The rules are those of real numbers. 0 x is 0 even for an infinite x, and results may differ in
 /// rounding from the operations as written.
 class Graph {
  public:

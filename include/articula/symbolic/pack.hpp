@@ -173,8 +173,8 @@ class Pack {
       sincos_of_small<Begin + count>(angle, sine, cosine);
     }
   }
-  /// The lanes do not depend on each other: the angles of a lane without a large one are computed as
-  /// they are in a pack without one, to the last bit.
+  /// The lanes do not depend on each other. The angles of a lane without a large one are computed
+  /// as they are in a pack without one, to the last bit.
   template <std::size_t K>
   [[gnu::noinline, gnu::cold]] static void sincos_of_large(const std::array<Pack, K>& angle,
                                                            const Pack& squares,

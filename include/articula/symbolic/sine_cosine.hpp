@@ -22,8 +22,8 @@ namespace detail {
 }
 
 /// An angle that compilers load alone. They would load neighbours in memory as one vector. If the
-/// neighbours were just stored one by one, or as other vectors, the processor cannot forward them
-/// to that load: it waits until all stores have reached the cache (failed store forwarding).
+/// neighbours were just stored one by one, or as other vectors, the processor could not forward
+/// them to that load. It waits until all stores have reached the cache (failed store forwarding).
 [[nodiscard, gnu::always_inline]] inline double loaded_alone(double angle) noexcept {
 #if defined(__x86_64__)
   asm("" : "+x"(angle));

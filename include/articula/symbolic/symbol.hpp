@@ -11,8 +11,8 @@ namespace articula::symbolic {
 namespace detail {
 
 /// Not a constant expression, so that compilers name it in their message. A constant divisor 0
-/// occurs in an algorithm that has no result for any input, such as forward dynamics of a robot
-/// with a joint without inertia.
+/// occurs in an algorithm that has no result for any input. An example is forward dynamics of a
+/// robot with a joint without inertia.
 [[noreturn]] inline void the_divisor_is_always_zero() {
   throw std::domain_error("articula: the divisor is always zero");
 }

@@ -66,9 +66,9 @@ struct ReducedAngle {
   Integers<Lanes> right_angles;  ///< their number in the last bits
 };
 
-/// Subtracts pi/2 in three parts, of which the first two have so few bits that their multiples up
-/// to 2^20 are exact [Cody, Waite 1980, chapter 8]. Adding 1.5 * 2^52 rounds to an integer in the
-/// last bits.
+/// Subtracts pi/2 in three parts. The first two have so few bits that their multiples up to 2^20
+/// are exact [Cody, Waite 1980, chapter 8]. Adding 1.5 * 2^52 rounds to an integer in the last
+/// bits.
 /// @pre the angle is no larger than largest_reduced_angle
 template <int Lanes>
 [[gnu::always_inline]] inline ReducedAngle<Lanes> reduce(const Reals<Lanes>& angle) noexcept {

@@ -102,8 +102,8 @@ struct TextCharacter {
   return "";
 }
 
-/// A text from a file as a message shows it: short, on one line, without control characters, and
-/// with the codes of characters that cannot be seen.
+/// A text from a file as a message shows it. It is short, on one line, without control characters,
+/// and with the codes of characters that cannot be seen.
 [[nodiscard]] inline std::string shown(std::string_view text) {
   constexpr std::size_t longest = 60;
   std::string result;

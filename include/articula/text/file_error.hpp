@@ -9,7 +9,7 @@
 
 namespace articula {
 
-/// A place in a file.
+/// A position in a file.
 struct FilePlace {
   std::string file{};  ///< the file's name, or the name of a text
   int line = 0;        ///< from 1; 0: the whole file
@@ -26,7 +26,7 @@ struct FilePlace {
 };
 
 /// A URDF or YAML file that cannot be used: unreadable, malformed, or with a value that makes no
-/// sense. `what()` is one line with the place, what is wrong and, where known, what was expected:
+/// sense. `what()` is one line: position, what is wrong and, where known, what was expected:
 ///
 ///     pid.yaml:9:10: arm.elbow.p: the word 'many', expected a number
 ///     arm.urdf: link 'elbow': the mass is negative (-0.3 kg)

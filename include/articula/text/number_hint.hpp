@@ -21,7 +21,7 @@ namespace articula::detail {
 }
 
 /// How to correct a text that should be a number, for the end of a message; empty if that is not
-/// known: a decimal comma, a typographic minus sign, a unit, an expression.
+/// known. It covers a decimal comma, a typographic minus sign, a unit, an expression.
 [[nodiscard]] inline std::string number_hint(std::string_view text) {
   if (number_of(text) || has_placeholder(text) || !odd_character_in(text).empty()) return "";
   for (std::string_view rest = text; !rest.empty();) {

@@ -28,8 +28,9 @@ struct CarriedBody {
 /// @param robot  a described robot or a model
 /// @param q      joint positions [rad or m], N x 1
 /// @param joint  index of the joint, 0 .. N - 1, or its name
-/// @throws std::invalid_argument if there is no such joint, a position is not finite, or other joints
-///         mimic it, so that it carries several bodies; the message names the joint
+/// @throws std::invalid_argument if there is no such joint or a position is not finite
+/// @throws std::invalid_argument if other joints mimic it, so that it carries several bodies; each
+///         message names the joint
 /// Real-time: no (set-up).
 template <Robot R, class Joint>
 [[nodiscard]] CarriedBody carried_body(const R& robot, const JointVector<joint_count<R>>& q,

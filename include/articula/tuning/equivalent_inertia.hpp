@@ -61,8 +61,9 @@ template <Robot R, class Joint>
 /// @param joint   index of the joint, 0 .. N - 1, or its name
 /// @param others  whether the other joints are locked or free
 /// @return        I [kg m^2 or kg]
-/// @throws std::invalid_argument if there is no such joint, a position is not finite, or the other
-///         joints are free and M(q) is singular; the message names the joint
+/// @throws std::invalid_argument if there is no such joint or a position is not finite
+/// @throws std::invalid_argument if the other joints are free and M(q) is singular; each message
+///         names the joint
 /// Real-time: no (set-up).
 template <Robot R, class Joint>
 [[nodiscard]] double equivalent_inertia(const R& robot, const JointVector<joint_count<R>>& q,

@@ -29,8 +29,8 @@ struct SampledJoint {
   bool is_unit_inertia;  ///< the law's output is an acceleration, so the plant is an inertia of 1
 
   /// Whether the joint never comes to rest. Where nothing holds the position the spectral radius is
-  /// 1, with a rounding error of up to 1e-8, the root of that of a number, where two eigenvalues
-  /// meet. Growth by less than 1e-6 per period is within the reach of friction.
+  /// 1. Two eigenvalues meet there. So the rounding error is up to 1e-8, the root of that of a
+  /// number. Growth by less than 1e-6 per period is within the reach of friction.
   [[nodiscard]] bool unstable() const { return spectral_radius(plant, law, period) > 1 + 1e-6; }
 };
 
@@ -164,9 +164,9 @@ void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_co
 
 }  // namespace detail
 
-/// Notices about a controller's gains, a line each: which joints they make unstable, and remedies. A
-/// joint is unstable if its spectral_radius under its law is above 1. Each joint is checked alone,
-/// with its inertia while the other joints are free, and with viscous damping.
+/// Notices about a controller's gains, a line each: which joints they make unstable, and remedies.
+/// A joint is unstable if its spectral_radius under its law is above 1. Each joint is checked
+/// alone, with viscous damping, and with its inertia while the other joints are free.
 ///
 /// The check covers laws of efforts with a function `sampled_feedback`: PidLaw, ControlToolboxPidLaw
 /// and ImpedanceLaw, each alone, also within OnJoints, Groups, Limited, Switch and ComputedTorqueLaw.

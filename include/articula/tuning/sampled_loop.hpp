@@ -12,11 +12,12 @@
 
 namespace articula {
 
-/// The spectral radius of a joint under a law that is computed at the beginning of each period dt and
-/// whose output is held until its end. The joint moves as in detail::HeldEffort, the law for y = q or
-/// v as JointPid does with a reference of 0. Together they multiply the state (q, v, D, y_last, I) by
-/// one matrix A per period. Its spectral radius r is the limit of |A^n|^(1/n), taken here by squaring
-/// A 40 times: deviations from the reference grow as r^n.
+/// The spectral radius of a joint under a law. The law is computed at the beginning of each period
+/// dt, and its output is held until the end of the period. The joint moves as in
+/// detail::HeldEffort. The law is computed for y = q or v, as JointPid does with a reference of 0.
+/// Together they multiply the state (q, v, D, y_last, I) by one matrix A per period. Its spectral
+/// radius r is the limit of |A^n|^(1/n), taken here by squaring A 40 times: deviations from the
+/// reference grow as r^n.
 /// Source: [Åström, Wittenmark 1997, section 3.2].
 /// @param plant     I and T
 /// @param feedback  the law

@@ -92,8 +92,8 @@ class ScaledLoop {
     return all;
   }
 
-  /// Whether the closed loop without delay is stable: the conditions of Hurwitz for
-  /// s^2 (s + rate) (1 + filter s) + n0 + n1 s + n2 s^2, divided by s if there is no integral term.
+  /// Whether the closed loop without delay is stable. It applies the conditions of Hurwitz to s^2
+  /// (s + rate) (1 + filter s) + n0 + n1 s + n2 s^2, divided by s if there is no integral term.
   [[nodiscard]] bool stable_without_delay() const {
     std::vector<double> c{n0_, n1_, rate_ + n2_, 1 + rate_ * filter_, filter_};
     if (n0_ == 0) c.erase(c.begin());

@@ -10,8 +10,8 @@
 
 namespace articula {
 
-/// The positions at the start of a simulation: each joint's `initial_value` in <ros2_control>, or
-/// without one 0, or the position within the limits that is nearest to 0.
+/// The positions at the start of a simulation. Each joint has its `initial_value` in
+/// <ros2_control>, or without one 0, or the position within the limits that is nearest to 0.
 ///
 ///     Simulator sim(arm, SimulatorOptions<6>{.initial_position = initial_positions(arm, urdf)});
 ///

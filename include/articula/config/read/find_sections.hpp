@@ -18,8 +18,8 @@
 
 namespace articula::detail {
 
-/// Combines the parameters of controllers as ROS 2 does: all sections whose names match count, in
-/// the order of the file, and of two values of a key the later one.
+/// Combines the parameters of controllers as ROS 2 does. All sections whose names match count, in
+/// the order of the file. Of two values of a key the later one counts.
 class SectionFinder {
  public:
   /// @param wanted  a controller for which wildcards alone may match; empty: none

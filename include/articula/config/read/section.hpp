@@ -29,7 +29,7 @@ struct ConfigSection {
   std::vector<std::string> notes{};  ///< on values that other sections replace
 
   [[nodiscard]] std::string full_name() const { return group.empty() ? name : group + "/" + name; }
-  /// The place of its key.
+  /// The position of its key.
   [[nodiscard]] const FilePlace& place() const noexcept { return parameters.key_place; }
   void check() const {
     if (fault) throw FileError(*fault);
@@ -68,8 +68,8 @@ struct SectionChoice {
   std::function<void(std::vector<ConfigSection>&, std::vector<std::string>&)> narrow{};
 };
 
-/// The sections of a file that are meant: those with this name, else the relevant ones in the
-/// namespace, of the type or, without a name, in the file.
+/// The sections of a file that are meant. They are those with this name. Else they are the relevant
+/// ones in the namespace, of the type or, without a name, in the file.
 /// @param all  receives a note on each section that is left out, if there is no name
 /// @throws FileError if there is none
 [[nodiscard]] inline std::vector<ConfigSection> chosen_sections(ConfigSections& all,

@@ -60,7 +60,7 @@ class FilledText {
 
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
 
-  /// The place in the file of a place in this text. All characters of a value are at its
+  /// The position in the file of a position in this text. All characters of a value are at its
   /// placeholder.
   [[nodiscard]] FilePlace in_file(const YAML::Mark& mark) const {
     FilePlace place{file_, std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};

@@ -20,7 +20,7 @@
 
 namespace articula::detail {
 
-/// A scalar, list or map, or nothing, with its place in the file. Maps keep the order of the file.
+/// A scalar, list or map, or nothing, with its position in the file. Maps keep the file's order.
 /// Each conversion throws a FileError if the value has another type or is out of range.
 struct ConfigNode {
   enum class Kind : unsigned char { nothing, scalar, list, map };
@@ -155,7 +155,7 @@ struct ConfigNode {
   return (map.place.key.empty() ? "" : map.place.key + ".") + shown(key);
 }
 
-/// Sets the file and the keys from the top in the places of a tree.
+/// Sets the file and the keys from the top in the positions of a tree.
 inline void set_paths(ConfigNode& node, const std::string& file, const std::string& path) {
   node.place.file = node.key_place.file = file;
   node.place.key = node.key_place.key = path;

@@ -9,7 +9,8 @@
 namespace articula {
 
 /// The numbers that must not jump when one command follows another: efforts, velocities or
-/// positions; of a MultiModeCommand the whole effort that it makes at the measured state. N x 1.
+/// positions. For a MultiModeCommand it is the whole effort that it makes at the measured state. N
+/// x 1.
 /// Real-time: yes.
 template <int N, class S, JointCommand<N, S> Command>
 [[nodiscard]] JointVector<N, S> numbers_of(const Command& command,

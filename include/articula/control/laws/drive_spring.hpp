@@ -11,8 +11,8 @@
 
 namespace articula {
 
-/// The effort of springs and dampers at a measured state: K (q_ref - q) + D (v_ref - v), without the
-/// commanded effort [N m or N], N x 1. Real-time: yes.
+/// The effort of springs and dampers at a measured state [N m or N], N x 1. It is K (q_ref - q) + D
+/// (v_ref - v), without the commanded effort.
 template <int N, class S>
 [[nodiscard]] JointVector<N, S> spring_pull(const MultiModeCommand<N, S>& command,
                                             const JointState<N, S>& state) noexcept {

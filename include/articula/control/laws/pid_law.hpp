@@ -60,7 +60,7 @@ class PidLaw {
   }
 
   /// Forgets the past. If a command was applied, the integrals begin with the load that it has
-  /// carried; what p and d ask for comes on top of it. If it may have been a push, joints whose
+  /// carried. The outputs of p and d come on top of it. If it may have been a push, joints whose
   /// integral could not take that back soon begin with 0, see JointPid::prime.
   /// @return  the integral terms and feed-forwards if a command was applied, else 0, N x 1
   /// Real-time: yes. O(N).
@@ -78,8 +78,8 @@ class PidLaw {
     return share;
   }
 
-  /// The output u of each joint, N x 1. At first the integrals take back what the last output was
-  /// cut off by, as each joint's gains say (AntiWindup).
+  /// The output u of each joint, N x 1. At first the integrals take back the cut of the last
+  /// output, as each joint's gains say (AntiWindup).
   /// @param in  position and velocity of state and reference are used, and the reference's
   ///            acceleration by a feed-forward gain
   /// Real-time: yes. O(N).
@@ -106,9 +106,9 @@ class PidLaw {
     return output;
   }
 
-  /// Goes on with other gains. The integral terms, being in units of the output, stay as they are,
-  /// as far as the new clamps allow in the next cycle; also where i becomes 0. The cut of the last
-  /// output is taken back by the new gains' anti-windup. Real-time: yes.
+  /// Goes on with other gains. The integral terms are in units of the output. They stay as they
+  /// are, also where i becomes 0, as far as the new clamps allow in the next cycle. The new gains'
+  /// anti-windup takes back the cut of the last output. Real-time: yes.
   void set_gains(const ValidPidGains<N, S>& gains) noexcept { gains_ = gains; }
 
   [[nodiscard]] const JointPidGains<N, S>& gains() const noexcept { return gains_.values(); }

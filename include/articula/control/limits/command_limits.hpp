@@ -39,8 +39,8 @@ struct CommandLimits {
   Vector upper = Vector::Constant(infinity);         ///< highest position [rad or m], N x 1
   Vector velocity = Vector::Constant(infinity);      ///< V, absolute value [rad/s or m/s], N x 1
   Vector acceleration = Vector::Constant(infinity);  ///< A, absolute [rad/s^2 or m/s^2], N x 1
-  /// B <= A, the deceleration of planned stops before a position limit; the rest up to A is a
-  /// reserve [rad/s^2 or m/s^2], N x 1; infinite: B = A, for efforts 0.8 A
+  /// B <= A, the deceleration of planned stops before a position limit [rad/s^2 or m/s^2], N x 1.
+  /// The rest up to A is a reserve. Infinite: B = A, for efforts 0.8 A.
   Vector deceleration = Vector::Constant(infinity);
   Vector jerk = Vector::Constant(infinity);         ///< J, absolute value [rad/s^3 or m/s^3], N x 1
   Vector effort = Vector::Constant(infinity);       ///< of the total, absolute [N m or N], N x 1
@@ -49,7 +49,7 @@ struct CommandLimits {
   Vector soft_lower = Vector::Constant(-infinity);  ///< soft limit of position [rad or m], N x 1
   Vector soft_upper = Vector::Constant(infinity);   ///< likewise
   /// k: the highest velocity towards a soft limit at the distance x is k x, and 0 beyond the limit
-  /// [1/s], N x 1; infinite: limited by braking alone
+  /// [1/s], N x 1. Infinite: limited by braking alone.
   Vector soft_rate = Vector::Constant(infinity);
 
   /// The limits of one joint's motion. Real-time: yes.

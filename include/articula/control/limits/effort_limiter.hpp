@@ -37,10 +37,10 @@ struct EffortStep {
 ///     effort = m a + bias,   m = M(q) + D dt/2,   bias = h(q, v) + D v + f sign(v),
 ///
 /// where damping acts at the velocity in the middle of the cycle. A joint whose acceleration a
-/// violates a limit receives an acceleration a' that does not (limit_motion), and the effort for it.
-/// The others keep their efforts. This is Gauss's principle of least constraint: limits act like
-/// stops, on their own joint only. As holding one joint changes the motion of the others, the joint
-/// with the largest m_jj (a_j - a'_j)^2 is held first, and the rest is checked again.
+/// violates a limit receives an acceleration a' that does not (limit_motion), and the effort for
+/// it. The others keep their efforts. This is Gauss's principle of least constraint: limits act
+/// like stops, on their own joint only. Holding one joint changes the motion of the others. So the
+/// joint with the largest m_jj (a_j - a'_j)^2 is held first, and the rest is checked again.
 ///
 /// The limits of effort come last: a drive that is too weak cannot brake. So A and B must be what
 /// the drives can do in every posture, gravity included. As no model is exact, B should leave a

@@ -59,7 +59,7 @@ namespace detail {
   return std::max({0.0, limits.lower - positions.lowest, positions.highest - limits.upper});
 }
 
-/// Replaces a stop that exceeds the position limits by a harder one, which uses as much of the
+/// Replaces a stop that exceeds the position limits by a harder one. That uses as much of the
 /// reserve between B and A as necessary: v^2/(2 x) for the remaining distance x.
 inline void use_reserve(StoppingMotion& stop, const JointCommandLimits& limits) noexcept {
   const double beyond = distance_beyond(stop, limits);
@@ -76,7 +76,7 @@ inline void use_reserve(StoppingMotion& stop, const JointCommandLimits& limits) 
 /// Changes the length of the cycles. The velocity stays. The acceleration is reduced until it can
 /// fade, in steps of the new length, before the velocity limit. So velocities keep their limits for
 /// any sequence of periods. Acceleration and jerk may exceed theirs for some cycles after the
-/// change, and so may positions, by as much as the stop is longer in cycles of the new length.
+/// change. Positions may, too, by as much as the stop is longer in cycles of the new length.
 /// limit_position() keeps those. At most 21 stops are computed.
 inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
                        double period) noexcept {

@@ -43,9 +43,9 @@ namespace detail {
 /// the position (StoppingMotion). Position limits are those of limit_motion().
 ///
 /// A requested position that moves within the limits of velocity and acceleration is approached in
-/// its own motion: the difference must come to rest if the request continues with the velocity and
-/// acceleration of its last three values. Jerk is not checked: differentiating rounded positions
-/// three times amplifies rounding error.
+/// its own motion. The request is assumed to continue with the velocity and acceleration of its
+/// last three values. The difference must then come to rest. Jerk is not checked: differentiating
+/// rounded positions three times amplifies rounding error.
 ///
 /// - A joint that is already at the requested position follows it. A step below about 2 J dt^3 looks
 ///   like the beginning of such a motion, and is crossed by that much at most.

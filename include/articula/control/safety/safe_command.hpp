@@ -26,12 +26,12 @@ template <Robot R, class Command>
   return command;
 }
 
-/// The command for a cycle in which something is wrong. Where the position is known, it holds: by
-/// the gravity effort, the position itself, or zero velocity; drives with a spring of their own
-/// hold it by the last stiffness and damping, and the gravity effort. Where it is not, efforts,
-/// velocities and stiffnesses are zero, and the last damping stays. There is no safe position
-/// without a measured one, so the position command is `last` then. Each robot of a pack gets the
-/// command that it would get alone.
+/// The command for a cycle in which something is wrong. Where the position is known, the command
+/// holds it: by the gravity effort, the position itself, or zero velocity. Drives with a spring of
+/// their own hold it by the last stiffness and damping, and the gravity effort. Where it is not,
+/// efforts, velocities and stiffnesses are zero, and the last damping stays. There is no safe
+/// position without a measured one, so the position command is `last` then. Each robot of a pack
+/// gets the command that it would get alone.
 /// @param robot     whose joints these are
 /// @param position  measured position [rad or m], N x 1; not used unless finite
 /// @param last      the last command that was written

@@ -31,8 +31,8 @@ namespace articula {
 /// All within what the robot's description allows. A clamp takes from c alone, never from u; a
 /// command without a difference to carry passes unchanged.
 ///
-/// The number that counts is the effort, velocity or position; of a MultiModeCommand the whole
-/// effort that it makes at the measured state, and the difference is added to its effort. Beyond
+/// The number that counts is the effort, velocity or position. For a MultiModeCommand it is the
+/// whole effort that it makes at the measured state. The difference is added to its effort. Beyond
 /// the drives' limit, the drive's references are drawn towards the state as far as needed.
 /// @tparam R  the robot
 /// @tparam C  the command, over double or a pack with the numbers of several robots

@@ -35,11 +35,11 @@ namespace articula {
 ///                             arm_controllers, gripper_controller);
 ///
 /// - Every joint belongs to one group.
-/// - A group's controller is one for all joints of the robot; of its command only the numbers of the
-///   group's joints are used. It gets the whole state, and a reference that keeps the other joints
-///   where they are: their position and velocity as measured, no acceleration, no effort.
+/// - A group's controller is one for all joints of the robot; of its command only the numbers of
+///   the group's joints are used. It gets the whole state. Its reference keeps the other joints at
+///   their measured position and velocity, without acceleration and effort.
 /// - The controller of a group with the divisor k is called in the first cycle and every k-th from
-///   then on, with the period k dt. In between its command is held.
+///   then on. Its period is k dt. In between its command is held.
 /// - If a group's controller fails, its joints, and no others, get the safe command (see
 ///   safe_command). Efforts brake them as those of Standby do. The controller is called again in
 ///   the next cycle, with the time since the last call. The verdict on all is `degraded`.
@@ -65,8 +65,8 @@ class Groups : public ControllerTuple<Controllers...> {
   /// @param robot        whose joints these are
   /// @param groups       of the joints
   /// @param controllers  one per group, in the same order
-  /// @throws std::invalid_argument naming the joint that the robot does not have, that is in two
-  ///         groups or in none, the divisor below 1, the name that is empty or there twice
+  /// @throws std::invalid_argument naming a joint in two groups, in none or not in the robot
+  /// @throws std::invalid_argument naming a divisor below 1, or a name that is empty or used twice
   Groups(const R& robot, const std::array<JointGroup, group_count>& groups,
          Controllers... controllers)
       : ControllerTuple<Controllers...>(std::move(controllers)...), robot_(robot) {
@@ -216,8 +216,8 @@ class Groups : public ControllerTuple<Controllers...> {
     return update_controller(controller, in);
   }
 
-  /// The safe command for a group that has failed. Other groups go on moving, so it is not enough to
-  /// carry the weight: the motion of its own joints, and no others', decays as in Standby.
+  /// The safe command for a group that has failed. Other groups go on moving, so it is not enough
+  /// to carry the weight. The motion of its own joints, and no others', decays as in Standby.
   [[nodiscard]] Command safe(const Group& group, const Input& in) const noexcept {
     Command command = safe_command(robot_, in.state.position, command_);
     if constexpr (std::same_as<Command, EffortCommand<joint_count, Scalar>>) {

@@ -23,8 +23,10 @@ struct JointGroup {
 /// The place of each joint's group in the list.
 /// @param robot   whose joints these are
 /// @param groups  of which each joint is in one
-/// @throws std::invalid_argument naming the joint that the robot does not have, that is in two
-///         groups or in none, the divisor below 1, the name that is empty or there twice
+/// @throws std::invalid_argument naming the joint that the robot does not have, or that is in two
+///         groups or in none
+/// @throws std::invalid_argument naming the divisor below 1, or the name that is empty or there
+///         twice
 /// Real-time: no (allocates).
 template <Robot R, std::size_t GroupCount>
 [[nodiscard]] JointArray<std::size_t, joint_count<R>> group_of_each_joint(

@@ -60,8 +60,10 @@ class Switch : public ControllerSelector<R, Controllers...> {
   /// @param robot        whose joints these are
   /// @param options      names, fallbacks, how to begin
   /// @param controllers  ready for use
-  /// @throws std::invalid_argument if there are too many or too few names, a name twice, empty or
-  ///         unknown, a controller its own fallback, a slew (of which joint) or time no number > 0
+  /// @throws std::invalid_argument if there are too many or too few names, or a name twice, empty
+  ///         or unknown
+  /// @throws std::invalid_argument if a controller is its own fallback, or a slew (of which joint)
+  ///         or time is no number > 0
   Switch(const R& robot, const SwitchOptions<articula::joint_count<R>>& options,
          Controllers... controllers)
       : Selector(robot, options, std::move(controllers)...),
@@ -119,8 +121,8 @@ class Switch : public ControllerSelector<R, Controllers...> {
     return passed(outcome, in);
   }
 
-  /// How fast differences decay [unit of the command per s], N x 1: a switch changes the command by
-  /// this times the period in a cycle at most. Real-time: yes.
+  /// How fast differences decay [unit of the command per s], N x 1. In a cycle a switch changes the
+  /// command by this times the period at most. Real-time: yes.
   [[nodiscard]] const JointVector<joint_count>& slew() const noexcept { return transfer_.slew(); }
   /// The difference that is still carried over, N x 1. Real-time: yes.
   [[nodiscard]] const Vector& carried() const noexcept { return transfer_.carried(); }

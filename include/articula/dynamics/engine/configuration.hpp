@@ -77,8 +77,8 @@ using Configuration = JointArray<JointPlacement<S>, Bodies>;
 enum class Frames : unsigned char {
   moving,  ///< Each body's own frame.
   /// The frame of the body with its joint at 0, if all axes that the body carries are parallel to
-  /// its own; else its own frame. Bodies on parallel axes then share one orientation: angles are
-  /// added instead of turning vectors, and the body's mass distribution turns.
+  /// its own. Else it is the body's own frame. Bodies on parallel axes then share one orientation:
+  /// angles are added instead of turning vectors, and the body's mass distribution turns.
   resting,
 };
 
@@ -164,7 +164,7 @@ template <class S, int N, int B, Frames frames = Frames::moving, class Numbers>
         const int parent = detail::parent_of(body, i);
         joint.translation = own_turn[parent](joint.translation);
         // Either the parent has its own frame and its angle is 0, or this joint's axis is parallel
-        // to the parent's: rows[2].z is 1 for the same direction, -1 for the opposite one.
+        // to the parent's. rows[2].z is 1 for the same direction, -1 for the opposite one.
         angle[i] = S(body.placement.rotation.rows[2].z) * angle[parent];
       }
       if (body.prismatic) {

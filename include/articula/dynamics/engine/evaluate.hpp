@@ -16,7 +16,7 @@
 
 namespace articula {
 
-/// Joint vectors of several robots of one kind: JointVectors with a column for each, or a
+/// Joint vectors of several robots of one kind. They are JointVectors with a column for each, or a
 /// JointVector over a pack (or over any scalar but double). Together they are computed faster than
 /// one by one: registers of the target processor hold several numbers (-march=native).
 template <class Q, class R>

@@ -11,10 +11,10 @@
 
 namespace articula {
 
-/// A described robot whose programs take the bodies' numbers as inputs: those numbers of the
-/// canonical mechanism that are not 0 in the description of R. The tree, the directions of the axes
-/// and all zeros stay known to the compiler, so such a program is hardly longer than that of R. For
-/// example `operations<ForwardDynamics, WithInputNumbers<Q2d>>().multiplications`.
+/// A described robot whose programs take the bodies' numbers as inputs. These are the numbers of
+/// the canonical mechanism that are not 0 in the description of R. The tree, the directions of the
+/// axes and all zeros stay known to the compiler. So such a program is hardly longer than that of
+/// R. For example `operations<ForwardDynamics, WithInputNumbers<Q2d>>().multiplications`.
 template <DescribedRobot R>
 struct WithInputNumbers {
   using Nominal = R;

@@ -122,8 +122,8 @@ template <Frames frames, class S, int N, int B>
   return chain;
 }
 
-/// For each body of a robot known at compile time: whether the program of all bodies, which omits
-/// zeros, costs no more than the chain to this body alone.
+/// For each body of a robot known at compile time, whether the program of all bodies costs no more
+/// than the chain to this body alone. That program omits zeros.
 template <DescribedRobot R>
 inline constexpr auto program_is_cheaper = [] {
   constexpr const auto& mechanism = model_of(R{}).mechanism;
@@ -138,8 +138,8 @@ inline constexpr auto program_is_cheaper = [] {
   return cheaper;
 }();
 
-/// Whether the placements of all bodies are faster than the chain to a link named at run time: by a
-/// program that omits zeros, or because the bodies are few.
+/// Whether the placements of all bodies are faster than the chain to a link named at run time. The
+/// cause is a program that omits zeros, or a small number of bodies.
 template <Robot R>
 [[nodiscard]] constexpr bool all_bodies_are_faster(const LinkFrame& link) noexcept {
   constexpr int b = std::remove_cvref_t<decltype(model_of(std::declval<R>()))>::body_count;

@@ -39,9 +39,9 @@ constexpr Matrix3<S> acceleration_gradient(const VelocityProducts<S>& w,
             {w.xz - dw.y, w.yz + dw.x, -(w.xx + w.yy)}}}};
 }
 
-/// Force and moment of a body's motion: f = m a + U h and n = h x a + r with
-/// [r]x = U J - (U J)^T, J the second moments of mass. In r.z the terms with dw.z are collected as
-/// (Jxx + Jyy) dw.z: one multiplication, by a constant.
+/// Force and moment of a body's motion. f = m a + U h and n = h x a + r with [r]x = U J - (U J)^T,
+/// J the second moments of mass. In r.z the terms with dw.z are collected as (Jxx + Jyy) dw.z: one
+/// multiplication, by a constant.
 template <class S>
 [[gnu::always_inline]] constexpr Wrench<S> wrench_for(const BodyMotion<S>& motion,
                                                       const VelocityProducts<S>& w,
@@ -66,11 +66,10 @@ template <class S>
 /// Source: [Luh, Walker, Paul 1980]; with the matrix U of [Balafoutis, Patel, Misra 1988]; in link
 /// frames as [Khalil, Dombre 2002, section 9.5].
 ///
-/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M, and rotors
-/// that two joints share add to the element of both. A rotor has only its own spin, n v, about its
-/// axis. The effects of its link's motion, gyroscopic moments included, are smaller by a factor n
-/// and omitted [Spong 1987]; [Featherstone 2008, section 9.6]. The rotor's mass belongs to the
-/// link.
+/// The rotors of the drives add their reflected inertia, n^2 J, to the diagonal of M. Rotors that
+/// two joints share add to the element of both. A rotor has only its own spin, n v, about its axis.
+/// The effects of its link's motion, gyroscopic moments included, are smaller by a factor n and
+/// omitted [Spong 1987]; [Featherstone 2008, section 9.6]. The rotor's mass belongs to the link.
 /// @param mechanism      the robot's bodies
 /// @param configuration  at the joint positions
 /// @param v              joint velocities [rad/s or m/s]

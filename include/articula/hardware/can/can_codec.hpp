@@ -108,8 +108,8 @@ concept CanCodec =
 /// A codec for a bus on which a frame of another node begins the cycles, so that the bus can pace a
 /// loop. `begun_cycles()` is the number of cycles begun so far.
 ///
-/// `encode` and `encode_stop` do not begin cycles then. If no cycle has begun since the last output,
-/// they make the reports one cycle older all the same, so that a silent bus is noticed.
+/// `encode` and `encode_stop` do not begin cycles then. If no cycle has begun since the last
+/// output, they make the reports one cycle older all the same. So a silent bus is noticed.
 template <class C>
 concept PacedCanCodec = CanCodec<C> && requires(const C& constant) {
   { constant.begun_cycles() } noexcept -> std::same_as<std::uint64_t>;

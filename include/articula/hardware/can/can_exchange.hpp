@@ -33,7 +33,7 @@ struct CanExchange {
   }
 
   /// Decodes the frames that have arrived, at most 256. The rest stays for the next cycle, or the
-  /// kernel drops and counts it; so a flood of frames does not delay the loop.
+  /// kernel drops and counts it. So a flood of frames does not delay the loop.
   /// Real-time: yes, but for the bus.
   void receive() noexcept {
     constexpr int most_rounds = 8;

@@ -13,8 +13,8 @@
 
 namespace articula::detail {
 
-/// The drive because of which an activation has failed: one whose encoders contradict each other,
-/// else one that is faulty or silent, else one that is not enabled.
+/// The drive because of which an activation has failed. It is one whose encoders contradict each
+/// other, else one that is faulty or silent, else one that is not enabled.
 /// @param reports      in the order of the joints
 /// @param stale_after  age from which a drive's figures are not used [cycles]
 /// @return             CanCause::encoder_mismatch; else CanCause::no_activation, with joint -1 if no

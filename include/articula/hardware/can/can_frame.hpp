@@ -34,9 +34,9 @@ struct CanFrame {
   return is ? static_cast<std::uint8_t>(frame.identifier - base) : std::uint8_t{0};
 }
 
-/// The longest length of a frame on the bus [bit], with stuff bits and interframe space:
-/// g + 8 n + 13 + floor((g + 8 n - 1) / 4), where n is `length` and g is 34, or 54 if extended
-/// [Davis et al. 2007, eq. 1]. Divided by the bit rate, it is the longest time on the bus.
+/// The longest length of a frame on the bus [bit], with stuff bits and interframe space. It is g +
+/// 8 n + 13 + floor((g + 8 n - 1) / 4), where n is `length` and g is 34, or 54 if extended [Davis
+/// et al. 2007, eq. 1]. Divided by the bit rate, it is the longest time on the bus.
 /// Real-time: yes.
 [[nodiscard]] constexpr int worst_case_bits(const CanFrame& frame) noexcept {
   const int stuffed = (frame.extended ? 54 : 34) + 8 * frame.length;

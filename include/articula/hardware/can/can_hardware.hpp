@@ -109,9 +109,9 @@ class CanHardware {
 
   /// Decodes the drives' frames and searches for faults.
   /// @param state  receives the last figures of each joint
-  /// @return       Status::ok; Status::stale_state if a joint's figures are too old;
-  ///               Status::hardware_fault if the link or a drive has failed, see fault();
-  ///               Status::inactive while the drives are not active
+  /// @return       Status::ok. Status::stale_state if a joint's figures are too old.
+  ///               Status::hardware_fault if the link or a drive has failed, see fault().
+  ///               Status::inactive while the drives are not active.
   /// Real-time: yes, but for the bus.
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     exchange_.receive();
@@ -138,9 +138,10 @@ class CanHardware {
   /// drives keep reporting.
   /// @param command  per joint; if it is not finite, the drives get zero effort, zero velocity or
   ///                 the measured position instead
-  /// @return         Status::ok, also if the bus has dropped the commands of fewer than `stale_after`
-  ///                 cycles; Status::hardware_fault if it has dropped more, or after a fault;
-  ///                 Status::non_finite_command; Status::inactive while the drives are not active
+  /// @return         Status::ok, also if the bus has dropped the commands of fewer than
+  ///                 `stale_after` cycles. Status::hardware_fault if it has dropped more, or after
+  ///                 a fault. Status::non_finite_command. Status::inactive while the drives are not
+  ///                 active.
   /// Real-time: yes, but for the bus.
   [[nodiscard]] Status write(const Command& command) noexcept {
     ++exchange_.statistics.cycles;

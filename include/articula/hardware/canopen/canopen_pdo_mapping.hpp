@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The mapping of a process data object: its objects and their places in the frame.
+/// @file The mapping of a process data object: its objects and their positions in the frame.
 #pragma once
 
 #include "articula/hardware/canopen/canopen.hpp"

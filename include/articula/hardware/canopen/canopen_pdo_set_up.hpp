@@ -57,8 +57,9 @@ struct PdoTask {
   }
 };
 
-/// Configures one PDO by requests, one after the other: switches it off, makes it synchronous, maps
-/// the objects, and switches it on [CiA 301, 7.5.2.35 to 38]. All functions are real-time.
+/// Configures one PDO by requests, one after the other. It switches the PDO off, makes it
+/// synchronous, maps the objects, and switches it on [CiA 301, 7.5.2.35 to 38]. All functions are
+/// real-time.
 ///
 /// - Identifiers are read, then modified. Bit 30 (no remote requests) keeps the node's value.
 /// - A mapping that the node does not let change is used as it is, if it has the objects.

@@ -10,9 +10,9 @@
 
 namespace articula::canopen {
 
-/// The client of one node's objects: sends a request and recognizes its answer. The caller repeats a
-/// request without an answer after 100 ms, which is longer than a frame waits on a bus that can run
-/// a loop. All functions are real-time.
+/// The client of one node's objects: sends a request and recognizes its answer. The caller repeats
+/// a request without an answer after 100 ms. That is longer than a frame waits on a bus that can
+/// run a loop. All functions are real-time.
 class SdoClient {
  public:
   static constexpr std::chrono::milliseconds patience{100};  ///< for an answer

@@ -15,8 +15,9 @@
 
 namespace articula {
 
-/// The channels and reports of all drives, and the cycles of their bus: enabling, release and stop,
-/// and the accesses to objects that the drives share. All functions are real-time and O(N).
+/// The channels and reports of all drives, and the cycles of their bus. These are enabling, release
+/// and stop, and the accesses to objects that the drives share. All functions are real-time and
+/// O(N).
 template <int N>
 struct Cia402Channels {
   /// The most accesses to objects in a cycle. A CAN interface queues ten frames by default, and
@@ -84,8 +85,8 @@ struct Cia402Channels {
     return all_done ? CanSetUp::done : CanSetUp::in_progress;
   }
 
-  /// The reason why the drives are not enabled: the first drive that has refused, else the first
-  /// that is not ready, with the object of its current step.
+  /// The reason why the drives are not enabled. It is the first drive that has refused, else the
+  /// first that is not ready, with the object of its current step.
   [[nodiscard]] CanFault set_up_fault() const noexcept {
     const auto first = [](auto condition) {
       int j = 0;

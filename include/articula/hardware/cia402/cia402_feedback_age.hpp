@@ -24,10 +24,10 @@ namespace articula {
 /// A lost frame looks like a late one. A mark tells them apart: it is a request to read an object.
 /// A drive answers it later than every SYNC before it, and frames do not overtake each other. So
 /// feedback to a SYNC before the request that is missing when the answer arrives is lost. A drive
-/// takes some cycles to answer and sends feedback meanwhile, so a mark covers later SYNCs as well,
+/// takes some cycles to answer and sends feedback meanwhile. So a mark covers later SYNCs as well,
 /// by the time of the fastest answer. One cycle stays unknown, because times are counted in whole
-/// cycles. The set-up reads object 1018h, so that the time is known before feedback begins.
-/// All functions are real-time.
+/// cycles. The set-up reads object 1018h, so that the time is known before feedback begins. All
+/// functions are real-time.
 class Cia402FeedbackAge {
  public:
   /// Whether the next frame of a stream answers the SYNC of this cycle.
@@ -69,9 +69,9 @@ class Cia402FeedbackAge {
     return true;
   }
 
-  /// The request for a mark. It is due if more answers are missing than at the last mark, or if some
-  /// are missing and the last mark is ten cycles old. Any node answers it, by the object or by a
-  /// refusal.
+  /// The request for a mark. It is due if more answers are missing than at the last mark. It also
+  /// is if some are missing and the last mark is ten cycles old. Any node answers it, by the object
+  /// or by a refusal.
   [[nodiscard]] std::optional<canopen::Sdo> next_mark(std::size_t streams,
                                                       const SyncHistory& syncs) noexcept {
     constexpr std::uint64_t interval = 10;  // [cycles]
@@ -101,10 +101,10 @@ class Cia402FeedbackAge {
 
   /// Notes the answer to a request.
   ///
-  /// Without a queue, an answer to a request just before SYNC takes at least F - 1 cycles, and
-  /// feedback less than a + 1, where F and a are the fewest cycles counted. A queue delays both
-  /// alike. So the drive has sent feedback to SYNCs up to F - 1 - (a + 1) cycles after the one
-  /// before the answer. Where another node sends SYNC, requests vary by up to one cycle.
+  /// Without a queue, an answer to a request just before SYNC takes at least F - 1 cycles. Feedback
+  /// takes less than a + 1. F and a are the fewest cycles counted. A queue delays both alike. So
+  /// the drive has sent feedback to SYNCs up to F - 1 - (a + 1) cycles after the one before the
+  /// answer. Where another node sends SYNC, requests vary by up to one cycle.
   /// @param object  that was requested
   /// @param sync    sender of SYNC
   void take_answer(const canopen::ObjectAddress& object, std::size_t streams,

@@ -13,13 +13,13 @@
 
 namespace articula {
 
-/// Configures the process data of one CiA 402 drive by requests, one after the other: RPDO 1 with
-/// controlword and target, TPDO 1 with statusword, position and torque, TPDO 2 with velocity and
+/// Configures the process data of one CiA 402 drive by requests, one after the other. RPDO 1 has
+/// controlword and target, TPDO 1 has statusword, position and torque. TPDO 2 has velocity and
 /// error code. Torque, velocity and error code are left out if the drive lacks them.
 ///
-/// Mappings that the drive does not let change are used as they are: the first of RPDO 1 to 4 with
-/// controlword and target, and each of TPDO 1 to 4 with an object that is not in one before.
-/// All functions are real-time.
+/// Mappings that the drive does not let change are used as they are. For the commands it is the
+/// first of RPDO 1 to 4 with controlword and target. For the feedback it is each of TPDO 1 to 4
+/// with an object that is not in one before. All functions are real-time.
 class Cia402PdoSetUp {
  public:
   Cia402PdoSetUp() = default;

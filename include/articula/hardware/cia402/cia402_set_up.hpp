@@ -17,9 +17,9 @@
 namespace articula {
 
 /// Enables one drive by access to its objects, one request at a time, through the steps of
-/// Cia402Script: checks the profile, maps the process data, sets the mode, starts the node, resets a
-/// fault and walks the state machine. All transfers are expedited. All functions but the constructor
-/// are real-time.
+/// Cia402Script. It checks the profile, maps the process data, sets the mode, starts the node,
+/// resets a fault and walks the state machine. All transfers are expedited. All functions but the
+/// constructor are real-time.
 ///
 /// Nothing moves meanwhile: the target is zero, or the drive's position. The node leaves the
 /// operational state first, which drops an old command that may still wait for SYNC. The refusal of

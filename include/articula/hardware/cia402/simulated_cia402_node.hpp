@@ -13,10 +13,10 @@
 
 namespace articula {
 
-/// A CANopen node of the profile CiA 402: objects, network management, process data, state machine,
-/// heartbeat, emergency messages, and the deadlines for commands and for the host's heartbeat. It
-/// shares only the layout of frames with the codec, so each checks the other. All functions are
-/// real-time.
+/// A CANopen node of the profile CiA 402. It has objects, network management, process data, state
+/// machine, heartbeat and emergency messages. It keeps the deadlines for commands and for the
+/// host's heartbeat. It shares only the layout of frames with the codec, so each checks the other.
+/// All functions are real-time.
 class SimulatedCia402Node {
  public:
   SimulatedCia402Node() = default;
@@ -194,8 +194,8 @@ class SimulatedCia402Node {
     }
   }
 
-  /// Leaves the operational state with the reaction of object 6007h
-  /// [CiA 402-2, abort connection option code]: 0 none, 1 a fault, 2 and 3 a stop.
+  /// Leaves the operational state with the reaction of object 6007h [CiA 402-2, abort connection
+  /// option code]. 0 is none, 1 a fault, 2 and 3 a stop.
   void leave_operation() noexcept {
     nmt_ = canopen::NmtState::pre_operational;
     received_.fill({});

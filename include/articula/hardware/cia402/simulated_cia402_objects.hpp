@@ -170,8 +170,8 @@ class SimulatedCia402Objects : public SimulatedObjectDictionary {
     add({{mapping, 0}, 1, fixed == nullptr, count});
   }
 
-  /// Mapping objects are locked while their process data object is on, and entries while their number
-  /// is not 0. The counter of SYNC is locked while SYNC has a period.
+  /// Mapping objects are locked while their process data object is on. Entries are locked while
+  /// their number is not 0. The counter of SYNC is locked while SYNC has a period.
   [[nodiscard]] bool is_locked(const canopen::Sdo& request, bool is_operational) const noexcept {
     const std::uint16_t index = request.address.index;
     if (request.address == sync_counter) return value(sync_period) != 0;

@@ -28,8 +28,10 @@ namespace articula {
 /// @tparam T           the transmission
 /// @param description  from read_urdf
 /// @param name         of the <transmission>
-/// @throws std::invalid_argument with the name, if the transmission does not exist, has another type
-///         or another number of joints or actuators, or if their roles are incomplete
+/// @throws std::invalid_argument with the name, if the transmission does not exist or has another
+///         type
+/// @throws std::invalid_argument likewise, if it has another number of joints or actuators, or if
+///         their roles are incomplete
 /// Real-time: no (searches by name, throws).
 template <Transmission T>
   requires requires { T::urdf_name; }

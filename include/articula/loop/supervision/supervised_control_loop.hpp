@@ -25,10 +25,10 @@ namespace articula {
 ///        ^---------- request_deactivation -------------------------'                   |
 ///        ^----------------------------- acknowledge_fault -----------------------------'
 ///
-/// Nothing moves before activation. At activation the controller starts and the reference is
-/// the measured position, so nothing jumps. References come through `post`, from one other thread
-/// if need be; those that come while the loop is not active are dropped and never used later. What
-/// is a fault, and what the joints do then, is in SupervisionOptions; docs/realtime.md has a table.
+/// Nothing moves before activation. At activation the controller starts and the reference is the
+/// measured position, so nothing jumps. References come through `post`, from one other thread if
+/// need be. Those that come while the loop is not active are dropped and never used later. What is
+/// a fault, and what the joints do then, is in SupervisionOptions; docs/realtime.md has a table.
 ///
 /// It is a layer around ControlLoop, which does not depend on it. It stays where it was made.
 /// @tparam HardwareType  satisfies Hardware
@@ -74,8 +74,8 @@ class SupervisedControlLoop {
   /// One cycle.
   /// @return Status::ok, or what is wrong with this cycle; in a fault its cause; Status::inactive
   ///         while inactive or starting
-  /// Real-time: yes, if the hardware's read and write are, but for the cycles that activate or
-  /// deactivate the hardware on request: they take as long as it does.
+  /// Real-time: yes, if the hardware's read and write are. The exceptions are the cycles that
+  /// activate or deactivate the hardware on request. They take as long as it does.
   [[nodiscard]] Status update() noexcept {
     input_ = std::exchange(next_input_, {});
     obey_request();

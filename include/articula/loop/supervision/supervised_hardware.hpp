@@ -31,7 +31,7 @@ enum class Passage : unsigned char {
 /// - `read` judges each measurement: is it finite, and within the robot's limits and the margins?
 /// - `write` sends the command, the safe behaviour, or nothing, as `open` has set.
 ///
-/// Do not use it by itself. It changes its mode only when it is told, and it activates no hardware.
+/// Do not use it by itself. It changes its mode only on request, and it activates no hardware.
 /// For a loop with faults and their acknowledgement, use SupervisedLoop.
 /// @tparam HardwareType  what is supervised
 /// @tparam CommandType   what it accepts

@@ -49,9 +49,9 @@ struct ArrangeOptions {
 /// Arranges a named trajectory in the order of a robot's joints.
 /// @tparam Capacity  largest number of points
 /// @throws TrajectoryError: invalid_joints if a name is unknown or used twice, or a joint is not
-///         named (or left out without `from`); invalid_goal if an array and the names differ in
-///         length, positions are missing, or Trajectory refuses the result; the message names point
-///         and joint
+///         named (or left out without `from`)
+/// @throws TrajectoryError: invalid_goal if an array and the names differ in length, positions are
+///         missing, or Trajectory refuses the result; each message names point and joint
 /// Real-time: no (throws, allocates).
 template <int Capacity = 32, Robot R>
 [[nodiscard]] Trajectory<R, Capacity> arrange(const R& robot, const NamedTrajectory& named,

@@ -27,11 +27,12 @@ struct TrajectoryBridge {
 /// Finds the bridge into a trajectory.
 ///
 /// - From rest, it is the segment from a point at rest to the trajectory's next point (interpolate).
-/// - From motion, it is the quintic that ends with the velocity and acceleration that the trajectory
+/// - From motion, it is a quintic. It ends with the velocity and acceleration that the trajectory
 ///   has from that point on, even if the point does not specify them.
-/// - A point is too close, and is skipped like points in the past, if the bridge to it would exceed
-///   the velocity limit on average, or the limits of position, velocity or acceleration anywhere.
-///   The start and the end of the bridge may be beyond these limits.
+/// - A point is too close if the bridge to it would exceed the velocity limit on average. It also
+///   is if the bridge would exceed a limit of position, velocity or acceleration anywhere. The
+///   trajectory skips it like points in the past. The start and the end of the bridge may be beyond
+///   these limits.
 ///
 /// @param present     the present reference, in the trajectory's time
 /// @param trajectory  the trajectory

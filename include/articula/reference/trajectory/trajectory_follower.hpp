@@ -84,10 +84,10 @@ class TrajectoryFollower {
   ///                    last sample if the reference moves, of the next one if it rests. In the
   ///                    future: the present trajectory continues until then. In the past: points
   ///                    that lie in the past are skipped.
-  /// @return            active; or the reason for a refusal, which changes nothing:
-  ///                    old_header_timestamp if all points lie in the past, invalid_goal if
-  ///                    tolerances or start time are invalid or no point can be reached in time.
-  ///                    refusal() has the numbers
+  /// @return            active, or the reason for a refusal, which changes nothing; refusal() has
+  ///                    the numbers. old_header_timestamp: all points lie in the past.
+  ///                    invalid_goal: tolerances or start time are invalid, or no point can be
+  ///                    reached in time.
   /// Real-time: yes. O(N Capacity).
   [[nodiscard]] TrajectoryOutcome start(const TrajectoryType& trajectory,
                                         const Tolerances& tolerances,

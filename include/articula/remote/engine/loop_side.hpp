@@ -92,8 +92,8 @@ class LoopSide {
   }
 
  private:
-  /// Takes the next task, and begins it. A period in which an operator is lost begins nothing, so
-  /// that the task of the next operator finds the loop as the loss leaves it.
+  /// Takes the next task, and begins it. A period in which an operator is lost begins nothing. So
+  /// the task of the next operator finds the loop as the loss leaves it.
   void take() noexcept {
     // A change of mode takes some cycles, and what is asked after it is meant for the new mode.
     if (next_ == nullptr && !modes_.changes()) static_cast<void>(rings_.tasks.pop(next_));

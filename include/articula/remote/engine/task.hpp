@@ -95,7 +95,7 @@ enum class TaskEnd : unsigned char {
   bad_reference,     ///< The present reference has a number that is not finite.
   refused,           ///< A trajectory: Task::outcome and Task::refusal.
   not_paused,        ///< Single steps are for paused simulations.
-  replaced,          ///< Another motion has taken its place.
+  replaced,          ///< Another motion has replaced it.
   failed,            ///< A trajectory: Task::outcome.
   loop_left_active,  ///< The loop became inactive, or went into the fault Task::status.
 };

@@ -44,8 +44,8 @@ struct FuturesStep {
   double height = 0;  ///< [rad or m]
 };
 
-/// Asks what the loop would do from now on with some other gains, before they are applied; or what
-/// it would have done from an instant of a recording on.
+/// Asks what the loop would do from now on with some other gains, before they are applied. Or asks
+/// what it would have done from an instant of a recording on.
 struct FuturesQuestion {
   /// The most cycles of all futures together.
   static constexpr double most_cycles = 1e6;
@@ -62,9 +62,9 @@ struct FuturesQuestion {
   /// start. From them the controller gets its memory. Begin them with a cycle in which no drive is at
   /// its limit: the command of that one tells what the integrals are.
   std::vector<FuturesCycle> history{};
-  /// What the futures follow, from their start on, at equal distances of time; between them linear,
-  /// and the last one is held with velocity and acceleration 0. Empty: the loop's present reference
-  /// is held so, or, with a start, the measured position.
+  /// What the futures follow, from their start on, at equal distances of time. It is linear between
+  /// them. The last one is held with velocity and acceleration 0. Empty: the loop's present
+  /// reference is held so, or, with a start, the measured position.
   std::vector<FuturesReference> references{};
   double reference_step = 0;         ///< from one reference to the next; 0: the loop's period [s]
   std::vector<FuturesStep> steps{};  ///< added to the position of all references

@@ -15,7 +15,7 @@ struct FastDdsOptions {
   /// IPv4 addresses of this host that are used. Loopback alone: no multicast. Any other one: also
   /// multicast there, by which ROS finds peers by default.
   std::vector<std::string> interfaces{"127.0.0.1"};
-  /// IPv4 addresses whose first 32 participants are told about this one, beside multicast.
+  /// IPv4 addresses whose first 32 participants get this one's announcement, beside multicast.
   std::vector<std::string> peers{"127.0.0.1"};
   bool shared_memory = false;             ///< also talk to peers on this host by shared memory
   std::size_t largest_message = 1 << 20;  ///< bytes of a message; larger ones are refused

@@ -80,7 +80,7 @@ class TopicHardware {
       } else {
         link_->exchange();
       }
-    } catch (...) {  // NOLINT(bugprone-empty-catch): the transport is gone, and nobody can be told
+    } catch (...) {  // NOLINT(bugprone-empty-catch): the transport is gone, no report is possible
     }
   }
 

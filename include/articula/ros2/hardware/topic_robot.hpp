@@ -197,7 +197,7 @@ class TopicRobot {
   void publish_newest() {
     bool is_new = false;
     while (session_->next(cycle_)) is_new = true;
-    while (session_->event()) {  // nobody is told of them here
+    while (session_->event()) {  // nobody reads them here
     }
     if (!is_new) return;
     state_.header.stamp =

@@ -64,11 +64,11 @@ void work_for_mpi(const Compute& compute, const ChunkPacking& packing, MPI_Comm 
 
 }  // namespace detail
 
-/// Goes on with a sweep in all processes of a communicator: all of them call this. Each rank computes
-/// in one thread. The main thread of rank 0 hands out chunks to ranks that are idle, and collects the
-/// rows in the order of the runs; so its result has the same bits as that of continue_sweep. A second
-/// thread of rank 0 computes while no other rank has to wait for the main thread. With one rank, it is
-/// continue_sweep.
+/// Goes on with a sweep in all processes of a communicator: all of them call this. Each rank
+/// computes in one thread. The main thread of rank 0 hands out chunks to ranks that are idle, and
+/// collects the rows in the order of the runs. So its result has the same bits as that of
+/// continue_sweep. A second thread of rank 0 computes while no other rank has to wait for the main
+/// thread. With one rank, it is continue_sweep.
 /// @param result  of rank 0: the runs so far; gets the others. Not used by other ranks.
 /// @param hooks   of rank 0
 /// @param all     the ranks; MPI is initialised with MPI_THREAD_FUNNELED or more, as by MpiSession

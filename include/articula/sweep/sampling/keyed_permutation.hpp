@@ -9,8 +9,8 @@
 
 namespace articula::detail {
 
-/// A random permutation of 0 .. count - 1 of which each element is computed alone: a Feistel network
-/// over the next even number of bits, repeated until the result is below count.
+/// A random permutation of 0 .. count - 1 of which each element is computed alone. It is a Feistel
+/// network over the next even number of bits, repeated until the result is below count.
 /// Source: Black, Rogaway: Ciphers with arbitrary finite domains, CT-RSA 2002.
 class KeyedPermutation {
  public:

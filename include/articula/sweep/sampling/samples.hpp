@@ -34,7 +34,7 @@ struct Sampling {
   std::uint64_t seed = 1;     ///< the same seed gives the same runs, to the last bit
 };
 
-/// The parameters of all runs. Those of a run depend on sampling and number alone, so runs may be
+/// The parameters of all runs. Those of a run depend on sampling and number alone. So runs may be
 /// computed in any order and in any number of threads and processes.
 class Samples {
  public:

@@ -16,8 +16,8 @@
 
 namespace articula::detail {
 
-/// Checks the <ros2_control>s of a robot for unknown words, which may be misspelt limits; for what
-/// ros2_control itself refuses; and for joints that cannot take commands.
+/// Checks the <ros2_control>s of a robot for unknown words, which may be misspelt limits. It also
+/// checks for what ros2_control itself refuses, and for joints that cannot take commands.
 class ControlCheck {
  public:
   explicit ControlCheck(NoticeList& notices) : notices_(notices) {}

@@ -19,8 +19,8 @@
 
 namespace articula::view {
 
-/// A loop and the view's side of one connection, without threads and sockets: frames in, frames out,
-/// and the time passes when it is told to. A page that runs it as WebAssembly needs no server.
+/// A loop and the view's side of one connection, without threads and sockets: frames in, frames
+/// out. Its time passes only by calls. A page that runs it as WebAssembly needs no server.
 /// Everything depends on the calls alone, so the same calls give the same bits in a page and
 /// natively; durations are not measured.
 class LiveLoop {

@@ -33,7 +33,7 @@ struct MalformedParameters {
   std::string text{};
   std::optional<std::string> id{};  ///< likewise: the client may wait for it
 };
-/// A client wants to be told when parameters change, or no more. No name: all.
+/// A client subscribes to changes of parameters, or unsubscribes. No name: all.
 struct ParameterWatch {
   std::vector<std::string> names{};
   bool watch = true;

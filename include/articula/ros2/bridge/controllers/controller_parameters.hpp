@@ -23,9 +23,9 @@ class FixedParameters final : public ParameterStore {
   std::vector<NodeParameter> all_;
 };
 
-/// The parameters of a controller: its gains as gains.<joint>.<gain> (see BridgeOptions::gain_prefix), which the loop checks and sets
-/// between two cycles; constraints of trajectories that bring no tolerances; its joints and
-/// interfaces, which are read-only.
+/// The parameters of a controller. Its gains are gains.<joint>.<gain> (see
+/// BridgeOptions::gain_prefix); the loop checks and sets them between two cycles. Others are
+/// constraints of trajectories that bring no tolerances. Its joints and interfaces are read-only.
 class ControllerParameters final : public ParameterStore {
  public:
   /// @param core        outlives this

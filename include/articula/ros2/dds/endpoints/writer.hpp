@@ -47,8 +47,8 @@ class Writer final : public eprosima::fastrtps::rtps::WriterListener {
   using WriterListener::onWriterMatched;
 
  private:
-  // Readers of Cyclone DDS that are volatile begin at the first heartbeat. A reply that comes before
-  // it, behind replies to others, is lost to them, and so is a message of which fragments come
+  // Readers of Cyclone DDS that are volatile begin at the first heartbeat. A reply that comes
+  // before it, behind replies to others, is lost to them. So is a message of which fragments come
   // before and after it. A heartbeat before the message prevents both.
   void send_heartbeat();
 
