@@ -11,9 +11,9 @@ namespace articula {
 /// What the commands of a loop's last cycles have done, and whether the controller's memory still
 /// fits the motion. ControlLoop keeps one; use it to write a loop of your own.
 ///
-/// A cycle in which the controller's own command was written is good. More than `borne_cycles` bad
-/// cycles in a row end the motion that the controller's memory is of. So does one cycle in which
-/// the hardware could not be read or written. The controller must then start.
+/// A cycle in which the controller's own command was written is good. The controller must start
+/// after more than `borne_cycles` bad cycles in a row, or after one in which the hardware could not
+/// be read or written. The motion that it remembers is over then.
 /// @tparam Command  that the loop writes
 /// @tparam S        type of a number, as that of the command
 template <class Command, class S = typename detail::CommandScalar<Command>::Type>

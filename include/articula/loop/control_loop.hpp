@@ -43,9 +43,9 @@ namespace articula {
 ///   Brakes). Any other is not called.
 /// - The state is not finite, or not known: the controller is not called.
 ///
-/// Up to `borne_cycles` consecutive bad cycles leave the controller's state unchanged. More of them
-/// end the motion that the controller's memory is of, and so does one in which the hardware could
-/// not be read or written. The first good cycle then starts the controller again. So does the first
+/// Up to `borne_cycles` consecutive bad cycles leave the controller's state unchanged. After more,
+/// or after one in which the hardware could not be read or written, the motion that the controller
+/// remembers is over. The first good cycle then starts the controller again. So does the first
 /// one after cycles in which the hardware was not active (Status::inactive). Where the joints were
 /// held meanwhile, the controller starts with the command that held them.
 ///
@@ -208,8 +208,8 @@ class ControlLoop {
     history_.begin();
   }
 
-  /// Starts the controller with what the last command has done. Where the reference is not finite, it
-  /// starts with that of joints that stay.
+  /// Starts the controller with what the last command has done. Where the reference is not finite,
+  /// it starts with that of joints that stay.
   [[gnu::cold]] void start(Held held) noexcept {
     history_.start_with(command_, state_, held);
     const Reference here{.position = state_.position};

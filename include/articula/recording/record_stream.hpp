@@ -39,7 +39,8 @@ class RecordStream {
   /// @param sinks  called with each record, in order
   explicit RecordStream(std::vector<Sink> sinks)
       : sinks_(std::move(sinks)), thread_([this] { work(); }) {}
-  /// Likewise with writers as sinks, such as CsvWriter and McapRecordWriter. They outlive the stream.
+  /// Likewise with writers as sinks, such as CsvWriter and McapRecordWriter. They must outlive the
+  /// stream. Its type follows from the first one, if that has a type Record.
   /// @param writers  whose `write` takes a record
   template <WriterOf<Record>... Writers>
     requires(sizeof...(Writers) > 0)

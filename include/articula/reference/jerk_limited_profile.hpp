@@ -40,8 +40,8 @@ class JerkLimitedProfile {
   /// @param limits  V, A, J
   /// @throws std::invalid_argument if a limit is out of range, a position is not finite or `to` is
   ///         outside a joint's limits
-  /// @throws std::invalid_argument if the duration overflows; each message names joint, value and
-  ///         limit
+  /// @throws std::invalid_argument if the duration overflows; messages name joint, value and, if
+  ///         there is one, limit
   JerkLimitedProfile(const R& robot, const JointVector<joint_count>& from,
                      const JointVector<joint_count>& to, const Limits& limits) {
     validate(robot, limits);

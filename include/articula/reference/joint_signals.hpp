@@ -46,8 +46,8 @@ class JointSignals {
   /// @param around   the reference to which they are added
   /// @throws std::invalid_argument if there are too many signals, a joint is unknown, a signal
   ///         cannot be evaluated or their sum overflows
-  /// @throws std::invalid_argument if `around` is not finite or outside a joint's limits; each
-  ///         message names joint and signal
+  /// @throws std::invalid_argument if `around` is not finite or outside a joint's limits; the
+  ///         messages name joint and signal where there is one
   JointSignals(const R& robot, std::span<const JointSignal> signals,
                const JointReference<joint_count>& around = {})
       : around_(around), range_(joint_range(robot)) {

@@ -105,7 +105,8 @@ struct SineSignal {
 };
 
 /// x(t) = offset + amplitude in the first half of each period, offset - amplitude in the second, at
-/// all times. It has the sign of the sine of the same frequency and phase. Its value jumps.
+/// all times. The first half is where the sine of the same frequency and phase is positive. The
+/// value jumps.
 struct SquareSignal {
   double amplitude = 0;  ///< [unit]
   double frequency = 0;  ///< [Hz]

@@ -59,8 +59,8 @@ class StateToStateProfile {
   ///         minimum is negative
   /// @throws std::invalid_argument if `to` is beyond a limit, or no motion within the limits can
   ///         end there
-  /// @throws std::invalid_argument if a joint leaves its position limits in between; each message
-  ///         names joint, value, limit
+  /// @throws std::invalid_argument if a joint leaves its position limits in between; messages name
+  ///         joint, value and limit where there is one
   StateToStateProfile(const R& robot, const Reference& from, const Reference& to,
                       const Limits& limits, double minimum = 0) {
     validate(robot, limits);

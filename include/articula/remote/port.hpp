@@ -57,8 +57,9 @@ class Session {
   virtual void release_controls() = 0;
   [[nodiscard]] virtual bool has_controls() const = 0;
   /// Tells that the client is still there. A client that has the controls loses them if it neither
-  /// calls this nor makes requests for RemoteOptions::operator_lifetime. This is as by its
-  /// destruction. The loop then does as RemoteOptions::when_operator_is_lost says.
+  /// calls this nor makes requests for RemoteOptions::operator_lifetime. Destruction of
+  /// the session has the same effect. The loop then does as RemoteOptions::when_operator_is_lost
+  /// says.
   virtual void keep_alive() = 0;
 
   /// Hands a request to the loop, which does requests in their order. A request takes the controls

@@ -74,8 +74,9 @@ class Remote final : public Port {
       return true;
     };
   }
-  /// Likewise, and push a record of the cycle: `each(stream)`.
-  /// @param records  a RecordStream, or another object whose `push` does not wait
+  /// Likewise, and push a record of the last cycle: `each(stream)`. While a simulation is paused,
+  /// the record repeats; while it is faster than real time, cycles have no record.
+  /// @param records  a RecordStream, or another object whose `push` neither waits nor throws
   template <class Records>
   [[nodiscard]] auto each(Records& records) noexcept {
     return [&records](Remote& remote, const RunReport& report) noexcept {

@@ -51,10 +51,10 @@ struct ReplayOptions {
 ///     replay.loop().controller().set_gains(others);
 ///     while (replay.loop().update() == Status::ok) ...
 ///
-/// - The recording begins with the first cycle of the loop. That of a supervised loop begins with a
-///   cycle in which it is inactive: its activation restarts the controller. With the record of
-///   cycle 0, which `record_of(loop, RunReport{})` makes before the run, it also has the first
-///   measurement. Without it, bad cycles before the first good one may differ.
+/// - The recording begins with the first cycle of the loop. That of a supervised loop may also
+///   begin with a cycle in which it is inactive: its activation restarts the controller. With the
+///   record of cycle 0, which `record_of(loop, RunReport{})` makes before the run, it also has the
+///   first measurement. Without it, bad cycles before the first good one may differ.
 /// - The recording has no gap: a difference in time shows one.
 /// - Changes of gains and requests to switch are in Recording::changes.
 /// - Of a supervised loop only commands that drives get are compared, but for the last one before
@@ -78,8 +78,8 @@ class Replay {
   /// @param robot      whose loop was recorded
   /// @param recording  outlives this
   /// @param options    of the recorded program
-  /// @throws std::invalid_argument if the recording is empty or does not begin with the loop's first
-  ///         cycle, or an option makes no sense
+  /// @throws std::invalid_argument if the recording is empty or does not begin with the loop's
+  ///         first cycle, or an option makes no sense
   /// Real-time: no (allocates, throws), likewise all functions of this class.
   Replay(const RobotType& robot, const Recording<joint_count, Command>& recording,
          ReplayOptions<ControllerType> options)

@@ -15,9 +15,10 @@ struct CrossingEnd {
 
 /// The argument at which a function has just become positive, by interpolation, truncation and
 /// projection (ITP). A straight line between the ends of the interval estimates the crossing.
-/// Smooth functions take some ten calls, any other at most one call more than bisection. The last
-/// steps overshoot the estimate by half the width, so that the interval closes from both ends.
-/// Source: [Oliveira, Takahashi 2020, section 2.3], with k1 = 0.2 / (b - a), k2 = 2, n0 = 1.
+/// Smooth functions take some ten calls, any other at most one call more than bisection. Source:
+/// [Oliveira, Takahashi 2020, section 2.3], with k1 = 0.2 / (b - a), k2 = 2, n0 = 1. Beyond the
+/// source, the last steps overshoot the estimate by half the width: the interval closes from both
+/// ends.
 /// @param before    end at which the function is not positive
 /// @param after     end with the larger argument, at which it is positive
 /// @param width     largest final interval

@@ -224,8 +224,8 @@ class JointDynamics {
     return answer;
   }
 
-  /// The largest distance of a joint beyond its stop [rad or m], by robot. Or the power that
-  /// friction would give to a joint that has turned back [W]. Positive after an event.
+  /// By robot, the largest of the distances of joints beyond their stops [rad or m] and of the
+  /// powers that friction would give to joints that have turned back [W]. Positive after an event.
   template <class S>
   [[nodiscard]] S excess(const Phase<S>& phase, const State<S>& later) const noexcept {
     S most = -JointLimits::infinity;

@@ -28,8 +28,8 @@ struct SampledJoint {
   double period;         ///< dt [s]
   bool is_unit_inertia;  ///< the law's output is an acceleration, so the plant is an inertia of 1
 
-  /// Whether the joint never comes to rest. Where nothing holds the position the spectral radius is
-  /// 1. Two eigenvalues meet there. So the rounding error is up to 1e-8, the root of that of a
+  /// Whether the joint never comes to rest. Where nothing holds the position, the spectral radius
+  /// is 1. Where two eigenvalues meet, its rounding error is up to 1e-8, the root of that of a
   /// number. Growth by less than 1e-6 per period is within the reach of friction.
   [[nodiscard]] bool unstable() const { return spectral_radius(plant, law, period) > 1 + 1e-6; }
 };
@@ -168,10 +168,11 @@ void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_co
 /// A joint is unstable if its spectral_radius under its law is above 1. Each joint is checked
 /// alone, with viscous damping, and with its inertia while the other joints are free.
 ///
-/// The check covers laws of efforts with a function `sampled_feedback`: PidLaw, ControlToolboxPidLaw
-/// and ImpedanceLaw, each alone, also within OnJoints, Groups, Limited, Switch and ComputedTorqueLaw.
-/// It does not cover dry friction, limits, delays of hardware and sensors, the coupling of joints and
-/// laws, and drives that close their own loop. So gains without a notice can be unstable.
+/// The check covers laws of efforts with a function `sampled_feedback`: PidLaw,
+/// ControlToolboxPidLaw and ImpedanceLaw, each alone, also within OnJoints, Groups, Limited, Switch
+/// and ComputedTorqueLaw. It does not cover dry friction, limits, delays of hardware and sensors,
+/// the coupling of joints and laws, and drives that close their own loop. So gains without a notice
+/// can be unstable.
 /// @param robot       whose joints these are
 /// @param controller  with its gains
 /// @param q           positions at which inertias are taken [rad or m], N x 1

@@ -12,7 +12,7 @@
 namespace articula {
 
 /// The effort of springs and dampers at a measured state [N m or N], N x 1. It is K (q_ref - q) + D
-/// (v_ref - v), without the commanded effort.
+/// (v_ref - v), without the commanded effort. Real-time: yes.
 template <int N, class S>
 [[nodiscard]] JointVector<N, S> spring_pull(const MultiModeCommand<N, S>& command,
                                             const JointState<N, S>& state) noexcept {

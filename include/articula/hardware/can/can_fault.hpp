@@ -29,7 +29,7 @@ enum class CanCause : unsigned char {
   encoder_mismatch,  ///< Two encoders of a joint contradict each other.
 };
 
-/// The first fault: its cause and position.
+/// The first fault: its cause, joint and object.
 struct CanFault {
   CanCause cause = CanCause::none;
   int joint = -1;          ///< index of the joint of the faulty drive; -1 if it is no drive

@@ -15,9 +15,9 @@
 
 namespace articula {
 
-/// The channels and reports of all drives, and the cycles of their bus. These are enabling, release
-/// and stop, and the accesses to objects that the drives share. All functions are real-time and
-/// O(N).
+/// The channels and reports of all drives, and the cycles of their bus. The cycles are enabling,
+/// release and stop, and the accesses to objects that the drives share. All functions are real-time
+/// and O(N).
 template <int N>
 struct Cia402Channels {
   /// The most accesses to objects in a cycle. A CAN interface queues ten frames by default, and

@@ -51,7 +51,8 @@ struct ArrangeOptions {
 /// @throws TrajectoryError: invalid_joints if a name is unknown or used twice, or a joint is not
 ///         named (or left out without `from`)
 /// @throws TrajectoryError: invalid_goal if an array and the names differ in length, positions are
-///         missing, or Trajectory refuses the result; each message names point and joint
+///         missing, or Trajectory refuses the result; messages name point and joint
+///         where there is one
 /// Real-time: no (throws, allocates).
 template <int Capacity = 32, Robot R>
 [[nodiscard]] Trajectory<R, Capacity> arrange(const R& robot, const NamedTrajectory& named,

@@ -16,8 +16,8 @@ namespace articula::remote {
 ///
 /// - From rest it is a JerkLimitedProfile.
 /// - In mid-motion it is a StateToStateProfile, so that a slider that is dragged makes one motion.
-/// - It is a stop and then a JerkLimitedProfile where there is no such profile within the limits.
-///   The same holds for a robot with more than `most_blended` joints, for which the search takes
+/// - In mid-motion it is a stop and then a JerkLimitedProfile if there is no StateToStateProfile
+///   within the limits, or the robot has more than `most_blended` joints. Then the search takes
 ///   long.
 template <Robot R>
 class GoMotion {

@@ -25,7 +25,8 @@ class FixedParameters final : public ParameterStore {
 
 /// The parameters of a controller. Its gains are gains.<joint>.<gain> (see
 /// BridgeOptions::gain_prefix); the loop checks and sets them between two cycles. Others are
-/// constraints of trajectories that bring no tolerances. Its joints and interfaces are read-only.
+/// constraints of trajectories that bring no tolerances. Its joints and interfaces are
+/// parameters that nobody can set.
 class ControllerParameters final : public ParameterStore {
  public:
   /// @param core        outlives this
