@@ -74,9 +74,14 @@ endfunction()
 
 # What every such page has. The server's sources for sockets and files are not among them.
 set(articula_live_folder ${PROJECT_SOURCE_DIR}/include/articula/view)
-file(GLOB_RECURSE articula_live_sources CONFIGURE_DEPENDS ${articula_live_folder}/protocol/*.cpp
-     ${articula_live_folder}/live/*.cpp)
-list(APPEND articula_live_sources ${articula_live_folder}/server/clients/broadcast.cpp
+file(GLOB_RECURSE articula_protocol_sources CONFIGURE_DEPENDS ${articula_live_folder}/protocol/*.cpp)
+# The protocol is compiled as one file, as articula::view does: most time goes into common headers.
+list(TRANSFORM articula_protocol_sources REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE articula_includes)
+string(CONCAT articula_includes ${articula_includes})
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/live-page/protocol.cpp CONTENT "${articula_includes}")
+file(GLOB articula_live_sources CONFIGURE_DEPENDS ${articula_live_folder}/live/*.cpp)
+list(APPEND articula_live_sources ${PROJECT_BINARY_DIR}/live-page/protocol.cpp
+     ${articula_live_folder}/server/clients/broadcast.cpp
      ${articula_live_folder}/server/clients/client.cpp
      ${articula_live_folder}/server/clients/latest.cpp
      ${articula_live_folder}/server/futures/futures_desk.cpp
