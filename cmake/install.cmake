@@ -59,7 +59,7 @@ install(FILES cmake/articula-component-config.cmake DESTINATION ${articula_packa
 
 # The files that README.md and docs link to, in the same folders as here. Headers are the exception:
 # they are in the folder of headers.
-install(FILES README.md CHANGELOG.md CITATION.cff LICENSE TYPE DOC)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE TYPE DOC)
 install(DIRECTORY docs TYPE DOC)
 install(DIRECTORY examples TYPE DOC PATTERN CMakeLists.txt EXCLUDE) # part of articula's build
 install(DIRECTORY benchmarks/results DESTINATION ${CMAKE_INSTALL_DOCDIR}/benchmarks)
