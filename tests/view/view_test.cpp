@@ -414,6 +414,7 @@ TEST_CASE("the end of a view says good-bye to its clients") {
   FakePort port;
   auto view = std::make_unique<View>(port, operating());
   WebClient client(view->port());
+  REQUIRE(comes_true([&] { return port.sessions() == 2; }));  // the client's, and the view's own
   std::thread end([&] { view.reset(); });
   client.wait_for_end();
   end.join();
