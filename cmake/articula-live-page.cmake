@@ -76,7 +76,8 @@ endfunction()
 set(articula_live_folder ${PROJECT_SOURCE_DIR}/include/articula/view)
 file(GLOB_RECURSE articula_protocol_sources CONFIGURE_DEPENDS ${articula_live_folder}/protocol/*.cpp)
 # The protocol is compiled as one file, as articula::view does: most time goes into common headers.
-list(TRANSFORM articula_protocol_sources REPLACE "(.+)" "#include \"\\1\"\n" OUTPUT_VARIABLE articula_includes)
+list(TRANSFORM articula_protocol_sources REPLACE "(.+)" "#include \"\\1\"\n"
+     OUTPUT_VARIABLE articula_includes)
 string(CONCAT articula_includes ${articula_includes})
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/live-page/protocol.cpp CONTENT "${articula_includes}")
 file(GLOB articula_live_sources CONFIGURE_DEPENDS ${articula_live_folder}/live/*.cpp)

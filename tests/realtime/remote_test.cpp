@@ -68,6 +68,30 @@ TEST_CASE("no request makes the loop's side touch the heap") {
   CHECK(heap_calls(plain, requests, false) == 0);
 }
 
+TEST_CASE("a run that pushes each cycle's record does not touch the heap, and none is lost") {
+  support::RemoteArm<Loop<Q2dSim, Controllers>> arm;
+  arm.ask(Go{{{shoulder, 0.5}}});
+  struct Records {
+    std::uint64_t count = 0;
+    double time = 0, position = 0;
+    bool in_order = true;
+    void push(const CycleRecordOf<Loop<Q2dSim, Controllers>>& record) noexcept {
+      in_order = in_order && (count == 0 || record.time > time);
+      ++count;
+      time = record.time;
+      position = record.state.position[0];
+    }
+  } records;
+  SimulatedClock clock;
+  CHECK(heap_calls_in([&] {
+          static_cast<void>(run(arm.remote, clock, {.cycles = 2000}, arm.remote.each(records)));
+        }) == 0);
+  CHECK(records.count == 2000);
+  CHECK(records.in_order);
+  CHECK(records.position == arm.remote.state().position[0]);
+  CHECK(arm.remote.statistics().cycles > 0);  // the timing, too, is published
+}
+
 TEST_CASE("a lost operator and full rings do not make the loop's side touch the heap") {
   support::RemoteArm<SupervisedLoop<Q2dSim, Controllers>> arm;
   arm.ask(Activate{});

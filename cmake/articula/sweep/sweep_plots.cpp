@@ -39,12 +39,13 @@ std::string script_of(const SweepPlan& plan, const SweepPlot& plot, const std::s
   std::string text = "# Draws " + name + ".svg in this folder: gnuplot " + name +
                      ".gp\nset terminal svg size 800,560 font 'Helvetica,15' background rgb 'white'"
                      "\nset output '" +
-                     name + ".svg'\nset datafile separator ','\nset grid\n";
+                     name + ".svg'\nset datafile separator ','\nset grid\nset rmargin 4\n";
   text += "set xlabel '" + plot.columns[0] + "' noenhanced\n";
   if (plot.columns.size() > 1) text += "set ylabel '" + plot.columns[1] + "' noenhanced\n";
   for (std::size_t k = 0; k < plot.columns.size(); ++k) {
-    if (is_logarithmic(plan, plot.columns[k]))
-      text += k == 0 ? "set logscale x\n" : "set logscale y\n";
+    if (!is_logarithmic(plan, plot.columns[k])) continue;
+    const std::string axis = k == 0 ? "x" : "y";
+    text += "set logscale " + axis + "\nset format " + axis + " '%g'\n";
   }
   const std::string x = column(plot.columns[0]);
   switch (plot.kind) {
