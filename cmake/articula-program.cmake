@@ -43,12 +43,14 @@ foreach(size IN LISTS ARTICULA_RUN_JOINTS)
   string(APPEND articula_run_sizes "{${joints}, ${bodies}},")
   set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/run_loop_${joints}_${bodies}.cpp)
   configure_file(${CMAKE_CURRENT_LIST_DIR}/articula/loops/run_loop.cpp.in ${articula_loop_file} @ONLY)
-  set_source_files_properties(${articula_loop_file} PROPERTIES COMPILE_OPTIONS -O1)
+  set_source_files_properties(${articula_loop_file} PROPERTIES COMPILE_OPTIONS -O1
+                                                              SKIP_PRECOMPILE_HEADERS ON)
   list(APPEND articula_program_files ${articula_loop_file})
 endforeach()
 add_executable(articula_program ${articula_program_files})
 target_include_directories(articula_program PRIVATE ${CMAKE_CURRENT_LIST_DIR}/articula)
 target_precompile_headers(articula_program PRIVATE <CLI/CLI.hpp>)
+target_compile_options(articula_program PRIVATE $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O0>)
 set_target_properties(articula_program PROPERTIES OUTPUT_NAME articula)
 set_property(
   SOURCE ${CMAKE_CURRENT_LIST_DIR}/articula/run_command.cpp

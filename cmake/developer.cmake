@@ -2,6 +2,7 @@
 # Options for articula's own tests, benchmarks and examples. Users' targets do not get them.
 
 set(ARTICULA_SANITIZE "" CACHE STRING "Sanitizers to build with, as address;undefined or thread")
+option(ARTICULA_QUICK_BUILD "Compile servers, the program and benchmarks with -O0, as tests do" OFF)
 
 # ISO C++. With GNU extensions g++ may also fuse multiplications and additions.
 set(CMAKE_CXX_EXTENSIONS OFF)

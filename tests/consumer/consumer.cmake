@@ -10,7 +10,7 @@ endfunction()
 if(PROJECT MATCHES "find_package$")
   run(${CMAKE_COMMAND} --install ${BINARY} --prefix ${WORK}/prefix)
 endif()
-run(${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release
+run(${CMAKE_COMMAND} -S ${PROJECT} -B ${WORK}/build -G ${GENERATOR} -DCMAKE_BUILD_TYPE=None
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
     -DCMAKE_PREFIX_PATH=${WORK}/prefix -DARTICULA_SOURCE_DIR=${SOURCE})
 run(${CMAKE_COMMAND} --build ${WORK}/build)

@@ -45,7 +45,7 @@ foreach(name IN LISTS names)
   file(APPEND ${WORK}/can.yaml "    ${name}: {node: ${node}, rated_effort: 100.0, position_scale: 10.0, velocity_scale: 1.0}\n")
 endforeach()
 run(${PROGRAM} new ${URDF} ${WORK}/can.yaml --can can0 --output ${WORK}/on_can)
-run(${CMAKE_COMMAND} -S ${WORK}/on_can -B ${WORK}/on_can/build -DCMAKE_BUILD_TYPE=Debug
+run(${CMAKE_COMMAND} -S ${WORK}/on_can -B ${WORK}/on_can/build -DCMAKE_BUILD_TYPE=None
     -Darticula_ROOT=${WORK}/prefix "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
 if(GENERATOR MATCHES Ninja) # the libraries have been built above
   run(${CMAKE_COMMAND} --build ${WORK}/on_can/build --target CMakeFiles/two_arm_torso.dir/main.cpp.o)
