@@ -12,8 +12,8 @@ namespace articula {
 /// fits the motion. ControlLoop keeps one; use it to write a loop of your own.
 ///
 /// A cycle in which the controller's own command was written is good. The controller must start
-/// after more than `borne_cycles` bad cycles in a row, or after one in which the hardware could not
-/// be read or written. The motion that it remembers is over then.
+/// after more than `borne_cycles` bad cycles in a row. It also must after one in which the hardware
+/// could not be read or written. The motion that it remembers is over then.
 /// @tparam Command  that the loop writes
 /// @tparam S        type of a number, as that of the command
 template <class Command, class S = typename detail::CommandScalar<Command>::Type>

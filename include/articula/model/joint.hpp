@@ -50,8 +50,8 @@ struct Mimic {
 /// the mass matrix off its diagonal. One of the two joints names the other.
 struct SharedRotors {
   Name joint{};  ///< name of the other joint; empty: none
-  /// Sum of J n n' over the rotors that turn n and n' times as fast as the two joints, of either
-  /// sign [kg m^2, kg m or kg]
+  /// Sum of J n n' over the rotors of both joints, of either sign [kg m^2, kg m or kg]. A rotor of
+  /// inertia J turns n and n' times as fast as the two joints
   double inertia = 0;
 };
 

@@ -15,7 +15,7 @@
 namespace articula {
 
 /// Appends a cycle that a session of a port has received, with the changes of the controller before
-/// it, so that Replay can compute it once more:
+/// it. Replay can then compute it once more:
 ///
 ///     for (remote::Cycle cycle; session->next(cycle);) add_cycle(recording, cycle);
 ///

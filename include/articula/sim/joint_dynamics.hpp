@@ -224,8 +224,9 @@ class JointDynamics {
     return answer;
   }
 
-  /// By robot, the largest of the distances of joints beyond their stops [rad or m] and of the
-  /// powers that friction would give to joints that have turned back [W]. Positive after an event.
+  /// By robot, the largest of two kinds of numbers. One is the distance of a joint beyond its stop
+  /// [rad or m]. The other is the power that friction would give to a joint that has turned back
+  /// [W]. Positive after an event.
   template <class S>
   [[nodiscard]] S excess(const Phase<S>& phase, const State<S>& later) const noexcept {
     S most = -JointLimits::infinity;

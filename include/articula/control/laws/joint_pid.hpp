@@ -22,17 +22,18 @@ namespace articula {
 ///     u    = p (b r - y) + I + d D + f_v v_ref + f_a a_ref
 ///     u'   = clamp(u, output_clamp_min, output_clamp_max)
 ///
-/// I is in units of the output and is integrated before use (backward Euler), D is the low-pass T_f
-/// D' + D = s in backward Euler. For weights b < 1 and c < 1, r and y are counted from where y was
-/// at the start. So a joint that is asked to stay gets no output. In a period of 0 differences tell
+/// I is in units of the output and is integrated before use (backward Euler). D is the low-pass
+/// T_f D' + D = s in backward Euler. For weights b < 1 and c < 1, r and y are counted from where y
+/// was at the start. So a joint that is asked to stay gets no output. In a period of 0 differences tell
 /// nothing: I stays, and so does a D that is made of them or filtered. New clamps take force with
 /// the next cycle. If i becomes 0, I stays as it is and is left as a constant until the next start.
 ///
 /// Nothing is remembered of an input that is not finite. Where terms of finite inputs overflow, the
 /// output is a finite number of 1e300 or so.
 ///
-/// By what the output is cut off, u - u', and what the caller cuts off later (`limit_windup`), the
-/// integral is kept from winding up in one of three ways (AntiWindup): none; back-calculation,
+/// The clamps cut off u - u' of the output, and the caller may cut off more (`limit_windup`). By
+/// that the integral is kept from winding up in one of three ways (AntiWindup): none;
+/// back-calculation,
 ///
 ///     I <- I - dt/T_t (u - u'),   T_t = sqrt(d/i), or p/i where d is 0, unless set;
 ///

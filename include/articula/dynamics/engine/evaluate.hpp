@@ -84,9 +84,9 @@ concept HasNumbers = requires(const R& robot) {
 };
 
 /// Runs an algorithm on a robot at positions q. A described robot runs the program which the
-/// compiler has made of `Algorithm::evaluate`, a varied robot that with its numbers as inputs. A model runs this function itself, with the
-/// mechanism, the configuration at q and the other inputs as arrays, or that of the algorithm's
-/// alternative where it is faster.
+/// compiler has made of `Algorithm::evaluate`, a varied robot that with its numbers as inputs. A
+/// model runs this function itself, or that of the algorithm's alternative where it is faster. The
+/// function then gets the mechanism, the configuration at q and the other inputs as arrays.
 /// @param inputs  input[i] is a number, or a pack with the numbers of several robots
 template <class Algorithm, Robot R, class Input, class... Inputs>
 [[nodiscard, gnu::always_inline]] inline auto evaluate_numbers(const R& robot, const Input& q,

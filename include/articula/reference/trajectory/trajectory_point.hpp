@@ -48,8 +48,8 @@ template <int N>
                                   points.begin());
 }
 
-/// The position between two points a and b as a polynomial in s = t / T, with the time t since a and
-/// the duration T. The values that both points have determine the degree, as in ROS's joint
+/// The position between two points a and b as a polynomial in s = t / T. Here t is the time since a,
+/// and T the duration. The values that both points have determine the degree, as in ROS's joint
 /// trajectory controller:
 ///
 /// - position alone: the straight line,

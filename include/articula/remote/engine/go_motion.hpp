@@ -17,8 +17,8 @@ namespace articula::remote {
 /// - From rest it is a JerkLimitedProfile.
 /// - In mid-motion it is a StateToStateProfile, so that a slider that is dragged makes one motion.
 /// - In mid-motion it is a stop and then a JerkLimitedProfile if there is no StateToStateProfile
-///   within the limits, or the robot has more than `most_blended` joints. Then the search takes
-///   long.
+///   within the limits. So it is, too, if the robot has more than `most_blended` joints, since the
+///   search then takes long.
 template <Robot R>
 class GoMotion {
  public:

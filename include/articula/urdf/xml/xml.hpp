@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Access to the XML of a URDF by the library that urdfdom uses, TinyXML or from urdfdom 4 on
-/// TinyXML-2, and notices about its elements.
+/// @file Access to the XML of a URDF, and notices about its elements. The library is the one that
+/// urdfdom uses: TinyXML, or from urdfdom 4 on TinyXML-2.
 #pragma once
 
 #include "articula/text/file_error.hpp"
