@@ -24,6 +24,9 @@ namespace {
 constexpr std::size_t kept_largest_messages = 8;
 // Larger messages are sent in fragments, each in a UDP packet.
 constexpr std::size_t largest_unfragmented_message = 60'000;
+const eprosima::fastrtps::Duration_t heartbeat_period = {0, 200'000'000};
+// More than a period of heartbeats.
+const eprosima::fastrtps::Duration_t longest_last_wait = {0, 300'000'000};
 
 }  // namespace
 
@@ -39,7 +42,7 @@ Writer::Writer(rtps::RTPSParticipant& participant, Inbox& inbox, Endpoint endpoi
   attributes.endpoint.reliabilityKind = rtps::RELIABLE;
   attributes.endpoint.durabilityKind =
       endpoint_.quality.transient_local ? rtps::TRANSIENT_LOCAL : rtps::VOLATILE;
-  attributes.times.heartbeatPeriod = {0, 200'000'000};
+  attributes.times.heartbeatPeriod = heartbeat_period;
   attributes.matched_readers_allocation = {0, most_matches, 1};
   writer_ = rtps::RTPSDomain::createRTPSWriter(&participant, attributes, pool_, &history_, this);
   if (writer_ == nullptr) {
@@ -61,7 +64,14 @@ Writer::Writer(rtps::RTPSParticipant& participant, Inbox& inbox, Endpoint endpoi
   }
 }
 
-Writer::~Writer() { rtps::RTPSDomain::removeRTPSWriter(writer_); }
+// A packet may be lost, and what comes last may be a stop: readers get the time to ask for it again.
+Writer::~Writer() {
+  if (auto* const writer = dynamic_cast<rtps::StatefulWriter*>(writer_)) {
+    writer->send_periodic_heartbeat();
+    writer->wait_for_all_acked(longest_last_wait);
+  }
+  rtps::RTPSDomain::removeRTPSWriter(writer_);
+}
 
 void Writer::write(Sample sample, const rtps::SampleIdentity& related) {
   if (sample.size() > endpoint_.largest_message) {
