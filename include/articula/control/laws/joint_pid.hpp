@@ -24,9 +24,10 @@ namespace articula {
 ///
 /// I is in units of the output and is integrated before use (backward Euler). D is the low-pass
 /// T_f D' + D = s in backward Euler. For weights b < 1 and c < 1, r and y are counted from where y
-/// was at the start. So a joint that is asked to stay gets no output. In a period of 0 differences tell
-/// nothing: I stays, and so does a D that is made of them or filtered. New clamps take force with
-/// the next cycle. If i becomes 0, I stays as it is and is left as a constant until the next start.
+/// was at the start. So a joint that is asked to stay gets no output. In a period of 0 differences
+/// tell nothing: I stays, and so does a D that is made of them or filtered. New clamps take force
+/// with the next cycle. If i becomes 0, I stays as it is and is left as a constant until the next
+/// start.
 ///
 /// Nothing is remembered of an input that is not finite. Where terms of finite inputs overflow, the
 /// output is a finite number of 1e300 or so.
