@@ -27,14 +27,14 @@ class Cia402Feedback {
   /// @param frame   with its identifier
   /// @param data    the drive's process data
   /// @param drive   its units
-  /// @param syncs   of the bus; receives the note that an answer is missing
+  /// @param syncs   of the bus
   /// @param report  of the drive
   /// @return        false if the frame is another one: nothing has changed, see take_pdo
   template <std::size_t Number>
   [[nodiscard, gnu::always_inline]] inline bool take_usual(const CanFrame& frame,
                                                            const cia402::ProcessData& data,
                                                            const Cia402Drive& drive,
-                                                           SyncHistory& syncs,
+                                                           const SyncHistory& syncs,
                                                            DriveReport& report) noexcept {
     constexpr cia402::TransmitLayout layout = cia402::usual_transmit[Number];
     const bool in_time = age_.is_in_time(layout.stream, syncs);
@@ -45,7 +45,7 @@ class Cia402Feedback {
       take_operation((bits & cia402::follows_target) != 0, report);
       report.fault = 0;
     }
-    age_.count_in_time(layout.stream, cia402::usual_transmit.size(), syncs, report);
+    age_.count_in_time(layout.stream, cia402::usual_transmit.size(), syncs.cycle(), report);
     take_figures(layout, frame, drive, report);
     if constexpr (layout.position != absent) {
       report.position = position_in(layout, frame, drive);
@@ -54,6 +54,7 @@ class Cia402Feedback {
   }
 
   /// Decodes any frame of a process data object; parameters as above.
+  /// @param syncs   receives the note that an answer is missing
   /// @param number  of the object, 0 for TPDO 1
   /// @return        CanDecoding::outdated before the first SYNC
   [[nodiscard]] CanDecoding take_pdo(std::size_t number, const CanFrame& frame,

@@ -21,13 +21,17 @@ namespace articula {
 /// number, so they are counted: a frame answers the oldest SYNC without an answer. Its age is the
 /// number of cycles since that SYNC.
 ///
-/// A lost frame looks like a late one. A mark tells them apart: it is a request to read an object.
-/// A drive answers it later than every SYNC before it, and frames do not overtake each other. So
-/// feedback to a SYNC before the request that is missing when the answer arrives is lost. A drive
-/// takes some cycles to answer and sends feedback meanwhile. So a mark covers later SYNCs as well,
-/// by the time of the fastest answer. One cycle stays unknown, because times are counted in whole
-/// cycles. The set-up reads object 1018h, so that the time is known before feedback begins. All
-/// functions are real-time.
+/// A lost frame looks like a late one. Two things tell them apart, because frames of a drive do not
+/// overtake each other:
+/// - The other objects. A drive sends its objects in order, once for each SYNC. So what is missing
+///   before a frame that has arrived is lost.
+/// - A mark. It is a request to read an object. A drive answers it later than every SYNC before it.
+///   So feedback to a SYNC before the request that is missing when the answer arrives is lost. A
+///   drive takes some cycles to answer and sends feedback meanwhile. So a mark covers later SYNCs as
+///   well, by the time of the fastest answer. One cycle stays unknown, because times are counted in
+///   whole cycles. The set-up reads object 1018h, so that the time is known before feedback begins.
+///
+/// All functions are real-time.
 class Cia402FeedbackAge {
  public:
   /// Whether the next frame of a stream answers the SYNC of this cycle.
@@ -39,27 +43,27 @@ class Cia402FeedbackAge {
 
   /// Counts a frame of a stream for which `is_in_time` holds.
   /// @param streams  number of process data objects that the drive sends
-  /// @param syncs    of the bus; receives the note that an answer is missing
+  /// @param cycle    of the bus, this one
   /// @param report   of the drive; receives the age
-  void count_in_time(std::size_t stream, std::size_t streams, SyncHistory& syncs,
+  void count_in_time(std::size_t stream, std::size_t streams, std::uint64_t cycle,
                      DriveReport& report) noexcept {
-    const std::uint64_t cycle = syncs.cycle();
     cycle_[stream] = cycle;
     next_[stream] = cycle + 1;
-    const std::uint64_t least_next = least(next_, streams);
-    if (least_next > cycle) {
+    skip_lost(stream, streams);
+    if (least(cycle_, streams) == cycle) {
       report.age = 0;
-    } else if (least_next < cycle) {
-      syncs.note_missing();
+      least_age_ = 0;
     }
   }
   /// Counts any frame of a stream; parameters as above.
+  /// @param syncs  of the bus; receives the note that an answer is missing
   /// @return false if there was no SYNC that it could answer
   [[nodiscard]] bool count(std::size_t stream, std::size_t streams, SyncHistory& syncs,
                            DriveReport& report) noexcept {
     if (!syncs.has_begun()) return false;
     cycle_[stream] = syncs.first_from(next_[stream]);
     next_[stream] = std::max(next_[stream], cycle_[stream] + 1);
+    skip_lost(stream, streams);
     if (lag(streams, syncs) > 0) syncs.note_missing();
     const std::uint64_t oldest = least(cycle_, streams);
     if (oldest > 0) {
@@ -122,6 +126,14 @@ class Cia402FeedbackAge {
 
  private:
   using Cycles = std::array<std::uint64_t, cia402::ProcessData::most>;
+
+  /// Skips what the drive has sent on other streams before a frame that has arrived.
+  void skip_lost(std::size_t stream, std::size_t streams) noexcept {
+    const std::uint64_t cycle = cycle_[stream];
+    for (std::size_t i = 0; i < streams; ++i) {
+      next_[i] = std::max(next_[i], i < stream ? cycle + 1 : cycle);
+    }
+  }
 
   [[nodiscard]] static std::uint64_t least(const Cycles& cycles, std::size_t streams) noexcept {
     std::uint64_t lowest = cycles[0];
