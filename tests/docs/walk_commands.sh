@@ -7,6 +7,7 @@
 # quotes of the last column, apart from the width of spaces. Its exit status is 0, or 1 if that column
 # begins with "refused".
 # `articula run` goes on beside the commands after it, until the next one or the end.
+# grep -q reads no pipe here: it ends at the first match, and pipefail reports that its writer failed.
 set -euo pipefail
 
 articula=$(realpath "$2")
@@ -39,7 +40,7 @@ start_run() {
   for ((attempt = 0; attempt < 600; ++attempt)); do
     kill -0 "$process" 2>/dev/null || { cat run.txt; return 1; }
     port=$(sed -nE 's|^http://[^:]*:([0-9]+)/.*|\1|p' run.txt)
-    [[ -n $port ]] && "$articula" --port "$port" status | grep -q '^mode  *active' && break
+    [[ -n $port ]] && grep -q '^mode  *active' <("$articula" --port "$port" status) && break
     sleep 0.1
   done
   cat run.txt
@@ -62,7 +63,7 @@ while IFS=$'\t' read -r command seen; do
   [[ $status == "$wanted" ]] || { echo "$name: status $status, not $wanted: $command"; exit 1; }
   # shellcheck disable=SC2016 # these are no expressions
   while IFS= read -r text; do
-    [[ -z $text ]] || tr -s ' ' <output.txt | grep -qF -- "$text" || { echo "$name: no '$text': $command"; exit 1; }
+    [[ -z $text ]] || grep -qF -- "$text" <(tr -s ' ' <output.txt) || { echo "$name: no '$text': $command"; exit 1; }
   done < <(grep -o '`[^`]*`' <<<"$seen" | tr -d '`')
 done < <(awk -F ' *[|] *' '
   !/^\|/ { in_table = 0; next }

@@ -16,7 +16,7 @@ while [[ -z $port ]] && read -r line; do
 done <&"${loop[0]}"
 
 for ((attempt = 0; attempt < 600; ++attempt)); do
-  "$articula" --port "$port" status | grep -q "^mode  *active" && break
+  grep -q "^mode  *active" <("$articula" --port "$port" status) && break
   sleep 0.1
 done
 "$articula" --port "$port" controllers
