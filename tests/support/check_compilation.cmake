@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DCOMPILER= -DSOURCE= -DDEFINITIONS= -DINCLUDES= -DEXPECT= -P check_compilation.cmake
-# With EXPECT empty SOURCE must compile, else it must not and each regex of EXPECT must match.
+# cmake -DCOMPILER= -DSOURCE= -DDEFINITIONS= -DINCLUDES= -DEXPECT= -DHEADER= -P check_compilation.cmake
+# HEADER is included first, if there is one. With EXPECT empty SOURCE must compile, else it must not
+# and each regex of EXPECT must match.
 
 list(TRANSFORM DEFINITIONS PREPEND -D)
 list(TRANSFORM INCLUDES PREPEND -isystem)
+if(HEADER)
+  list(PREPEND DEFINITIONS -include ${HEADER})
+endif()
 set(ENV{LC_ALL} C) # messages in English
 
 execute_process(
