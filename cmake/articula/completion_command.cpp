@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,9 @@ struct Entry {
   std::string words{};
   std::vector<const CLI::App*> commands{};
   std::vector<std::string> options{};
+  std::vector<std::string> valued_options{};
+  std::string argument{};                              ///< type of its argument; empty: not named
+  std::map<std::string, std::string> named_options{};  ///< types of options with named values
 };
 
 std::vector<std::string> options_of(const CLI::App& app) {
@@ -28,17 +33,33 @@ std::vector<std::string> options_of(const CLI::App& app) {
   return names;
 }
 
+/// Notes which options have values, and where names of the running loop are expected.
+void collect_values(const CLI::App& app, Entry& entry) {
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    const bool is_named = std::ranges::find(named_values, type) != named_values.end();
+    if (is_named && option->get_lnames().empty()) entry.argument = type;
+    for (const std::string& name : option->get_lnames()) {
+      if (option->get_items_expected_max() > 0) entry.valued_options.push_back("--" + name);
+      if (is_named) entry.named_options["--" + name] = type;
+    }
+  }
+}
+
+bool is_hidden(const CLI::App& app) { return app.get_group().empty(); }
+
 void collect(const CLI::App& app, const std::string& words, const std::vector<std::string>& common,
              std::vector<Entry>& entries) {
   Entry entry{.words = words};
   entry.options = options_of(app);
+  collect_values(app, entry);
   for (const std::string& option : common) {
     if (std::ranges::find(entry.options, option) == entry.options.end()) {
       entry.options.push_back(option);
     }
   }
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    entry.commands.push_back(command);
+    if (!is_hidden(*command)) entry.commands.push_back(command);
   }
   entries.push_back(entry);
   for (const CLI::App* command : entry.commands) {
@@ -47,9 +68,9 @@ void collect(const CLI::App& app, const std::string& words, const std::vector<st
   }
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string joined(const std::vector<std::string>& words, const std::string& separator = " ") {
   std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
   return text;
 }
 
@@ -59,6 +80,14 @@ std::vector<std::string> names_of(const Entry& entry) {
   return names;
 }
 
+std::vector<std::string> valued_options(const std::vector<Entry>& entries) {
+  std::set<std::string> options;
+  for (const Entry& entry : entries) {
+    options.insert(entry.valued_options.begin(), entry.valued_options.end());
+  }
+  return {options.begin(), options.end()};
+}
+
 /// A shell word for a text: in single quotes.
 std::string quoted(const std::string& text) {
   std::string result = "'";
@@ -66,20 +95,44 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
-/// A function of the shell that finds the command in what was typed, and its words by a `case`.
-/// Names of files are completed where nothing else fits.
+/// A function of the shell that finds the command in what was typed, and its words by a `case`. A
+/// second `case` finds the type of the names that are expected. The program prints them, with the
+/// connection of what was typed. Names of files are completed where nothing else fits.
 std::string bash(const std::vector<Entry>& entries) {
   std::string known;
-  std::string cases;
+  std::string cases, types, named;
   for (const Entry& entry : entries) {
     if (!entry.words.empty()) known += "|" + quoted(entry.words);
     cases += "    " + quoted(entry.words) +
              ") words=" + quoted(joined(names_of(entry)) + " " + joined(entry.options)) + " ;;\n";
+    for (const auto& [option, type] : entry.named_options) {
+      named += " " + entry.words + " " + option + ";";
+      types += "    " + quoted(entry.words + " " + option) + ") type=" + quoted(type) + " ;;\n";
+    }
+    if (!entry.argument.empty()) {
+      types += "    " + quoted(entry.words + " ") + ") type=" + quoted(entry.argument) + " ;;\n";
+    }
   }
   return R"(_articula() {
-  local command='' next word words='' i
+  local command='' next word words='' names='' option='' type='' connection=() i
+  local named=')" +
+         named +
+         R"('
   for ((i = 1; i < COMP_CWORD; ++i)); do
     word=${COMP_WORDS[i]}
+    case $word in
+      --address | --port | --token)
+        next=${COMP_WORDS[i + 1]}
+        [[ $next != = ]] || next=${COMP_WORDS[i + 2]}
+        connection+=("$word" "$next") ;;
+    esac
+    case $word in
+      )" +
+         joined(valued_options(entries), " | ") +
+         R"() option=$word ;;
+      -*) ;;
+      *) [[ $named == *" $command $option;"* ]] || option='' ;;
+    esac
     next=${command:+$command }$word
     case $next in
       )" +
@@ -90,7 +143,18 @@ std::string bash(const std::vector<Entry>& entries) {
   case $command in
 )" + cases +
          R"(  esac
-  COMPREPLY=($(compgen -W "$words" -- "${COMP_WORDS[COMP_CWORD]}"))
+  case "$command $option" in
+)" + types +
+         R"(  esac
+  word=${COMP_WORDS[COMP_CWORD]}
+  if [[ $word == = || ${COMP_WORDS[COMP_CWORD - 1]} == = ]]; then
+    return
+  elif [[ -n $type && $word != -* ]]; then
+    names=$("${COMP_WORDS[0]}" "${connection[@]}" names "$type" 2>/dev/null)
+    words=${names:-$words}
+    [[ -z $names || $type != *=* ]] || compopt -o nospace 2>/dev/null
+  fi
+  COMPREPLY=($(compgen -W "$words" -- "$word"))
 }
 complete -o default -F _articula articula
 )";
@@ -98,6 +162,10 @@ complete -o default -F _articula articula
 
 std::string zsh(const std::vector<Entry>& entries) {
   return "#compdef articula\nautoload -U +X bashcompinit && bashcompinit\n" + bash(entries);
+}
+
+std::string names_by_fish(const std::string& type) {
+  return quoted("(__articula_names " + type + ")");
 }
 
 std::string fish(const std::vector<Entry>& entries) {
@@ -115,6 +183,14 @@ function __articula_is_first
   end
   test -z "$words"
 end
+function __articula_names
+  set -l words (commandline -opc)
+  set -l connection
+  for i in (seq (count $words))
+    contains -- $words[$i] --address --port --token; and set -a connection $words[$i] $words[(math $i + 1)]
+  end
+  $words[1] $connection names $argv[1] 2>/dev/null
+end
 )";
   for (const Entry& entry : entries) {
     const std::string condition =
@@ -125,8 +201,14 @@ end
               quoted(command->get_name()) + " -d " + quoted(command->get_description()) + "\n";
     }
     for (const std::string& option : entry.options) {
-      text +=
-          "complete -c articula -n " + quoted(condition) + " -l " + quoted(option.substr(2)) + "\n";
+      text += "complete -c articula -n " + quoted(condition) + " -l " + quoted(option.substr(2));
+      const auto named = entry.named_options.find(option);
+      if (named != entry.named_options.end()) text += " -x -a " + names_by_fish(named->second);
+      text += "\n";
+    }
+    if (!entry.argument.empty()) {
+      text += "complete -c articula -f -n " + quoted(condition) + " -a " +
+              names_by_fish(entry.argument) + "\n";
     }
   }
   return text;

@@ -57,8 +57,8 @@ void add_control_commands(CLI::App& app, Program& program) {
         const std::string message = answer.value("message", "");
         program.print(answer, message.empty() ? "done" : message);
       });
-  command->add_option("--start", options->start, "a controller to start");
-  command->add_option("--stop", options->stop, "a controller to stop");
+  command->add_option("--start", options->start, "a controller to start")->type_name("CONTROLLER");
+  command->add_option("--stop", options->stop, "a controller to stop")->type_name("CONTROLLER");
   command->add_flag("--best-effort", options->best_effort,
                     "do what can be done, instead of all or nothing");
   command->add_flag("--replace", options->replace, "stop what is active on the same joints");

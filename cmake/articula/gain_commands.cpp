@@ -65,7 +65,8 @@ void add_gain_commands(CLI::App& app, Program& program) {
   CLI::App* get =
       add_command(*gains, program, "get", "Prints gains with their units and allowed ranges.",
                   [&program, name] { print_gains(program, *name); });
-  get->add_option("name", *name, "a gain, or what is before a dot of several: a controller");
+  get->add_option("name", *name, "a gain, or what is before a dot of several: a controller")
+      ->type_name("GAIN");
 
   const auto values = std::make_shared<std::vector<std::string>>();
   CLI::App* set =
@@ -77,7 +78,7 @@ void add_gain_commands(CLI::App& app, Program& program) {
                     const std::string message = answer.value("message", "");
                     program.print(answer, message.empty() ? "done" : message);
                   });
-  set->add_option("values", *values, "as pid.elbow.p=300")->required();
+  set->add_option("values", *values, "as pid.elbow.p=300")->required()->type_name("GAIN=VALUE");
 }
 
 }  // namespace terminal

@@ -72,6 +72,7 @@ int run(int count, char** words) {
   add_sweep_command(app, program);
 #endif
   add_new_command(app, program);
+  add_names_command(app, program);
   add_completion_command(app, program);
   // Known before the command line is parsed, whose faults are told as JSON, too.
   for (int i = 1; i < count; ++i) program.json = program.json || std::string(words[i]) == "--json";

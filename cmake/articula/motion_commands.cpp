@@ -144,7 +144,9 @@ void add_motion_commands(CLI::App& app, Program& program) {
   CLI::App* command = add_command(
       app, program, "go", "Moves joints along a jerk-limited profile; the others rest.",
       [&program, options] { go(program, options->positions, options->speed, options->waits); });
-  command->add_option("positions", options->positions, "as shoulder=0.5 [rad or m]")->required();
+  command->add_option("positions", options->positions, "as shoulder=0.5 [rad or m]")
+      ->required()
+      ->type_name("JOINT=VALUE");
   command->add_option("--speed", options->speed, "share of the velocity limits, 0.01 to 1")
       ->check(within(0.01, 1.0))
       ->capture_default_str();
@@ -154,9 +156,12 @@ void add_motion_commands(CLI::App& app, Program& program) {
   const auto publication = std::make_shared<Publication>();
   command = add_command(app, program, "publish", "Sets the reference at once, or again and again.",
                         [&program, publication] { publish(program, *publication); });
-  command->add_option("positions", publication->positions, "as shoulder=0.5 [rad or m]");
-  command->add_option("--velocity", publication->velocities, "as shoulder=0.1 [rad/s or m/s]");
-  command->add_option("--effort", publication->efforts, "as shoulder=2 [N m or N]");
+  command->add_option("positions", publication->positions, "as shoulder=0.5 [rad or m]")
+      ->type_name("JOINT=VALUE");
+  command->add_option("--velocity", publication->velocities, "as shoulder=0.1 [rad/s or m/s]")
+      ->type_name("JOINT=VALUE");
+  command->add_option("--effort", publication->efforts, "as shoulder=2 [N m or N]")
+      ->type_name("JOINT=VALUE");
   command->add_option("--rate", publication->rate, "times a second, until Ctrl-C")
       ->check(within(0.01, 1000.0))
       ->default_str("once");
@@ -172,7 +177,8 @@ void add_motion_commands(CLI::App& app, Program& program) {
   command
       ->add_option("heights", plan->heights,
                    "height or amplitude, as elbow=0.1 [rad or m; N m or N]")
-      ->required();
+      ->required()
+      ->type_name("JOINT=VALUE");
   command->add_flag("--step", plan->is_step, "a step at once");
   command->add_option("--ramp", plan->ramp, "a ramp, its duration [s]")->check(within(1e-3, 1e6));
   command->add_option("--sine", plan->sine, "its frequency [Hz]")->check(within(1e-3, 1000.0));

@@ -8,6 +8,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -57,6 +58,11 @@ struct Program {
 CLI::App* add_command(CLI::App& parent, Program& program, const std::string& name,
                       const std::string& description, std::function<void()> function);
 
+/// The types of options and arguments whose names a shell completes from the running loop. An option
+/// gets its type by CLI::Option::type_name.
+inline const std::vector<std::string> named_values{"CONTROLLER", "GAIN", "GAIN=VALUE",
+                                                   "JOINT=VALUE", "LINK"};
+
 void add_state_commands(CLI::App& app, Program& program);
 void add_control_commands(CLI::App& app, Program& program);
 void add_gain_commands(CLI::App& app, Program& program);
@@ -68,6 +74,7 @@ void add_run_command(CLI::App& app, Program& program);
 void add_simulate_command(CLI::App& app, Program& program);
 void add_sweep_command(CLI::App& app, Program& program);
 void add_new_command(CLI::App& app, Program& program);
+void add_names_command(CLI::App& app, Program& program);
 void add_completion_command(CLI::App& app, Program& program);
 
 }  // namespace terminal

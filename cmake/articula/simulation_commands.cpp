@@ -76,12 +76,13 @@ void add_simulation_commands(CLI::App& app, Program& program) {
   const auto positions = std::make_shared<std::vector<std::string>>();
   add_call(app, program, "reset", "Puts the simulated robot at rest into a position.", "/reset",
            [positions] { return Json{{"positions", values_by_name(*positions, "joint")}}; })
-      ->add_option("positions", *positions, "as shoulder=0.5 [rad or m]; other joints at 0");
+      ->add_option("positions", *positions, "as shoulder=0.5 [rad or m]; other joints at 0")
+      ->type_name("JOINT=VALUE");
 
   const auto options = std::make_shared<Pull>();
   CLI::App* command = add_command(app, program, "pull", "Pulls at a link of the simulated robot.",
                                   [&program, options] { pull(program, *options); });
-  command->add_option("link", options->link, "the link")->required();
+  command->add_option("link", options->link, "the link")->required()->type_name("LINK");
   command->add_option("--force", options->force, "x y z in the root link's frame [N]")
       ->required()
       ->expected(3);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Command lines that make no sense, servers that are none, and completion.
 #include "catch.hpp"
+#include "completion.hpp"
 #include "scratch_file.hpp"
 #include "terminal.hpp"
 
@@ -14,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+using support::offered;
 using support::Result;
 using support::run_articula;
 
@@ -61,28 +63,6 @@ class OddServer {
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };
-
-/// What bash offers after these words.
-Words offered(const Words& words) {
-  const support::ScratchFile script("completion.bash");
-  std::ofstream(script.path()) << run_articula({"completion", "bash"}).output;
-  std::string list;
-  for (const std::string& word : words) list += " '" + word + "'";
-  const Result result =
-      support::Process({"bash", "-c",
-                        "source " + script.path().string() + "; COMP_WORDS=(articula" + list +
-                            "); COMP_CWORD=" + std::to_string(words.size()) +
-                            "; _articula; printf '%s\\n' \"${COMPREPLY[@]}\""})
-          .end();
-  CHECK(result.exit_code == 0);
-  Words all;
-  for (std::size_t at = 0; at < result.output.size();) {
-    const std::size_t end = result.output.find('\n', at);
-    all.push_back(result.output.substr(at, end - at));
-    at = end + 1;
-  }
-  return all;
-}
 
 }  // namespace
 

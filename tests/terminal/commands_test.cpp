@@ -2,6 +2,7 @@
 /// @file The commands of articula, against a loop that runs.
 #include "../view/web_client.hpp"
 #include "catch.hpp"
+#include "completion.hpp"
 #include "running_arm.hpp"
 #include "scratch_file.hpp"
 
@@ -165,6 +166,30 @@ TEST_CASE("gains are read and set, all or none") {
   check_refused(arm.ask({"gains", "set", "nonsense.p=1"}), {"nonsense"});
   check_refused(arm.ask({"gains", "get", "pid_plus_gravity.elbow_active_joint.pp"}),
                 {"did you mean"});
+}
+
+TEST_CASE("bash completes the names of the running loop") {
+  using Words = std::vector<std::string>;
+  const RunningArm arm;
+  const auto offered = [&](Words words) {
+    words.insert(words.begin(), {"--port", arm.port()});
+    return support::offered(words);
+  };
+  const Words joints{std::string(shoulder) + "=", std::string(elbow) + "="};
+  CHECK(offered({"switch", "--stop", "pid"}) == Words{"pid_plus_gravity"});
+  CHECK(offered({"switch", "--start", "bypass", "--stop", ""}) ==
+        Words{"pid_plus_gravity", "bypass"});
+  CHECK(offered({"go", ""}) == joints);
+  CHECK(offered({"go", "--wait", "--speed", "0.5", "el"}) == Words{joints[1]});
+  CHECK(offered({"go", joints[0], "=", "0.1", "el"}) == Words{joints[1]});
+  CHECK(offered({"go", "--speed", "el"}) == Words{""});
+  CHECK(offered({"go", "elbow", "="}) == Words{""});
+  CHECK(offered({"publish", "--velocity", "el"}) == Words{joints[1]});
+  CHECK(offered({"gains", "get", "pid_plus_gravity.elbow_active_joint.pos"}).size() == 1);
+  CHECK(offered({"gains", "set", "pid_plus_gravity.elbow_active_joint.pos"}) ==
+        Words{"pid_plus_gravity.elbow_active_joint.position_weight="});
+  CHECK(support::offered({"--port", "=", arm.port(), "pull", "for"}) == offered({"pull", "for"}));
+  CHECK(support::offered({"--port", "1", "go", "el"}) == Words{""});  // no loop there, no message
 }
 
 TEST_CASE("go moves a joint and waits for it") {
