@@ -188,7 +188,8 @@ TEST_CASE("bash completes the names of the running loop") {
   CHECK(offered({"gains", "get", "pid_plus_gravity.elbow_active_joint.pos"}).size() == 1);
   CHECK(offered({"gains", "set", "pid_plus_gravity.elbow_active_joint.pos"}) ==
         Words{"pid_plus_gravity.elbow_active_joint.position_weight="});
-  CHECK(support::offered({"--port", "=", arm.port(), "pull", "for"}) == offered({"pull", "for"}));
+  CHECK(offered({"pull", ""}).size() > 2);
+  CHECK(support::offered({"--port", "=", arm.port(), "pull", ""}) == offered({"pull", ""}));
   CHECK(support::offered({"--port", "1", "go", "el"}) == Words{""});  // no loop there, no message
 }
 
