@@ -5,9 +5,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace terminal {
 
@@ -25,6 +29,15 @@ Source source_of(const std::string& kind) {
   return {"/robot", kind == "LINK" ? "links" : "joints"};
 }
 
+/// Whether a shell leaves the name as it is. Shells expand what they complete, and a loop's names are
+/// not this user's: "$(...)" would be run.
+bool is_plain(const std::string& name) {
+  constexpr std::string_view others = "_-./:";
+  return !name.empty() && std::ranges::all_of(name, [&](unsigned char c) {
+    return std::isalnum(c) != 0 || others.find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
 /// Prints nothing where there is no loop: a message would stand in the middle of what is typed.
 void print_names(const Program& program, const std::string& kind) {
   const Source source = source_of(kind);
@@ -33,7 +46,7 @@ void print_names(const Program& program, const std::string& kind) {
     Connection connection(program);
     for (const Json& item : connection.call(source.service).value(source.list, Json::array())) {
       const std::string name = item.is_string() ? item.get<std::string>() : item.value("name", "");
-      if (!name.empty()) std::printf("%s%s\n", name.c_str(), ending.c_str());
+      if (is_plain(name)) std::printf("%s%s\n", name.c_str(), ending.c_str());
     }
   } catch (const std::runtime_error&) {
   }

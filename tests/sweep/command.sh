@@ -35,7 +35,7 @@ grep -q '^300 runs: 300 stable' "$folder/table" || fail "no table: $(cat "$folde
 grep -q 'elbow_active_joint.settling_time *s *0' "$folder/table"
 rows=$folder/good_results/rows.csv
 [ "$(wc -l <"$rows")" -eq 301 ] || fail "300 runs do not have 300 lines"
-[ -s "$folder/good_results/plot_2.gp" ] || fail "no plot"
+grep -qF "set ylabel 'delay [s]'" "$folder/good_results/plot_2.gp" || fail "no plot with its unit"
 if command -v gnuplot >/dev/null; then
   [ -s "$folder/good_results/plot_1.svg" ] && [ -s "$folder/good_results/plot_2.svg" ] ||
     fail "gnuplot has drawn nothing"

@@ -178,6 +178,24 @@ TEST_CASE("positions go to simulated drives, and to a mock") {
   }
 }
 
+TEST_CASE("names that a shell would expand are not completed") {
+  std::string text = articula::remote::urdf_text(articula::Q2d());
+  const std::string elbow = "elbow_active_joint";
+  for (std::size_t at = 0; (at = text.find(elbow, at)) != std::string::npos;) {
+    text.replace(at, elbow.size(), "elbow`exit`");
+  }
+  const ScratchFile robot("hostile.urdf"), controllers("hostile.yaml");
+  write(robot.path(), text);
+  write(controllers.path(),
+        "controller_manager:\n  ros__parameters:\n    update_rate: 100\n"
+        "    bypass: {type: effort_controllers/JointGroupEffortController}\n"
+        "bypass:\n  ros__parameters:\n    joints: [shoulder_active_joint, 'elbow`exit`']\n");
+  const Running running({robot.path().string(), controllers.path().string()});
+  CHECK(running.ask({"status"}).at("joints").at(1).at("name") == "elbow`exit`");
+  CHECK(run_articula({"--port", running.port(), "names", "JOINT=VALUE"}).output ==
+        "shoulder_active_joint=\n");
+}
+
 TEST_CASE("a run ends after its time, and read-only means it") {
   const Q2dFile robot;
   const Result result = run_articula({"--json", "--port", "0", "run", robot.name(),

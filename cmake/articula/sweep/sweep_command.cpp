@@ -215,7 +215,7 @@ void run_sweep(const Program& program, const SweepCall& call, bool is_first,
   articula::write_hdf5(folder / "rows.h5", folder / "rows.csv", experiment.parameters(),
                        experiment.metrics());
 #endif
-  report(program, plan, experiment, result, draw_sweep(plan, plan.output));
+  report(program, plan, experiment, result, draw_sweep(plan, experiment));
 }
 
 void sweep(const Program& program, const SweepCall& call) {

@@ -77,8 +77,9 @@ AnyExperiment make_experiment(const SweepPlan& plan);
 inline constexpr auto swept_joints = std::to_array<int>({ARTICULA_SWEPT_JOINTS});
 
 /// Writes gnuplot scripts beside the rows, and runs gnuplot where it is installed.
+/// @param experiment  for the units of the axes
 /// @return a line for people: what was drawn, or why not
 /// @throws Refusal if a script cannot be written
-[[nodiscard]] std::string draw_sweep(const SweepPlan& plan, const std::string& folder);
+[[nodiscard]] std::string draw_sweep(const SweepPlan& plan, const AnyExperiment& experiment);
 
 }  // namespace terminal

@@ -35,13 +35,28 @@ bool is_logarithmic(const SweepPlan& plan, const std::string& name) {
   });
 }
 
-std::string script_of(const SweepPlan& plan, const SweepPlot& plot, const std::string& name) {
+/// A column's name, and its unit unless it is a plain number.
+std::string label(const AnyExperiment& experiment, const std::string& name) {
+  std::string unit = "1";
+  for (const auto& each : experiment.parameters()) {
+    if (each.name == name) unit = each.unit;
+  }
+  for (const auto& each : experiment.metrics()) {
+    if (each.name == name) unit = each.unit;
+  }
+  return unit == "1" ? name : name + " [" + unit + "]";
+}
+
+std::string script_of(const SweepPlan& plan, const AnyExperiment& experiment, const SweepPlot& plot,
+                      const std::string& name) {
   std::string text = "# Draws " + name + ".svg in this folder: gnuplot " + name +
                      ".gp\nset terminal svg size 800,560 font 'Helvetica,15' background rgb 'white'"
                      "\nset output '" +
                      name + ".svg'\nset datafile separator ','\nset grid\nset rmargin 4\n";
-  text += "set xlabel '" + plot.columns[0] + "' noenhanced\n";
-  if (plot.columns.size() > 1) text += "set ylabel '" + plot.columns[1] + "' noenhanced\n";
+  for (std::size_t k = 0; k < plot.columns.size(); ++k) {
+    text += std::string("set ") + (k == 0 ? "x" : "y") + "label '" +
+            label(experiment, plot.columns[k]) + "' noenhanced\n";
+  }
   for (std::size_t k = 0; k < plot.columns.size(); ++k) {
     if (!is_logarithmic(plan, plot.columns[k])) continue;
     const std::string axis = k == 0 ? "x" : "y";
@@ -73,7 +88,8 @@ std::string script_of(const SweepPlan& plan, const SweepPlot& plot, const std::s
 
 }  // namespace
 
-std::string draw_sweep(const SweepPlan& plan, const std::string& folder) {
+std::string draw_sweep(const SweepPlan& plan, const AnyExperiment& experiment) {
+  const std::string& folder = plan.output;
   if (plan.plots.empty()) return "";
   const bool can_draw = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
   std::size_t number = 0;
@@ -83,7 +99,7 @@ std::string draw_sweep(const SweepPlan& plan, const std::string& folder) {
     const std::string name = "plot_" + std::to_string(++number);
     const std::filesystem::path path = std::filesystem::path(folder) / (name + ".gp");
     std::ofstream script(path);
-    script << script_of(plan, plot, name);
+    script << script_of(plan, experiment, plot, name);
     script.close();
     if (!script) throw Refusal("cannot write " + path.string());
     if (!can_draw) continue;
