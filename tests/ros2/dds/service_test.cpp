@@ -128,7 +128,10 @@ TEST_CASE("a reply waits for the reader of its client") {
   Server server(transport);
   CyclonePeer cyclone(domain());
   cyclone.make_request_writer("/arm/trigger");
-  REQUIRE(poll_until(transport, [&] { return cyclone.finds_service(); }));
+  // As rmw_cyclonedds: a client asks when it knows the writer of replies, too.
+  REQUIRE(poll_until(transport, [&] {
+    return cyclone.finds_service() && !cyclone.writers("rr/arm/triggerReply").empty();
+  }));
   cyclone.request(1);
   REQUIRE(poll_until(transport, [&] { return !server.requests.empty(); }));
   poll_for(transport, std::chrono::milliseconds(50));
