@@ -20,6 +20,7 @@ set(ENV{XDG_CACHE_HOME} ${WORK}/cache)
 set(ENV{CXX} ${COMPILER})
 set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} ${LAUNCHER})
 set(ENV{CMAKE_GENERATOR} ${GENERATOR})
+set(ENV{CMAKE_BUILD_TYPE} None) # which compiles much faster than the project's own choice, Release
 set(run ${WORK}/prefix/bin/articula --port 0 run ${WORK}/two_arm_torso.urdf ${CONTROLLERS} --compile)
 run(bash ${CMAKE_CURRENT_LIST_DIR}/operate.sh ${PROGRAM} ${run})
 run(${PROGRAM} new ${WORK}/two_arm_torso.urdf ${CONTROLLERS} --output ${WORK}/project)
