@@ -324,7 +324,10 @@ export async function simulation(browser, url) {
   await robot.click('button::-p-text(Place)');
   await robot.until('the robot rests at the sliders, without a motion', () => {
     const {samples} = articula.session;
-    const isThere = (row) => Math.abs(samples.value('position/1', row) + 0.7) < 1e-3;
-    return isThere(samples.end - 1) && isThere(samples.first) && samples.lastTime > 0.2;
+    const elbow = samples.reader('position/1');
+    let row = samples.end;
+    while (row > samples.first && Math.abs(elbow(row - 1) + 0.7) < 1e-3) --row;
+    const rests = samples.time(samples.end - 1) - samples.time(row) > 0.2;
+    return rests && row > samples.first && Math.abs(elbow(row - 1)) < 1e-3;
   });
 }

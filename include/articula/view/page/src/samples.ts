@@ -58,8 +58,6 @@ export class Samples {
   append(cycles: Cycles): void {
     const count = cycles.time.length;
     if (count === 0) return;
-    // The time of a simulation starts anew when it is reset. A plot over time needs it to grow.
-    if (this.end > this.first && cycles.time[0] <= this.lastTime) this.first = this.end;
     for (let row = 0; row < count; ++row) {
       this.times[(this.end + row) % this.capacity] = cycles.time[row];
     }
