@@ -342,6 +342,34 @@ TEST_CASE("drives that answer another node's SYNC after the next one are late, a
   }
 }
 
+TEST_CASE("drives that answer accesses after some cycles, and SYNC at once, are not late") {
+  const int answer_delay = GENERATE(3, 5, 15, 30);  // [ms]
+  const bool operational = GENERATE(false, true);   // they are, since a host that has died
+  const bool start_is_lost = GENERATE(false, true);
+  CAPTURE(answer_delay, operational, start_is_lost);
+  const auto bus = make_bus();
+  Arm dead = make_arm(bus);
+  if (operational) REQUIRE(dead.activate() == Status::ok);
+  bus->answer_delay = std::chrono::milliseconds(answer_delay);
+  bus->pass(500us);  // the host's cycles are half a period after SYNC
+  int to_lose = start_is_lost ? 1 : 0;
+  bus->on_command = [&](CanFrame& frame) {
+    const bool starts = frame == canopen::encode(canopen::NmtCommand::start, 6);
+    return !starts || to_lose-- <= 0;
+  };
+  Arm arm = make_arm(bus);
+  REQUIRE(arm.activate() == Status::ok);
+  JointState<2> state;
+  for (int k = 0; k < 100; ++k) {
+    bus->pass(1ms);
+    REQUIRE(arm.read(state) == Status::ok);
+    REQUIRE(arm.reports()[0].age == 0);
+    REQUIRE(arm.reports()[1].age == 0);
+    REQUIRE(arm.write({{1, -1}}) == Status::ok);
+  }
+  CHECK(arm.deactivate() == Status::ok);
+}
+
 TEST_CASE("SYNC may have a counter, and no more than that") {
   Cia402Codec<Q2d, EffortCommand<2>, SyncProducer::another_node> codec(drives);
   CanFrame sync = canopen::encode_sync();

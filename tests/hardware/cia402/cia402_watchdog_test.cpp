@@ -122,9 +122,12 @@ TEST_CASE("a drive that would not stop without the host's heartbeat is refused, 
 
 TEST_CASE("a drive whose stop without the host's heartbeat is fixed is used") {
   const auto option = GENERATE(as<std::uint16_t>(), 1, 2, 3);
-  CAPTURE(option);
+  // Every request is repeated before its answer, so that each refusal comes twice.
+  const auto answer_delay = std::chrono::milliseconds(GENERATE(0, 120));
+  CAPTURE(option, answer_delay.count());
   Bench bench(Cia402Watchdog::heartbeat,
               {.abort_connection_is_fixed = true, .abort_connection = option});
+  bench.bus->answer_delay = answer_delay;
   REQUIRE(bench.arm.activate() == Status::ok);
   CHECK(bench.value(0x6007) == option);
   bench.cycles(20);

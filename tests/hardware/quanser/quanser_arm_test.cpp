@@ -476,7 +476,7 @@ TEST_CASE("a command is sent if the one before has been on the bus, seen or not"
 TEST_CASE("deactivation lets go as soon as the last command has been on the bus") {
   Bench bench;
   bench.cycles(3);
-  const auto sending_time = std::chrono::microseconds(250);
+  const auto sending_time = std::chrono::microseconds(GENERATE(250, 1250, 2500));
   bench.bus->sending_time = sending_time;
   CHECK(bench.arm.write({{2, 2}}) == Status::ok);
   const auto written = bench.bus->time;
@@ -533,6 +533,16 @@ TEST_CASE("a link that fails is a fault at once") {
   bench.bus->link = CanLink::up;
   bench.cycle();
   CHECK(bench.reading == Status::hardware_fault);
+  SECTION("also after deactivation") {
+    static_cast<void>(bench.arm.deactivate());
+    bench.bus->link = CanLink::down;
+    bench.cycle();
+    CHECK(bench.reading == Status::hardware_fault);
+    CHECK(bench.arm.fault().cause == CanCause::link_down);
+    bench.bus->link = CanLink::up;
+    bench.cycle();
+    CHECK(bench.reading == Status::inactive);
+  }
   const int opened = bench.bus->opened;
   CHECK(bench.arm.activate() == Status::ok);
   CHECK(bench.bus->opened == opened + 1);

@@ -116,8 +116,10 @@ class CanHardware {
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     exchange_.receive();
     if (is_paced && !search_.note_cycles(exchange_.begun_cycles())) ++exchange_.statistics.unpaced;
+    const CanCause link = cause_of(exchange_.transport.link());
     if (mode_ == Mode::active)
       fail_on(search_.find(exchange_.transport.link(), reports(), options_));
+    if (mode_ == Mode::inactive && link != CanCause::none) fault_ = {link};
     bool stale = false, partial = false;
     int j = 0;
     for (const DriveReport& report : reports()) {
@@ -128,8 +130,7 @@ class CanHardware {
       partial = partial || report.age > 0;
     }
     if (partial) ++exchange_.statistics.partial;
-    if (mode_ == Mode::faulted || exchange_.transport.link() != CanLink::up)
-      return Status::hardware_fault;
+    if (mode_ == Mode::faulted || link != CanCause::none) return Status::hardware_fault;
     if (mode_ == Mode::inactive) return Status::inactive;
     return stale ? Status::stale_state : Status::ok;
   }
@@ -155,7 +156,7 @@ class CanHardware {
     const CanSending sending = exchange_.send(batch);
     exchange_.count(sending);
     const bool bad = sending == CanSending::failed || exchange_.dropped >= options_.stale_after;
-    if (mode_ == Mode::active) judge(sending, bad);
+    judge(sending, bad);
     if (mode_ == Mode::faulted || bad) return Status::hardware_fault;
     if (mode_ == Mode::inactive) return Status::inactive;
     return finite ? Status::ok : Status::non_finite_command;
@@ -233,6 +234,10 @@ class CanHardware {
   /// Sets the fault after sending. A temporary fault lasts until the bus takes frames again.
   void judge(CanSending sending, bool bad) noexcept {
     const CanCause link = cause_of(exchange_.transport.link());
+    if (mode_ == Mode::inactive && bad) {
+      fault_ = {link != CanCause::none ? link : CanCause::not_sent};
+    }
+    if (mode_ != Mode::active) return;
     if (sending == CanSending::failed && link != CanCause::none) return fail_on({link});
     if (exchange_.unconfirmed >= options_.not_sent_after) return fail_on({CanCause::not_sent});
     fault_ = {bad ? CanCause::not_sent : CanCause::none};

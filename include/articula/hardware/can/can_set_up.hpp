@@ -37,7 +37,10 @@ template <class Codec, class Transport>
     if (progress == CanSetUp::done && is_young) return {};
   }
   CanFault fault = find_activation_fault(exchange.codec.reports(), options.stale_after);
-  if constexpr (requires { exchange.codec.set_up_fault(); }) fault = exchange.codec.set_up_fault();
+  if constexpr (requires { exchange.codec.set_up_fault(); }) {
+    const CanFault own = exchange.codec.set_up_fault();
+    if (own.joint >= 0 || fault.joint < 0) fault = own;
+  }
   const bool no_cycle = PacedCanCodec<Codec> && exchange.begun_cycles() == begun_before;
   return no_cycle && fault.abort_code == 0 ? CanFault{CanCause::no_sync} : fault;
 }
@@ -63,8 +66,11 @@ template <class Codec, class Transport>
   for (int k = 0; k < most_periods && status != Status::ok; ++k) {
     CanBatch batch;
     exchange.codec.encode_stop(batch);
-    exchange.count(exchange.send(batch, options.set_up_period));
-    exchange.wait_until(exchange.transport.now() + options.set_up_period);
+    const CanSending sending = exchange.send(batch, options.set_up_period);
+    exchange.count(sending);
+    if (sending != CanSending::backlog) {  // else the period has passed in `send`
+      exchange.wait_until(exchange.transport.now() + options.set_up_period);
+    }
     if (all_off()) status = Status::ok;
   }
   if constexpr (requires(CanBatch& batch) { exchange.codec.release({}, batch); }) {

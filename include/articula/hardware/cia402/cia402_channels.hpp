@@ -53,8 +53,12 @@ struct Cia402Channels {
       const std::size_t before = batch.size();
       const CanSetUp progress = channel.set_up.advance(elapsed, batch);
       if (progress == CanSetUp::failed) return progress;
+      Cia402FeedbackAge& age = channel.feedback.age();
+      const auto& command = channel.set_up.command();
+      if (command == canopen::NmtCommand::enter_pre_operational) age.end_feedback();
+      if (command == canopen::NmtCommand::start) age.begin_feedback(syncs);
       // Each request is a mark as well.
-      if (batch.size() != before) channel.feedback.age().place_mark(channel.set_up.object(), syncs);
+      if (batch.size() != before) age.place_mark(channel.set_up.object(), syncs);
       all_enabled = all_enabled && progress == CanSetUp::done;
       constexpr std::uint32_t doubtful_age = 20;  // [cycles]
       const bool known = reports[j].age < doubtful_age && reports[j].enabled;

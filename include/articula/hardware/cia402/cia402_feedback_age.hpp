@@ -73,6 +73,15 @@ class Cia402FeedbackAge {
     return true;
   }
 
+  /// Notes that the node is told to leave the operational state. It sends no feedback then.
+  void end_feedback() noexcept { cycle_ = {}; }
+  /// Notes that the node is told to start now. Without feedback since end_feedback(), it was not
+  /// operational, so that it does not answer the SYNCs until now.
+  void begin_feedback(const SyncHistory& syncs) noexcept {
+    if (std::ranges::any_of(cycle_, [](std::uint64_t cycle) { return cycle > 0; })) return;
+    for (std::uint64_t& next : next_) next = std::max(next, syncs.cycle() + 1);
+  }
+
   /// The request for a mark. It is due if more answers are missing than at the last mark. It also
   /// is if some are missing and the last mark is ten cycles old. Any node answers it, by the object
   /// or by a refusal.

@@ -65,12 +65,14 @@ class Cia402SetUp {
   /// Appends the next request, or repeats one without an answer for 100 ms.
   /// @param elapsed  time since the set-up, or the release, began
   [[nodiscard]] CanSetUp advance(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
+    command_.reset();
     if (failed_) return CanSetUp::failed;
     while (step_ < end_ && (!client_.waiting() || client_.overdue(elapsed))) {
       const Cia402Step& step = script_[step_];
       if (std::exchange(begun_step_, step_) != step_) step_begun_ = elapsed;
       if (step.action == Action::command_node) {
-        batch.push_back(canopen::encode(static_cast<canopen::NmtCommand>(step.value), node_));
+        command_ = static_cast<canopen::NmtCommand>(step.value);
+        batch.push_back(canopen::encode(*command_, node_));
         ++step_;
         continue;
       }
@@ -129,6 +131,10 @@ class Cia402SetUp {
 
   [[nodiscard]] const cia402::ProcessData& process_data() const noexcept {
     return pdos_.process_data();
+  }
+  /// The last command to the node that `advance` has appended in its last call, if it has.
+  [[nodiscard]] const std::optional<canopen::NmtCommand>& command() const noexcept {
+    return command_;
   }
   [[nodiscard]] bool ended() const noexcept { return failed_ || step_ == end_; }
   [[nodiscard]] bool failed() const noexcept { return failed_; }
@@ -243,6 +249,7 @@ class Cia402SetUp {
   canopen::ObjectAddress failed_object_{};
   std::uint32_t remembered_ = 0;
   std::optional<cia402::State> state_{};
+  std::optional<canopen::NmtCommand> command_{};
   std::chrono::nanoseconds step_begun_{};
   std::chrono::nanoseconds finished_{-1};
 };
