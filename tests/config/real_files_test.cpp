@@ -232,6 +232,15 @@ TEST_CASE("no unrelated section is a reason to refuse a file") {
                  "b.ros__parameters: not used, the controller_manager does not list it"));
   CHECK_THAT(complaint_of([&] { return load_controller(yaml(arm + node)); }),
              Contains("there are several: arm in line 2, b in line 6"));
+  // Only a map of gains makes a controller.
+  CHECK(load_controller(yaml("camera: {ros__parameters: {gains: 4.0}}\n" + arm)).name == "arm");
+  // A listed controller may name its state, as some robots' files do.
+  CHECK(has_note(
+      load_controller_manager(yaml("controller_manager: {ros__parameters: {update_rate: 100, "
+                                   "b: {type: joint_state_broadcaster/JointStateBroadcaster, "
+                                   "state: active}}}\n"))
+          .notes,
+      "b.state: not used: the program decides which controller is active"));
   // Beside a controller's own parameters a map with joints is no section.
   CHECK_THAT(complaint_of([&] {
                return load_controller(yaml("gains: {a: {p: 1}}\nother: {joints: [a]}\n"));
@@ -253,6 +262,30 @@ TEST_CASE("no unrelated section is a reason to refuse a file") {
       }),
       Contains("controller_manager.ros__parameters: the number 5"));
   CHECK(has_note(load_controller(yaml(broken + arm)).notes, "the number 5, expected a map of "));
+}
+
+TEST_CASE("the parts of a section that a file repeats are one") {
+  const std::string rate =
+      "/**:\n  controller_manager:\n    ros__parameters:\n      update_rate: 250\n";
+  const std::string elbow =
+      "/**:\n  arm:\n    ros__parameters:\n      joints: [elbow_active_joint]\n";
+  const std::string gains =
+      "/**:\n  arm:\n    ros__parameters:\n      gains: {elbow_active_joint: {p: 2}}\n";
+  CHECK(load_controller_manager(yaml(rate + elbow + gains)).update_rate == 250);
+  const auto loaded =
+      load_pid_gains(Q2d(), yaml(elbow + rate + gains), "arm", GainsOf::some_joints);
+  CHECK(loaded.gains[1].proportional == 2);
+  // No value counts twice.
+  CHECK_THAT(complaint_of([&] { return load_controller(yaml(elbow + rate + elbow), "arm"); }),
+             Contains("test:12:7") && Contains("the key 'joints' is also in line 4"));
+  CHECK_THAT(complaint_of([&] { return load_controller(yaml(elbow + "/**: 5\n"), "arm"); }),
+             Contains("the key '/**' is also in line 1"));
+  // Within a section a repeated map is a slip.
+  CHECK_THAT(complaint_of([&] {
+               return load_controller(yaml(elbow + "      gains: {elbow_active_joint: {p: 1}}\n"
+                                                   "      gains: {elbow_active_joint: {p: 2}}\n"));
+             }),
+             Contains("the key 'gains' is also in line 5"));
 }
 
 TEST_CASE("what ROS calls save_i_term and enable_feedforward") {

@@ -28,7 +28,8 @@ namespace detail {
 [[nodiscard]] inline bool has_gains(const ConfigSection& section) {
   const auto are_gains = [](const ConfigNode& map) { return map.has_any({"p", "pid", "Kp"}); };
   const ConfigNode& node = section.parameters;
-  return are_gains(node) || node.find("gains") != nullptr ||
+  const ConfigNode* gains = node.find("gains");
+  return are_gains(node) || (gains != nullptr && gains->is_map()) ||
          std::any_of(node.items.begin(), node.items.end(), are_gains);
 }
 

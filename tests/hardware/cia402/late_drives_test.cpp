@@ -128,6 +128,30 @@ TEST_CASE("a drive that answers an access late is stopped by the first acknowled
   CHECK(loop.hardware().deactivate() == Status::ok);
 }
 
+TEST_CASE("drives behind a queue as long as any are not activated") {
+  const auto sync = GENERATE(SyncProducer::host, SyncProducer::another_node);
+  const int lag = GENERATE(3, 20, 40, 63, 64, 70, 99, 100, 101, 150, 277);  // [cycles]
+  CAPTURE(sync == SyncProducer::host, lag);
+  const auto check = [&]<SyncProducer Sync> {
+    using Drives = Cia402::Drives;
+    const auto bus = std::make_shared<support::FakeCanBus<Drives>>(Drives(Cia402::list));
+    using Codec = Cia402Codec<Q2d, EffortCommand<2>, Sync>;
+    bus->feedback_delay = bus->answer_delay = std::chrono::milliseconds(lag) + 500us;
+    if (Sync == SyncProducer::another_node) {
+      bus->sync = canopen::encode_sync();
+      bus->sync_period = bus->next_sync = 1ms;
+    }
+    CanHardware<Q2d, Codec, support::FakeCanTransport<Drives>> arm(
+        Codec(Cia402::list), support::FakeCanTransport<Drives>(bus));
+    CHECK(arm.activate() == Status::hardware_fault);
+    CHECK(arm.fault().joint == 0);
+    CHECK_FALSE(bus->drives.enabled(0));
+    CHECK_FALSE(bus->drives.enabled(1));
+  };
+  if (sync == SyncProducer::host) return check.operator()<SyncProducer::host>();
+  check.operator()<SyncProducer::another_node>();
+}
+
 TEMPLATE_TEST_CASE("drives that answer too late for reading are not activated", "", Quanser,
                    Cia402) {
   Bench<TestType> bench(1700us);  // the feedback is three cycles old

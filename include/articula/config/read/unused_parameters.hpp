@@ -69,6 +69,7 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
             {truth, loop, {"is_async"}},
             {any_map, loop, {"async_parameters"}},
             {word, "this file is all that is read", {"params_file"}},
+            {word, "the program decides which controller is active", {"state"}},
             {words, "see SupervisedLoop", {"fallback_controllers"}},
             {truth, "it always is", {"set_current_state_as_first_setpoint"}},
             {truth, "it always does", {"start_with_holding"}},

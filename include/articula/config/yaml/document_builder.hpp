@@ -16,7 +16,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <iterator>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -25,7 +27,8 @@
 namespace articula::detail {
 
 /// Builds the tree of a document from yaml-cpp's events. yaml-cpp's own tree silently drops one of
-/// two equal keys, and grows without bound with aliases. This class refuses both.
+/// two equal keys, and grows without bound with aliases. This class refuses both. Only sections with
+/// ros__parameters are combined, because ROS 2 takes those that a file repeats for one.
 class ConfigBuilder final : public YAML::EventHandler {
  public:
   static constexpr std::size_t deepest = 32;        ///< levels of lists and maps
@@ -80,7 +83,9 @@ class ConfigBuilder final : public YAML::EventHandler {
   }
   void OnSequenceEnd() override { close(); }
   void OnMapEnd() override {
-    check_keys(stack_.back().node);
+    ConfigNode& map = stack_.back().node;
+    if (stack_.size() == 1) combine_sections(map);
+    check_keys(map);
     close();
   }
 
@@ -128,6 +133,31 @@ class ConfigBuilder final : public YAML::EventHandler {
       refuse(place, "it is nested too deeply",
              "at most " + std::to_string(deepest) + " nested lists and maps");
     }
+  }
+  [[nodiscard]] static bool is_section(const ConfigNode& node) {
+    return node.is_map() &&
+           (node.key == "ros__parameters" || std::ranges::any_of(node.items, is_section));
+  }
+  /// Makes one section of those with the same key.
+  void combine_sections(ConfigNode& map) const {
+    std::map<std::string, std::size_t> places;
+    std::vector<ConfigNode> combined;
+    std::set<std::size_t> repeated;
+    for (ConfigNode& item : map.items) {
+      const auto [known, is_new] = places.try_emplace(item.key, combined.size());
+      if (is_new || !is_section(item) || !is_section(combined[known->second])) {
+        combined.push_back(std::move(item));
+        continue;
+      }
+      auto& items = combined[known->second].items;
+      std::ranges::move(item.items, std::back_inserter(items));
+      repeated.insert(known->second);
+    }
+    for (const std::size_t place : repeated) {
+      combine_sections(combined[place]);
+      check_keys(combined[place]);
+    }
+    map.items = std::move(combined);
   }
   /// Refuses two values of one key, at the second one.
   void check_keys(const ConfigNode& map) const {

@@ -61,6 +61,8 @@ class Cia402FeedbackAge {
   [[nodiscard]] bool count(std::size_t stream, std::size_t streams, SyncHistory& syncs,
                            DriveReport& report) noexcept {
     if (!syncs.has_begun()) return false;
+    // An answer to a SYNC before those of the record is older than its age says.
+    const bool is_recorded = syncs.records(next_[stream]);
     cycle_[stream] = syncs.first_from(next_[stream]);
     next_[stream] = std::max(next_[stream], cycle_[stream] + 1);
     skip_lost(stream, streams);
@@ -68,7 +70,7 @@ class Cia402FeedbackAge {
     const std::uint64_t oldest = least(cycle_, streams);
     if (oldest > 0) {
       report.age = static_cast<std::uint32_t>(syncs.cycle() - oldest);
-      least_age_ = std::min(least_age_, std::uint64_t{report.age});
+      if (is_recorded) least_age_ = std::min(least_age_, std::uint64_t{report.age});
     }
     return true;
   }
@@ -91,7 +93,7 @@ class Cia402FeedbackAge {
     const std::uint64_t patience = std::max(std::uint64_t{20}, fastest_answer_ + 10);
     const std::uint32_t missing = lag(streams, syncs);
     if (missing == 0) {
-      if (least_age_ != unknown_age) least_age_ = 0;
+      if (syncs.is_new() && least_age_ != unknown_age) least_age_ = 0;
       return {};
     }
     const std::uint64_t since = syncs.cycle() - mark_cycle_;
@@ -103,11 +105,12 @@ class Cia402FeedbackAge {
     place_mark({canopen::identity, mark_number_}, syncs);
     return canopen::read_request(mark_);
   }
-  /// Notes that an object is requested now. Every request is a mark.
+  /// Notes that an object is requested now. A request is a mark if the one before was for another
+  /// object. Else an answer may be to an earlier request, such as one that was repeated.
   void place_mark(const canopen::ObjectAddress& object, const SyncHistory& syncs) noexcept {
+    awaits_mark_ = object != mark_;
     mark_ = object;
     mark_cycle_ = syncs.cycle();
-    awaits_mark_ = true;
   }
   /// Notes that the bus did not take the last request.
   void cancel_mark() noexcept { awaits_mark_ = false; }

@@ -27,6 +27,10 @@ class SyncHistory {
   [[nodiscard]] constexpr std::uint64_t cycle() const noexcept { return cycle_; }
   /// Whether this cycle began with SYNC.
   [[nodiscard]] constexpr bool is_new() const noexcept { return last_gap_ != cycle_; }
+  /// Whether a cycle, and so each one after it, is in the record.
+  [[nodiscard]] constexpr bool records(std::uint64_t cycle) const noexcept {
+    return cycle + 64 > cycle_;
+  }
   /// Whether any of the last cycles began with SYNC.
   [[nodiscard]] constexpr bool has_begun() const noexcept { return from(0) != 0; }
   /// Number of cycles from `first` on that began with SYNC.

@@ -23,7 +23,8 @@ namespace articula {
 ///
 ///     effort = clamp(K (q_ref - q) + D (v_ref - v) + effort_ref, -limit, limit)
 ///
-///     Loop<HostSprings<Q2dCan>, DriveImpedance> loop;   // as Loop<Q2dSim, DriveImpedance> in simulation
+///     const DriveImpedance<Q2d> springs(gains);
+///     Loop<HostSprings<Q2dCan>, DriveImpedance> loop(HostSprings<Q2dCan>(), springs);
 ///
 /// Do not use it to obtain the stiffness of springs in drives: these run at the drives' rate, some
 /// ten times faster than a loop. For a controller of your own, JointImpedance commands efforts
