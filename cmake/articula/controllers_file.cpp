@@ -132,8 +132,8 @@ bool is_broadcaster(const articula::ListedController& controller) {
 /// Adds the controllers that the manager lists. Several of the same type with one joint each are one
 /// controller, with the type as its name, as load_pid_gains combines them.
 void add_listed(Reading& reading, const articula::ControllerManagerConfig& manager) {
-  const std::string& file = reading.plan.file;
-  const auto all = articula::detail::find_sections(file);
+  const articula::ConfigSource& source = reading.plan.source;
+  const auto all = articula::detail::find_sections(source);
   std::map<std::string, int> single;  // controllers of one joint, by type
   for (const auto& section : all.sections) {
     if (section.is_listed && articula::detail::is_single_joint(section)) ++single[section.type];
@@ -146,7 +146,7 @@ void add_listed(Reading& reading, const articula::ControllerManagerConfig& manag
       combined.push_back(listed.type);
       const std::string name = listed.type.substr(listed.type.find_last_of('/') + 1);
       if (!reading.wants(name)) continue;
-      add(reading, all, articula::load_controller(file, listed.type), name, listed.type,
+      add(reading, all, articula::load_controller(source, listed.type), name, listed.type,
           interface_of(all, listed.name));
       continue;
     }
@@ -154,7 +154,7 @@ void add_listed(Reading& reading, const articula::ControllerManagerConfig& manag
     const bool has_section = std::ranges::any_of(
         all.sections, [&](const auto& section) { return section.name == listed.name; });
     ControllerConfig config{.name = listed.name, .type = listed.type};
-    if (has_section) config = articula::load_controller(file, listed.name);
+    if (has_section) config = articula::load_controller(source, listed.name);
     if (config.type.empty()) config.type = listed.type;
     add(reading, all, config, listed.name, has_section ? listed.name : "",
         interface_of(all, listed.name));
@@ -177,23 +177,25 @@ int default_substeps(double period) {
   return std::max(1, static_cast<int>(std::ceil(period / 1e-3 - 1e-9)));
 }
 
-ControllersPlan read_controllers(const std::string& file, const std::vector<std::string>& chosen) {
-  Reading reading{.plan = {.file = file}, .chosen = chosen};
+ControllersPlan read_controllers(const articula::ConfigSource& source,
+                                 const std::vector<std::string>& chosen) {
+  const std::string& file = source.name();
+  Reading reading{.plan = {.file = file, .source = source}, .chosen = chosen};
   ControllersPlan& plan = reading.plan;
-  const auto all = articula::detail::find_sections(file);
+  const auto all = articula::detail::find_sections(source);
   const bool has_manager = std::ranges::any_of(all.sections, [](const auto& section) {
     return section.name == "controller_manager" ||
            (section.name.empty() && articula::detail::is_manager(section.parameters));
   });
   if (has_manager) {
-    const auto manager = articula::load_controller_manager(file);
+    const auto manager = articula::load_controller_manager(source);
     plan.notes = manager.notes;
     plan.period = manager.period();
     plan.priority = manager.thread_priority.value_or(0);
     plan.processors = manager.processors;
     add_listed(reading, manager);
   } else {
-    const ControllerConfig config = articula::load_controller(file);
+    const ControllerConfig config = articula::load_controller(source);
     plan.notes.push_back(file + ": there is no controller_manager; the loop runs at 1000 Hz");
     add(reading, all, config, config.name, config.name, interface_of(all, config.name));
   }
@@ -214,6 +216,26 @@ ControllersPlan read_controllers(const std::string& file, const std::vector<std:
   plan.substeps = default_substeps(plan.period);
   for (const std::string& line : reading.left_out) plan.notes.push_back(line + ": it is left out");
   return plan;
+}
+
+void add_values_option(CLI::App& command, articula::ConfigValues& values) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--value",
+          [&values](const std::vector<std::string>& words) {
+            for (const std::string& word : words) {
+              const std::size_t at = word.find('=');
+              values[word.substr(0, at)] = word.substr(at + 1);
+            }
+          },
+          "a value for a placeholder of the YAML: tf_prefix=left_ for $(var tf_prefix)")
+      ->type_name("NAME=TEXT")
+      ->check([](const std::string& word) {
+        const std::size_t at = word.find('=');
+        return at == std::string::npos || at == 0 ? "'" + word + "' is not NAME=TEXT"
+                                                  : std::string();
+      })
+      ->allow_extra_args(false);
 }
 
 }  // namespace terminal

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <articula/config/read/controller_config.hpp>
+#include <articula/config/yaml/source.hpp>
 #include <articula/model/vector3.hpp>
+
+#include <CLI/CLI.hpp>
 
 #include <optional>
 #include <string>
@@ -48,10 +51,11 @@ struct PlannedController {
 
 /// What a file says about a loop.
 struct ControllersPlan {
-  std::string file{};
-  double period = 1e-3;  ///< [s]
-  int substeps = 1;      ///< of a simulation, in a period
-  int priority = 0;      ///< of the loop's thread; 0: as any other
+  std::string file{};                 ///< its name
+  articula::ConfigSource source{""};  ///< the file, and values of its placeholders
+  double period = 1e-3;               ///< [s]
+  int substeps = 1;                   ///< of a simulation, in a period
+  int priority = 0;                   ///< of the loop's thread; 0: as any other
   std::vector<int> processors{};
   std::optional<articula::Vector3<double>> gravity{};  ///< free fall, in the root's frame [m/s^2]
   std::string root{}, tip{};                           ///< of the chain of joints; empty: all
@@ -72,7 +76,10 @@ struct ControllersPlan {
 /// @param chosen  names of the controllers to read, of which none is left out; empty: all
 /// @throws articula::FileError with file, line, key and what was expected; Refusal if no controller
 ///         remains, or one that is chosen cannot be used
-[[nodiscard]] ControllersPlan read_controllers(const std::string& file,
+[[nodiscard]] ControllersPlan read_controllers(const articula::ConfigSource& source,
                                                const std::vector<std::string>& chosen = {});
+
+/// Adds the option for values of placeholders in a controllers' file.
+void add_values_option(CLI::App& command, articula::ConfigValues& values);
 
 }  // namespace terminal

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -203,13 +204,30 @@ struct Joints {
   std::vector<std::string> locked{};
 };
 
+/// Prints what the library reports about a file, or why it does not load it.
+void print_notes(const articula::UrdfDocument& document, const std::string& file) {
+  const auto print = [&](const std::string& text) {
+    std::fprintf(stderr, "note: %s: %s\n", file.c_str(), text.c_str());
+  };
+  try {
+    const articula::UrdfDescription description = articula::read_urdf(document);
+    for (const std::string& notice : description->notices) print(notice);
+  } catch (const articula::FileError& error) {
+    print(std::string("load_urdf refuses it: ") + error.what());
+  }
+}
+
 void print_joints(const Program& program, Joints arguments) {
   const articula::UrdfDocument document = articula::parse_urdf(robot_source(arguments.file));
   Listing listing;
   list(document, *document.robot->getRoot(), arguments.moving_only, listing);
   if (arguments.transmissions) list_transmissions(document, listing);
   arguments.options.locked.assign(arguments.locked.begin(), arguments.locked.end());
-  if (arguments.model) describe(document, arguments.options, listing);
+  if (arguments.model) {
+    describe(document, arguments.options, listing);
+  } else {
+    print_notes(document, arguments.file);
+  }
   program.print(listing.json, listing.text);
 }
 

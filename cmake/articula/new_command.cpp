@@ -20,13 +20,17 @@ namespace fs = std::filesystem;
 struct New {
   std::string robot{}, controllers{}, output{}, bus{};
   std::vector<std::string> chosen{};
+  articula::ConfigValues values{};  ///< of placeholders in the controllers' file
   bool allows_unphysical = false;
 };
 
 void write_new(const Program& program, const New& options) {
-  const ControllersPlan plan = read_controllers(options.controllers, options.chosen);
+  const ControllersPlan plan =
+      read_controllers({options.controllers, options.values}, options.chosen);
   const articula::UrdfSource source = robot_source(options.robot);
-  const articula::UrdfDescription robot = read_robot(source, plan, options.allows_unphysical);
+  const articula::UrdfDescription robot =
+      read_robot(source, plan, options.allows_unphysical,
+                 options.bus.empty() ? Mover::simulation : Mover::drives);
   PlannedDrives drives;
   if (!options.bus.empty()) drives = read_drives(plan, options.bus, robot);
   const Project project = make_project({.robot = options.robot,
@@ -34,6 +38,7 @@ void write_new(const Program& program, const New& options) {
                                         .controllers = plan,
                                         .groups = joint_groups(robot, plan),
                                         .allows_unphysical = options.allows_unphysical,
+                                        .is_kinematic = robot->kinematic,
                                         .drives = drives});
   const std::string where = options.output.empty() ? project.name : options.output;
   std::error_code error;
@@ -59,6 +64,7 @@ void add_new_command(CLI::App& app, Program& program) {
   command->add_option("controllers", options->controllers, "YAML of ROS's controllers")->required();
   command->add_option("--controller", options->chosen, "one of the file to use, in place of all")
       ->allow_extra_args(false);
+  add_values_option(*command, options->values);
   command->add_option("--output", options->output, "the folder")->default_str("the robot's name");
   command
       ->add_option("--can", options->bus,

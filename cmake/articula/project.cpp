@@ -5,6 +5,7 @@
 #include "program.hpp"
 #include "robot_file.hpp"
 
+#include <articula/config/yaml/filled_text.hpp>
 #include <articula/text/numbers.hpp>
 #include <articula/urdf/read_urdf.hpp>
 #include <articula/version.hpp>
@@ -97,6 +98,7 @@ std::string cmake_lists(const std::string& type, const std::string& program,
              number_text(plan.gravity->z);
   }
   if (options.allows_unphysical) robot += " ALLOW_UNPHYSICAL";
+  if (options.is_kinematic) robot += " KINEMATIC";
   std::string definitions;
   if (reads_file(plan)) {
     definitions += "\n  PRIVATE CONTROLLERS=\"${CMAKE_CURRENT_SOURCE_DIR}/controllers.yaml\"";
@@ -326,16 +328,37 @@ std::string contents_of(const std::string& file) {
   return text;
 }
 
+/// A controllers' file with values in place of its placeholders.
+std::string filled_text(const articula::ConfigSource& source) {
+  return articula::detail::FilledText(source.name(), source.contents(), source.values()).text();
+}
+
 }  // namespace
 
 articula::UrdfDescription read_robot(const articula::UrdfSource& source,
-                                     const ControllersPlan& plan, bool allows_unphysical) {
+                                     const ControllersPlan& plan, bool allows_unphysical,
+                                     Mover mover) {
   articula::UrdfOptions reading;
   reading.root = plan.root;
   reading.tip = plan.tip;
   reading.allow_unphysical = allows_unphysical;
   if (plan.gravity) reading.gravity = *plan.gravity;
-  return articula::read_urdf(source, reading);
+  const bool needs_masses = mover == Mover::simulation || plan.drives == Drives::efforts;
+  std::string reason;
+  try {
+    return articula::read_urdf(source, reading);
+  } catch (const articula::FileError& error) {
+    if (needs_masses) throw;
+    reason = error.what();
+  }
+  reading.kinematic = true;
+  try {
+    articula::UrdfContents contents = *articula::read_urdf(source, reading);
+    contents.notices.push_back("its masses are not used: " + reason);
+    return articula::UrdfDescription(std::move(contents));
+  } catch (const articula::FileError&) {  // the masses are not the only fault
+    throw Refusal(reason);
+  }
 }
 
 Project make_project(const ProjectOptions& options) {
@@ -346,7 +369,7 @@ Project make_project(const ProjectOptions& options) {
   const bool has_visuals = options.urdf.find("<visual") != std::string::npos;
   project.files = {
       {"robot.urdf", options.urdf},
-      {"controllers.yaml", contents_of(options.controllers.file)},
+      {"controllers.yaml", filled_text(options.controllers.source)},
       {"CMakeLists.txt", cmake_lists(type, project.name, options, has_visuals)},
       {"main.cpp", main_file(type, options, show_options(type, options, has_visuals))}};
   return project;

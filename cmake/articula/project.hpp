@@ -15,11 +15,16 @@
 
 namespace terminal {
 
-/// The robot of a URDF, with the chain and the gravity of its controllers' file.
+/// What moves a robot.
+enum class Mover : unsigned char { simulation, mock, drives };
+
+/// The robot of a URDF, with the chain and the gravity of its controllers' file. Mocks, and drives
+/// of positions and velocities, need no masses: without valid ones the robot is kinematic, and a
+/// notice has the reason.
 /// @throws articula::FileError as read_urdf
 [[nodiscard]] articula::UrdfDescription read_robot(const articula::UrdfSource& source,
                                                    const ControllersPlan& plan,
-                                                   bool allows_unphysical);
+                                                   bool allows_unphysical, Mover mover);
 
 /// What a project is made of.
 struct ProjectOptions {
@@ -28,6 +33,7 @@ struct ProjectOptions {
   ControllersPlan controllers{};
   std::vector<PlannedGroup> groups{};  ///< at least one
   bool allows_unphysical = false;
+  bool is_kinematic = false;  ///< the robot has no valid masses
   bool is_mock = false;
   PlannedDrives drives{};  ///< on a CAN bus; by default a simulation or the mock is in their place
 };

@@ -43,6 +43,7 @@ struct Run {
   std::string robot{}, controllers{};
   std::string command{};  ///< without a file of controllers: the quantity that is passed on
   std::vector<std::string> chosen{};
+  articula::ConfigValues values{};  ///< of placeholders in the controllers' file
   bool is_mock = false, shows = false, is_read_only = false, allows_unphysical = false;
   bool compiles = false;
   std::string bus{};  ///< the CAN interface of the robot's drives; empty: there is none
@@ -147,15 +148,19 @@ ControllersPlan pass_on(const std::string& quantity) {
 }
 
 void run(const Program& program, const Run& options) {
-  ControllersPlan controllers = options.controllers.empty()
-                                    ? pass_on(options.command)
-                                    : read_controllers(options.controllers, options.chosen);
+  ControllersPlan controllers =
+      options.controllers.empty()
+          ? pass_on(options.command)
+          : read_controllers({options.controllers, options.values}, options.chosen);
   if (options.rate > 0) controllers.period = 1 / options.rate;
   controllers.substeps =
       options.substeps > 0 ? options.substeps : default_substeps(controllers.period);
   const articula::UrdfSource source = robot_source(options.robot);
+  const Mover mover = options.is_mock       ? Mover::mock
+                      : options.bus.empty() ? Mover::simulation
+                                            : Mover::drives;
   const articula::UrdfDescription robot =
-      read_robot(source, controllers, options.allows_unphysical);
+      read_robot(source, controllers, options.allows_unphysical, mover);
 
   const std::vector<PlannedGroup> groups = joint_groups(robot, controllers);
   if (options.is_mock && controllers.drives == Drives::efforts) {
@@ -185,6 +190,7 @@ void run(const Program& program, const Run& options) {
                                .controllers = controllers,
                                .groups = groups,
                                .allows_unphysical = options.allows_unphysical,
+                               .is_kinematic = robot->kinematic,
                                .is_mock = options.is_mock,
                                .drives = drives}),
                  arguments_of(program, options));
@@ -267,6 +273,7 @@ void add_run_command(CLI::App& app, Program& program) {
   command->add_option("controllers", options->controllers, "YAML of ROS's controllers")->required();
   command->add_option("--controller", options->chosen, "one of the file to use, in place of all")
       ->allow_extra_args(false);
+  add_values_option(*command, options->values);
   CLI::Option* mock = command->add_flag(
       "--mock", options->is_mock, "joints follow every position at once, in place of a simulation");
   command

@@ -42,6 +42,15 @@ struct Q2dFile {
   [[nodiscard]] std::string name() const { return file.path().string(); }
 };
 
+/// The Q2D without masses.
+std::string massless_q2d() {
+  std::string text = articula::remote::urdf_text(articula::Q2d());
+  for (std::size_t begin = 0; (begin = text.find("<inertial>")) != std::string::npos;) {
+    text.erase(begin, text.find("</inertial>") + 11 - begin);
+  }
+  return text;
+}
+
 /// A program that runs a loop from files at a free port.
 class Running {
  public:
@@ -176,6 +185,68 @@ TEST_CASE("positions go to simulated drives, and to a mock") {
     }));
     CHECK(running.end().exit_code == 0);
   }
+}
+
+TEST_CASE("a mock needs no masses, a simulation does") {
+  const ScratchFile robot("massless.urdf"), controllers("placeholder.yaml");
+  write(robot.path(), massless_q2d());
+  write(controllers.path(),
+        "controller_manager:\n  ros__parameters:\n    update_rate: 1000\n"
+        "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
+        "arm:\n  ros__parameters:\n    joints: [$(var side)_active_joint, elbow_active_joint]\n"
+        "    command_interfaces: [position]\n");
+  std::vector<std::string> words{"--port",
+                                 "0",
+                                 "run",
+                                 robot.path().string(),
+                                 controllers.path().string(),
+                                 "--value",
+                                 "side=shoulder",
+                                 "--seconds",
+                                 "0.05"};
+  check_refused(run_articula(words), "the joint moves no link that has mass");
+  words.emplace_back("--mock");
+  words.insert(words.begin(), "--json");
+  const Result result = run_articula(words);
+  INFO(result.output + result.errors);
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.find("\"cycles\":50") != std::string::npos);
+  CHECK(result.errors.find("its masses are not used: ") != std::string::npos);
+  const Result joints = run_articula({"joints", robot.path().string()});
+  CHECK(joints.exit_code == 0);
+  CHECK(joints.errors.find("load_urdf refuses it: ") != std::string::npos);
+  // Without the value, and with what is none.
+  check_refused(run_articula({"run", robot.path().string(), controllers.path().string(), "--mock"}),
+                "side");
+  CHECK(run_articula({"run", robot.path().string(), controllers.path().string(), "--value", "side"})
+            .errors.find("'side' is not NAME=TEXT") != std::string::npos);
+}
+
+TEST_CASE("a new project without masses has drives of positions, and values in its YAML") {
+  const ScratchFile robot("massless.urdf"), controllers("drives.yaml");
+  write(robot.path(), massless_q2d());
+  write(controllers.path(),
+        "controller_manager:\n  ros__parameters:\n    update_rate: 1000\n"
+        "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
+        "arm:\n  ros__parameters:\n    joints: [$(var side)_active_joint, elbow_active_joint]\n"
+        "    command_interfaces: [position]\n"
+        "can_drives:\n  ros__parameters:\n    protocol: cia402\n"
+        "    $(var side)_active_joint: {node: 1, rated_effort: 10.0, position_scale: 10.0, "
+        "velocity_scale: 1.0}\n"
+        "    elbow_active_joint: {node: 2, rated_effort: 10.0, position_scale: 10.0, "
+        "velocity_scale: 1.0}\n");
+  const support::ScratchFolder folder("massless");
+  const Result result =
+      run_articula({"new", robot.path().string(), controllers.path().string(), "--can", "can0",
+                    "--value", "side=shoulder", "--output", (folder.path() / "arm").string()});
+  INFO(result.output + result.errors);
+  REQUIRE(result.exit_code == 0);
+  const auto text_of = [&](const char* name) {
+    std::ifstream stream(folder.path() / "arm" / name);
+    return std::string((std::istreambuf_iterator<char>(stream)), {});
+  };
+  CHECK(text_of("CMakeLists.txt").find(" KINEMATIC)") != std::string::npos);
+  CHECK(text_of("controllers.yaml").find("shoulder_active_joint: {node: 1") != std::string::npos);
 }
 
 TEST_CASE("names that a shell would expand are not completed") {

@@ -246,6 +246,14 @@ TEST_CASE("mistakes in ros2_control are reported") {
           Notices{effort + "<command_interface>: the attribute 'max'" + unknown});
     CHECK(pivot("<command_interface name=\"effort\"><max>5</max></command_interface>") ==
           Notices{effort + "<command_interface>: the element <max>" + unknown});
+    CHECK(pivot("<state_interface name=\"position\">" + param("initial", "5") +
+                "</state_interface>") ==
+          Notices{owner + "<state_interface name=\"position\">: the parameter 'initial'" + unknown +
+                  "; did you mean 'initial_value'?"});
+    CHECK(
+        notices("<ros2control name=\"c\" type=\"system\"/>") ==
+        Notices{"<robot>: the element <ros2control>" + unknown + "; did you mean 'ros2_control'?"});
+    CHECK(notices("<gazebo/><material name=\"grey\"/><plugin/>").empty());
     CHECK(pivot("<comand_interface name=\"effort\"/>") ==
           Notices{owner + "<joint>: the element <comand_interface>" + unknown +
                   "; did you mean 'command_interface'?"});
@@ -293,6 +301,11 @@ TEST_CASE("mistakes in ros2_control are reported") {
     const std::string taken =
         "<joint name=\"pivot\"><command_interface name=\"position\"/></joint>";
     CHECK(component(taken + taken) == Notices{owner + "it occurs twice"});
+    const std::string effort_command = "<command_interface name=\"effort\"/>";
+    CHECK(pivot(effort_command + effort_command) ==
+          Notices{effort + "it occurs twice; the narrower limits are used"});
+    CHECK(pivot("<state_interface name=\"effort\"/><state_interface name=\"effort\"/>") ==
+          Notices{owner + "<state_interface name=\"effort\">: it occurs twice"});
     CHECK(notices("<ros2_control name=\"c\" type=\"system\">" + taken +
                   "</ros2_control><ros2_control name=\"d\" type=\"system\">" + taken +
                   "</ros2_control>") ==

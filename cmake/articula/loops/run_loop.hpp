@@ -93,7 +93,7 @@ LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
       const PlannedController& planned = plan.controllers.controllers[at];
       articula::JointPidGains<n> gains{};
       if (traits_of(planned.kind).has_gains) {
-        gains = articula::load_pid_gains(robot, plan.controllers.file, planned.section,
+        gains = articula::load_pid_gains(robot, plan.controllers.source, planned.section,
                                          articula::GainsOf::some_joints)
                     .gains;
       }
@@ -108,7 +108,7 @@ LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
       plan.controllers.period);
   articula::Remote remote(
       loop, {.tolerances = articula::load_all_tolerances(
-                 robot, plan.controllers.file, sections_with_tolerances(plan.controllers)),
+                 robot, plan.controllers.source, sections_with_tolerances(plan.controllers)),
              .urdf = plan.urdf_text});
   articula::View view(remote, {.address = plan.address,
                                .port = plan.port,
@@ -135,14 +135,20 @@ LoopEnd run_with(const LoopPlan& plan, const R& robot, Hardware hardware) {
   return {report.cycles, report.overruns, std::string(articula::to_string(report.status))};
 }
 
-/// Runs a simulation or, of drives that close a loop of their own, a mock.
-template <Drives D, articula::Robot R>
-LoopEnd run_drives(const LoopPlan& plan, const R& robot) {
+/// Runs a simulation or, of drives that close a loop of their own, a mock, which needs no masses.
+template <Drives D, int N, int Bodies>
+LoopEnd run_drives(const LoopPlan& plan) {
   const double period = plan.controllers.period;
   if constexpr (D != Drives::efforts) {
-    using Mock = articula::MockHardware<R, typename Family<R, D>::Command>;
-    if (plan.is_mock) return run_with<D>(plan, robot, Mock(robot, {}, period));
+    if (plan.is_mock) {
+      using R = articula::KinematicModel<N, Bodies>;
+      using Mock = articula::MockHardware<R, typename Family<R, D>::Command>;
+      const R robot = articula::load_kinematic_urdf<N, Bodies>(plan.robot);
+      return run_with<D>(plan, robot, Mock(robot, {}, period));
+    }
   }
+  using R = articula::Model<N, Bodies>;
+  const R robot = articula::load_urdf<N, Bodies>(plan.robot);
   return run_with<D>(
       plan, robot,
       articula::Simulator<R>(robot, {.period = period, .substeps = plan.controllers.substeps}));
@@ -150,16 +156,15 @@ LoopEnd run_drives(const LoopPlan& plan, const R& robot) {
 
 template <int N, int Bodies>
 LoopEnd run_loop(const LoopPlan& plan) {
-  const auto robot = articula::load_urdf<N, Bodies>(plan.robot);
   switch (plan.controllers.drives) {
     case Drives::efforts:
-      return run_drives<Drives::efforts>(plan, robot);
+      return run_drives<Drives::efforts, N, Bodies>(plan);
     case Drives::velocities:
-      return run_drives<Drives::velocities>(plan, robot);
+      return run_drives<Drives::velocities, N, Bodies>(plan);
     case Drives::positions:
       break;
   }
-  return run_drives<Drives::positions>(plan, robot);
+  return run_drives<Drives::positions, N, Bodies>(plan);
 }
 
 }  // namespace terminal

@@ -10,6 +10,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,11 +27,21 @@ class ControlCheck {
     for_each_child(robot, "joint", [this](const XmlElement& joint) {
       joints_.try_emplace(attribute(joint, "name"), &joint);
     });
-    for_each_child(robot, "ros2_control", [this](const XmlElement& e) { check_component(e); });
+    for_each_child(robot, nullptr, [this](const XmlElement& e) {
+      if (e.Value() == std::string_view("ros2_control")) return check_component(e);
+      check_part_name(e.Value());
+    });
   }
 
  private:
   void add(const std::string& text) { notices_.add(owner_, text); }
+
+  /// Reports a misspelt <ros2_control>. Other programs have other elements of their own.
+  void check_part_name(std::string_view name) {
+    if (!is_near(name, "ros2_control")) return;
+    notices_.add("<robot>: the element <" + one_line(std::string(name)) +
+                 "> is unknown and is ignored; did you mean 'ros2_control'?");
+  }
 
   void check_component(const XmlElement& component) {
     const std::string name = one_line(attribute(component, "name"));
@@ -70,10 +81,15 @@ class ControlCheck {
     check_params(part, "<" + kind + ">");
     check_enable(part, "");
     for (const std::string interface : {"command_interface", "state_interface"}) {
+      std::set<std::string> names;
       for_each_child(part, interface.c_str(), [&](const XmlElement& element) {
         const std::string name = one_line(attribute(element, "name"));
         const std::string where = "<" + interface + " name=\"" + name + "\">";
         if (name.empty()) add("a <" + interface + "> has no name");
+        if (!name.empty() && !names.insert(name).second) {
+          add(where + ": it occurs twice" +
+              (interface == "command_interface" ? "; the narrower limits are used" : ""));
+        }
         check_words(element, where + ": ");
         check_params(element, where);
         check_enable(element, where + ": ");
@@ -116,9 +132,11 @@ class ControlCheck {
     const std::string_view bound = has("max") || has("upper")   ? "max"
                                    : has("min") || has("lower") ? "min"
                                                                 : "";
-    if (!any && bound.empty() && !has("limit")) return;
+    const bool is_initial = small.starts_with("initial");
+    if (!any && bound.empty() && !has("limit") && !is_initial) return;
     add(where + ": the parameter '" + one_line(word) + "' is unknown and is ignored" +
-        (!any            ? ""
+        (is_initial      ? "; did you mean 'initial_value'?"
+         : !any          ? ""
          : bound.empty() ? did_you_mean(word, known)
                          : "; did you mean '" + std::string(bound) + "'?"));
   }
