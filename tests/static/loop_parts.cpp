@@ -9,6 +9,7 @@
 #include <articula/hardware/mock/mock_hardware.hpp>
 #include <articula/loop/exchange/gains_exchange.hpp>
 #include <articula/loop/loop.hpp>
+#include <articula/loop/supervision/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <array>
@@ -138,6 +139,9 @@ int main() {
 #endif
 #ifdef ROBOT_AS_HARDWARE
   Loop<Q2d, PidPlusGravity> mistake;
+#endif
+#ifdef SUPERVISED_ROBOT
+  SupervisedLoop<Q2d, PidPlusGravity> mistake;
 #endif
 #ifdef HARDWARE_WITHOUT_ROBOT
   Loop<int, PidPlusGravity> mistake;

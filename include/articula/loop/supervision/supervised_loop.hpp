@@ -12,8 +12,8 @@ namespace articula {
 /// @tparam ControllerTemplate  makes a Controller of the hardware's robot
 template <class HardwareType, template <class> class ControllerTemplate>
 class SupervisedLoop
-    : public SupervisedControlLoop<HardwareType,
-                                   ControllerTemplate<typename HardwareType::RobotType>> {
+    : public SupervisedControlLoop<
+          HardwareType, ControllerTemplate<typename detail::RobotOf<HardwareType>::Type>> {
  public:
   using SupervisedLoop::SupervisedControlLoop::SupervisedControlLoop;
 };

@@ -17,6 +17,7 @@ enum class SafeBehaviour : unsigned char {
   damp,  ///< Carried against gravity, the motion decays; see damping_effort. A controller that keeps
          ///< limits, as Limited does, holds instead.
   zero_effort,  ///< No effort, and zero velocity or the last position from drives that take these.
+                ///< A moving arm coasts, also beyond the limits of a Limited.
 };
 
 /// What a supervised loop tolerates, and what it does when that is exceeded.
