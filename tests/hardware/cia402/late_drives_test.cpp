@@ -131,18 +131,23 @@ TEST_CASE("a drive that answers an access late is stopped by the first acknowled
 TEST_CASE("drives behind a queue as long as any are not activated") {
   const auto sync = GENERATE(SyncProducer::host, SyncProducer::another_node);
   const int lag = GENERATE(3, 20, 40, 63, 64, 70, 99, 100, 101, 150, 277);  // [cycles]
-  CAPTURE(sync == SyncProducer::host, lag);
+  const bool operational = GENERATE(false, true);  // they are, since a host that has died
+  CAPTURE(sync == SyncProducer::host, lag, operational);
   const auto check = [&]<SyncProducer Sync> {
     using Drives = Cia402::Drives;
     const auto bus = std::make_shared<support::FakeCanBus<Drives>>(Drives(Cia402::list));
     using Codec = Cia402Codec<Q2d, EffortCommand<2>, Sync>;
-    bus->feedback_delay = bus->answer_delay = std::chrono::milliseconds(lag) + 500us;
     if (Sync == SyncProducer::another_node) {
       bus->sync = canopen::encode_sync();
       bus->sync_period = bus->next_sync = 1ms;
     }
-    CanHardware<Q2d, Codec, support::FakeCanTransport<Drives>> arm(
-        Codec(Cia402::list), support::FakeCanTransport<Drives>(bus));
+    using Arm = CanHardware<Q2d, Codec, support::FakeCanTransport<Drives>>;
+    const auto make_arm = [&] {
+      return Arm(Codec(Cia402::list), support::FakeCanTransport<Drives>(bus));
+    };
+    Arm dead = make_arm(), arm = make_arm();
+    if (operational) REQUIRE(dead.activate() == Status::ok);
+    bus->feedback_delay = bus->answer_delay = std::chrono::milliseconds(lag) + 500us;
     CHECK(arm.activate() == Status::hardware_fault);
     CHECK(arm.fault().joint == 0);
     CHECK_FALSE(bus->drives.enabled(0));

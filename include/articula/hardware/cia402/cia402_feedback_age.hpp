@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 namespace articula {
@@ -57,10 +58,10 @@ class Cia402FeedbackAge {
   }
   /// Counts any frame of a stream; parameters as above.
   /// @param syncs  of the bus; receives the note that an answer is missing
-  /// @return false if there was no SYNC that it could answer
+  /// @return false if there was no SYNC that it could answer, or the node is not started
   [[nodiscard]] bool count(std::size_t stream, std::size_t streams, SyncHistory& syncs,
                            DriveReport& report) noexcept {
-    if (!syncs.has_begun()) return false;
+    if (!syncs.has_begun() || next_[stream] == never) return false;
     // An answer to a SYNC before those of the record is older than its age says.
     const bool is_recorded = syncs.records(next_[stream]);
     cycle_[stream] = syncs.first_from(next_[stream]);
@@ -75,13 +76,19 @@ class Cia402FeedbackAge {
     return true;
   }
 
-  /// Notes that the node is told to leave the operational state. It sends no feedback then.
-  void end_feedback() noexcept { cycle_ = {}; }
+  /// Notes that the node is told to leave the operational state. What still arrives answers earlier
+  /// SYNCs, so nothing counts until begin_feedback().
+  void end_feedback() noexcept {
+    cycle_ = {};
+    next_.fill(never);
+    least_age_ = unknown_age;
+    known_lag_ = 0;
+  }
   /// Notes that the node is told to start now. Without feedback since end_feedback(), it was not
   /// operational, so that it does not answer the SYNCs until now.
   void begin_feedback(const SyncHistory& syncs) noexcept {
     if (std::ranges::any_of(cycle_, [](std::uint64_t cycle) { return cycle > 0; })) return;
-    for (std::uint64_t& next : next_) next = std::max(next, syncs.cycle() + 1);
+    next_.fill(syncs.cycle() + 1);
   }
 
   /// The request for a mark. It is due if more answers are missing than at the last mark. It also
@@ -158,8 +165,10 @@ class Cia402FeedbackAge {
   }
 
   static constexpr std::uint64_t unknown_age = 1'000'000;  ///< longer than any answer takes
+  static constexpr std::uint64_t never = std::numeric_limits<std::uint64_t>::max();
 
-  Cycles next_{};   ///< cycle whose SYNC the stream's next frame answers, or the first later one
+  /// Cycle whose SYNC the stream's next frame answers, or the first later one; or never.
+  Cycles next_{};
   Cycles cycle_{};  ///< of the stream's last frame; 0: there was none
   bool awaits_mark_ = false;
   std::uint8_t mark_number_ = 0;
