@@ -91,7 +91,7 @@ if(TARGET articula::sweep AND ARTICULA_SWEPT_JOINTS)
   list(JOIN ARTICULA_SWEPT_JOINTS "," articula_swept_joints)
   target_compile_definitions(articula_sweep_command
                              PRIVATE "ARTICULA_SWEPT_JOINTS=${articula_swept_joints}")
-  foreach(part hdf5 mpi)
+  foreach(part hdf5 mpi search)
     if(TARGET articula::sweep_${part})
       string(TOUPPER ${part} articula_part)
       target_compile_definitions(articula_sweep_command PRIVATE ARTICULA_PROGRAM_HAS_${articula_part})

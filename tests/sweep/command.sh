@@ -66,6 +66,27 @@ refused() {
   [ $status -eq 1 ] && [ "$(wc -l <"$folder/log")" -eq 1 ] && grep -q -- "$2" "$folder/log" ||
     fail "$1: expected '$2', got status $status: $(cat "$folder/log")"
 }
+# A search finds better gains than those of the file, names them, and sweeps with them.
+cat >>"$folder/other.yaml" <<'YAML'
+search:
+  minimise: shoulder_active_joint.tracking_rms
+  evaluations: 20
+  over: [{quantity: proportional, low: 0.2, high: 5, spacing: logarithmic}]
+YAML
+sed -i 's/runs: 300/runs: 24/' "$folder/other.yaml"
+"$articula" --json sweep "$folder/other.yaml" --output "$folder/search" >"$folder/found"
+if ! grep -q 'without NLopt' "$folder/found"; then
+  grep -q '"evaluations":20' "$folder/found" || fail "no search: $(cat "$folder/found")"
+  gain=$(sed 's/.*"proportional":\([0-9.]*\).*/\1/' "$folder/found")
+  cost=$(sed 's/.*"cost":\([0-9.e-]*\).*/\1/' "$folder/found")
+  head -n 1 "$folder/search/rows.csv" | grep -q proportional || fail "the sweep lacks what was found"
+  sed "s/over: .*/over: [{quantity: proportional, low: 1, high: 1}]/" "$folder/other.yaml" >"$folder/one.yaml"
+  "$articula" --json sweep "$folder/one.yaml" --output "$folder/one" >"$folder/known"
+  known=$(sed 's/.*"cost":\([0-9.e-]*\).*/\1/' "$folder/known")
+  awk "BEGIN { exit !($cost < $known && $gain > 0.2 && $gain < 5) }" ||
+    fail "the gains of the file have $known, those that were found ($gain) $cost"
+fi
+
 refused 's/robot: .*//' "bad.yaml:.*'robot' is missing"
 refused 's/robot: .*/robot: no.urdf/' 'no.urdf'
 refused 's/elbow_passive_link, low/elbow_pasive_link, low/' "bad.yaml:8:.*expected.*'elbow_passive_link'"

@@ -42,15 +42,6 @@ struct SweepCall {
   bool starts_again = false;
 };
 
-template <int... Joints>
-AnyExperiment experiment_of(const SweepPlan& plan, std::integer_sequence<int, Joints...>) {
-  const int joints = articula::model_size((*plan.robot)->joints).joints;
-  AnyExperiment experiment;
-  static_cast<void>(
-      ((joints == Joints && (experiment = make_experiment<Joints>(plan), true)) || ...));
-  return experiment;
-}
-
 /// Refuses metrics and columns that there are not, with their place in the file.
 void check_names(const SweepPlan& plan, const AnyExperiment& experiment) {
   std::vector<std::string> metrics, columns;
@@ -66,6 +57,7 @@ void check_names(const SweepPlan& plan, const AnyExperiment& experiment) {
   };
   for (const auto& each : plan.options.specifications) check(each.metric, metrics, "metric");
   check(plan.options.worst_metric, metrics, "metric");
+  check(plan.search.metric, metrics, "metric");
   for (const SweepPlot& plot : plan.plots) {
     for (const std::string& column : plot.columns) check(column, columns, "column");
   }
@@ -104,7 +96,7 @@ std::string cell(double x) { return std::isfinite(x) ? shown(x) : "-"; }
 
 /// The result as a table and as JSON; both end with the worst runs.
 void report(const Program& program, const SweepPlan& plan, const AnyExperiment& experiment,
-            const SweepResult& result, const std::string& drawn) {
+            const SweepResult& result, const std::string& drawn, const SearchedPlan& searched) {
   Json metrics = Json::array();
   Row head{"metric", "unit", "mean"};
   for (const double share : plan.quantiles) head.push_back(shown(100 * share) + " %");
@@ -162,27 +154,36 @@ void report(const Program& program, const SweepPlan& plan, const AnyExperiment& 
   }
   text += "\n" + table(rows) + "\n" + table(worst_rows) + "\nrows and plots: " + plan.output;
   if (!drawn.empty()) text += "\n" + drawn;
-  program.print({{"runs", result.runs()},
-                 {"stable", count(FutureEnd::stable)},
-                 {"unstable", count(FutureEnd::unstable)},
-                 {"non_finite", count(FutureEnd::non_finite)},
-                 {"within", result.runs_within()},
-                 {"metrics", metrics},
-                 {"worst", worst},
-                 {"output", plan.output}},
-                text);
+  Json all{{"runs", result.runs()},
+           {"stable", count(FutureEnd::stable)},
+           {"unstable", count(FutureEnd::unstable)},
+           {"non_finite", count(FutureEnd::non_finite)},
+           {"within", result.runs_within()},
+           {"metrics", metrics},
+           {"worst", worst},
+           {"output", plan.output}};
+  if (!searched.line.empty()) {
+    all["search"] = searched.json;
+    text = searched.line + "\n" + text;
+  }
+  program.print(all, text);
 }
 
 /// The sweep in this process and those of mpirun.
-void run_sweep(const Program& program, const SweepCall& call, bool is_first,
+void run_sweep(const Program& program, const SweepCall& call, bool is_distributed, bool is_first,
                const auto& continues) {
   SweepPlan plan = read_sweep(call.file);
   if (!call.output.empty()) plan.output = call.output;
   plan.options.threads = call.threads;
   plan.options.chunk = static_cast<std::uint64_t>(call.chunk);
-  const AnyExperiment experiment =
-      experiment_of(plan, std::integer_sequence<int, ARTICULA_SWEPT_JOINTS>{});
-  check_names(plan, experiment);
+  check_names(plan, experiment_of(plan));
+  SearchedPlan searched{.plan = plan};
+  if (!plan.search.metric.empty()) {
+    if (is_distributed) throw Refusal("a search runs in one process: start it without mpirun");
+    searched = search_sweep(std::move(plan));
+    plan = searched.plan;
+  }
+  const AnyExperiment experiment = experiment_of(plan);
   if (!is_first) {
     SweepResult none(experiment.metrics(), plan.options);
     return continues(experiment, plan.options, none, articula::SweepHooks{});
@@ -215,7 +216,7 @@ void run_sweep(const Program& program, const SweepCall& call, bool is_first,
   articula::write_hdf5(folder / "rows.h5", folder / "rows.csv", experiment.parameters(),
                        experiment.metrics());
 #endif
-  report(program, plan, experiment, result, draw_sweep(plan, experiment));
+  report(program, plan, experiment, result, draw_sweep(plan, experiment), searched);
 }
 
 void sweep(const Program& program, const SweepCall& call) {
@@ -223,7 +224,7 @@ void sweep(const Program& program, const SweepCall& call) {
   const articula::MpiSession mpi;
   if (mpi.is_active()) {
     try {
-      return run_sweep(program, call, mpi.rank() == 0,
+      return run_sweep(program, call, true, mpi.rank() == 0,
                        [](auto&&... all) { articula::continue_sweep_with_mpi(all...); });
     } catch (const std::exception& error) {  // the other ranks would wait forever
       if (mpi.rank() == 0) std::fprintf(stderr, "articula: %s\n", error.what());
@@ -231,7 +232,7 @@ void sweep(const Program& program, const SweepCall& call) {
     }
   }
 #endif
-  run_sweep(program, call, true, [](auto&&... all) { articula::continue_sweep(all...); });
+  run_sweep(program, call, false, true, [](auto&&... all) { articula::continue_sweep(all...); });
 }
 
 }  // namespace

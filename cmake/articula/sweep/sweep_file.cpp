@@ -43,8 +43,9 @@ class SweepReader {
     read_robot(map);
     if (const auto* node = map.require("experiment")) read_experiment(*node);
     if (const auto* node = map.require("vary")) {
-      for (const ConfigNode& item : node->list()) read_variation(item);
+      for (const ConfigNode& item : node->list()) plan_.vary.push_back(variation(item));
     }
+    if (auto search = map.find_map("search")) read_search(*search);
     if (const auto* node = map.find("sampling")) read_sampling(*node);
     if (const auto* node = map.find("specifications")) {
       if (!node->is_map()) node->refuse("a map of metrics and their highest values");
@@ -182,7 +183,27 @@ class SweepReader {
     }
   }
 
-  void read_variation(const ConfigNode& node) {
+  void read_search(ConfigMap& map) {
+    SweepSearch& search = plan_.search;
+    if (const auto* metric = map.require("minimise")) {
+      search.metric = metric->name();
+      plan_.names[metric->text] = metric->place;
+    }
+    if (const auto* quantile = map.find("quantile")) {
+      search.quantile = quantile->number();
+      if (!(search.quantile >= 0 && search.quantile <= 1)) quantile->refuse("a number from 0 to 1");
+    }
+    if (const auto* over = map.require("over")) {
+      if (over->list().empty()) over->refuse("at least one quantity to search");
+      for (const ConfigNode& item : over->items) search.over.push_back(variation(item));
+    }
+    if (const auto* evaluations = map.find("evaluations")) {
+      search.evaluations = evaluations->integer(1, 1'000'000);
+    }
+    map.finish();
+  }
+
+  [[nodiscard]] Variation variation(const ConfigNode& node) {
     ConfigMap map(node, plan_.notes);
     Variation variation;
     if (const auto* quantity = map.require("quantity")) {
@@ -217,11 +238,13 @@ class SweepReader {
       throw articula::FileError(node.place, error.what());
     }
     const std::string name = variation.parameter().name;
-    for (const Variation& other : plan_.vary) {
-      if (other.parameter().name == name) node.refuse("'" + name + "' varies twice", "it once");
+    for (const auto* others : {&plan_.vary, &plan_.search.over}) {
+      for (const Variation& other : *others) {
+        if (other.parameter().name == name) node.refuse("'" + name + "' varies twice", "it once");
+      }
     }
     plan_.names.emplace(name, node.place);
-    plan_.vary.push_back(variation);
+    return variation;
   }
   static articula::Name named(const ConfigNode& node, const std::vector<std::string>& names,
                               std::string_view what) {

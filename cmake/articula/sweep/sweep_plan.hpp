@@ -3,6 +3,7 @@
 #pragma once
 
 #include "../controllers_file.hpp"
+#include "../program.hpp"
 
 #include <articula/config/yaml/source.hpp>
 #include <articula/reference/joint_signals.hpp>
@@ -30,6 +31,14 @@ struct SweepPlot {
   std::vector<std::string> columns{};  ///< one, or two: abscissa and ordinate
 };
 
+/// A search of what makes a metric's quantile smallest, before the sweep.
+struct SweepSearch {
+  std::string metric{};  ///< to minimise; empty: nothing is searched
+  double quantile = 0.95;
+  std::vector<articula::Variation> over{};
+  int evaluations = 100;
+};
+
 /// What a sweep from a file is made of.
 struct SweepPlan {
   std::optional<articula::UrdfDescription> robot{};  ///< always there after read_sweep
@@ -39,6 +48,7 @@ struct SweepPlan {
   std::map<std::string, double> start{}, target{};  ///< by joint [rad or m]
   std::vector<articula::JointSignal> disturbances{};
   std::vector<articula::Variation> vary{};
+  SweepSearch search{};
   articula::SweepOptions options{};
   std::vector<double> quantiles{0.05, 0.5, 0.95};
   std::vector<SweepPlot> plots{};
@@ -75,6 +85,21 @@ AnyExperiment make_experiment(const SweepPlan& plan);
 
 /// The N for which there is make_experiment.
 inline constexpr auto swept_joints = std::to_array<int>({ARTICULA_SWEPT_JOINTS});
+
+/// The experiment of the plan's robot.
+/// @throws as make_experiment
+[[nodiscard]] AnyExperiment experiment_of(const SweepPlan& plan);
+
+/// Searches what the plan wants. Each value of `over` that is tried makes a sweep over `vary`. If more
+/// runs than the quantile leaves out are not stable, its cost is infinite.
+/// @return the plan of a sweep with what was found, and the search itself as JSON and as a line
+/// @throws Refusal without NLopt, or if nothing that was tried is stable
+struct SearchedPlan {
+  SweepPlan plan{};
+  Json json{};
+  std::string line{};
+};
+[[nodiscard]] SearchedPlan search_sweep(SweepPlan plan);
 
 /// Writes gnuplot scripts beside the rows, and runs gnuplot where it is installed.
 /// @param experiment  for the units of the axes
