@@ -157,6 +157,60 @@ TEST_CASE("drives behind a queue as long as any are not activated") {
   check.operator()<SyncProducer::another_node>();
 }
 
+TEST_CASE("a queue that gets shorter during the set-up does not make old feedback new") {
+  const int end = GENERATE(range(3600, 4000, 25));  // of the long queue [ms]
+  const int rest = GENERATE(4, 19);                 // the lag after that [cycles]
+  CAPTURE(end, rest);
+  Bench<Cia402> bench(0us);
+  auto& bus = *bench.bus;
+  auto& arm = bench.loop.hardware();
+  bus.on_feedback = [](CanFrame&) { return true; };
+  bus.feedback_delay = 80'500us;  // of answers to accesses as well, in one queue
+  bus.on_command = [&](CanFrame&) {
+    if (bus.time >= std::chrono::milliseconds(end)) {
+      bus.feedback_delay = std::chrono::milliseconds(rest) + 500us;
+    }
+    return true;
+  };
+  int good = 0;
+  if (arm.activate() == Status::ok) {
+    JointState<2> state;
+    for (int k = 0; k < 100; ++k) {
+      bus.pass(1ms);
+      good += arm.read(state) == Status::ok ? 1 : 0;
+      static_cast<void>(arm.write({{1, -1}}));
+    }
+  }
+  CHECK(good == 0);
+}
+
+TEST_CASE("a drive that does not get the command to leave operation gets it again") {
+  const int lag = GENERATE(0, 6, 20);  // [cycles]
+  CAPTURE(lag);
+  using Codec = Cia402Codec<Q2d, EffortCommand<2>, SyncProducer::another_node>;
+  using Drives = Cia402::Drives;
+  using Arm = CanHardware<Q2d, Codec, support::FakeCanTransport<Drives>>;
+  const auto bus = std::make_shared<support::FakeCanBus<Drives>>(Drives(Cia402::list));
+  bus->sync = canopen::encode_sync();
+  bus->sync_period = bus->next_sync = 1ms;
+  const auto make_arm = [&] {
+    return Arm(Codec(Cia402::list), support::FakeCanTransport<Drives>(bus));
+  };
+  Arm dead = make_arm(), arm = make_arm();
+  REQUIRE(dead.activate() == Status::ok);
+  bus->pass(500us);
+  bus->feedback_delay = bus->answer_delay = std::chrono::milliseconds(lag);
+  int to_lose = 2;
+  bus->on_command = [&](CanFrame& frame) {
+    const auto command = canopen::NmtCommand::enter_pre_operational;
+    const bool leaves =
+        frame == canopen::encode(command, 5) || frame == canopen::encode(command, 6);
+    return !leaves || to_lose-- <= 0;
+  };
+  CHECK(arm.activate() == (lag == 0 ? Status::ok : Status::hardware_fault));
+  CHECK(to_lose < 0);
+}
+
 TEMPLATE_TEST_CASE("drives that answer too late for reading are not activated", "", Quanser,
                    Cia402) {
   Bench<TestType> bench(1700us);  // the feedback is three cycles old

@@ -56,7 +56,11 @@ struct Cia402Channels {
       Cia402FeedbackAge& age = channel.feedback.age();
       const auto& command = channel.set_up.command();
       if (command == canopen::NmtCommand::enter_pre_operational) age.end_feedback();
-      if (command == canopen::NmtCommand::start) age.begin_feedback(syncs);
+      if (command == canopen::NmtCommand::start && age.is_still_operational()) {
+        channel.set_up.restart();  // the command to leave operation was lost
+      } else if (command == canopen::NmtCommand::start) {
+        age.begin_feedback(syncs);
+      }
       // Each request is a mark as well.
       if (batch.size() != before) age.place_mark(channel.set_up.object(), syncs);
       all_enabled = all_enabled && progress == CanSetUp::done;

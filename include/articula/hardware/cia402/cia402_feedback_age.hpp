@@ -61,17 +61,18 @@ class Cia402FeedbackAge {
   /// @return false if there was no SYNC that it could answer, or the node is not started
   [[nodiscard]] bool count(std::size_t stream, std::size_t streams, SyncHistory& syncs,
                            DriveReport& report) noexcept {
+    is_still_operational_ = is_still_operational_ || (next_[stream] == never && has_answered_);
     if (!syncs.has_begun() || next_[stream] == never) return false;
-    // An answer to a SYNC before those of the record is older than its age says.
-    const bool is_recorded = syncs.records(next_[stream]);
-    cycle_[stream] = syncs.first_from(next_[stream]);
+    // Before the record, each cycle counts as one with SYNC: a frame may seem older than it is.
+    cycle_[stream] =
+        syncs.has_forgotten_from(next_[stream]) ? next_[stream] : syncs.first_from(next_[stream]);
     next_[stream] = std::max(next_[stream], cycle_[stream] + 1);
     skip_lost(stream, streams);
     if (lag(streams, syncs) > 0) syncs.note_missing();
     const std::uint64_t oldest = least(cycle_, streams);
     if (oldest > 0) {
       report.age = static_cast<std::uint32_t>(syncs.cycle() - oldest);
-      if (is_recorded) least_age_ = std::min(least_age_, std::uint64_t{report.age});
+      least_age_ = std::min(least_age_, std::uint64_t{report.age});
     }
     return true;
   }
@@ -83,7 +84,11 @@ class Cia402FeedbackAge {
     next_.fill(never);
     least_age_ = unknown_age;
     known_lag_ = 0;
+    has_answered_ = is_still_operational_ = false;
   }
+  /// Whether the node has sent feedback after the answer to a request that came after the command to
+  /// leave the operational state. So it has not got that command, or not yet.
+  [[nodiscard]] bool is_still_operational() const noexcept { return is_still_operational_; }
   /// Notes that the node is told to start now. Without feedback since end_feedback(), it was not
   /// operational, so that it does not answer the SYNCs until now.
   void begin_feedback(const SyncHistory& syncs) noexcept {
@@ -134,6 +139,7 @@ class Cia402FeedbackAge {
                    const SyncHistory& syncs, SyncProducer sync) noexcept {
     if (!awaits_mark_ || object != mark_) return;
     awaits_mark_ = false;
+    has_answered_ = true;
     const std::uint64_t cycles = syncs.cycle() - mark_cycle_;
     fastest_answer_ = std::min(fastest_answer_, cycles);
     const std::uint64_t unsure = least_age_ + 1 + (sync == SyncProducer::host ? 0 : 1);
@@ -171,6 +177,8 @@ class Cia402FeedbackAge {
   Cycles next_{};
   Cycles cycle_{};  ///< of the stream's last frame; 0: there was none
   bool awaits_mark_ = false;
+  bool has_answered_ = false;  ///< a mark, since the end of feedback
+  bool is_still_operational_ = false;
   std::uint8_t mark_number_ = 0;
   canopen::ObjectAddress mark_{};
   std::uint64_t fastest_answer_ = 100;     ///< to a request [cycles]; at first the slowest expected

@@ -14,6 +14,8 @@ class SyncHistory {
  public:
   /// Begins a cycle; the first one is number 1.
   constexpr void begin_cycle(bool with_sync) noexcept {
+    constexpr std::uint64_t oldest = std::uint64_t{1} << 63;
+    if (cycle_ > 63 && (gaps() & oldest) == 0) last_forgotten_ = cycle_ - 63;
     ++cycle_;
     if (!with_sync) cancel_sync();
   }
@@ -27,9 +29,9 @@ class SyncHistory {
   [[nodiscard]] constexpr std::uint64_t cycle() const noexcept { return cycle_; }
   /// Whether this cycle began with SYNC.
   [[nodiscard]] constexpr bool is_new() const noexcept { return last_gap_ != cycle_; }
-  /// Whether a cycle, and so each one after it, is in the record.
-  [[nodiscard]] constexpr bool records(std::uint64_t cycle) const noexcept {
-    return cycle + 64 > cycle_;
+  /// Whether a cycle from `first` on began with SYNC that is not in the record any more.
+  [[nodiscard]] constexpr bool has_forgotten_from(std::uint64_t first) const noexcept {
+    return first <= last_forgotten_;
   }
   /// Whether any of the last cycles began with SYNC.
   [[nodiscard]] constexpr bool has_begun() const noexcept { return from(0) != 0; }
@@ -65,8 +67,9 @@ class SyncHistory {
   }
 
   std::uint64_t cycle_ = 0;
-  std::uint64_t last_gap_ = 0;  ///< the last cycle without SYNC
-  std::uint64_t gaps_ = 0;      ///< a bit for each cycle without SYNC; bit 0 is last_gap_
+  std::uint64_t last_gap_ = 0;        ///< the last cycle without SYNC
+  std::uint64_t last_forgotten_ = 0;  ///< the last cycle with SYNC before the record; 0: none
+  std::uint64_t gaps_ = 0;            ///< a bit for each cycle without SYNC; bit 0 is last_gap_
   bool missing_ = false;
 };
 
