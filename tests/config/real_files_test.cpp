@@ -72,7 +72,8 @@ TEST_CASE("the driver of Universal Robots with and without a prefix") {
 }
 
 TEST_CASE("a placeholder without a value is named, and how to give it") {
-  const std::string how = "ConfigSource(file, {{\"tf_prefix\", \"...\"}})";
+  const std::string how =
+      "ConfigSource(file, {{\"tf_prefix\", \"...\"}}), or articula run --value tf_prefix=...";
   CHECK(complaint_of([] { return load_controller(ur, trajectory); }) ==
         ur +
             ":33:14: joint_trajectory_controller.ros__parameters.joints[0]: the placeholder "
@@ -275,6 +276,15 @@ TEST_CASE("the parts of a section that a file repeats are one") {
   const auto loaded =
       load_pid_gains(Q2d(), yaml(elbow + rate + gains), "arm", GainsOf::some_joints);
   CHECK(loaded.gains[1].proportional == 2);
+  // ROS 2 writes gains.a.p and gains.b.p in any order; and some parts are empty.
+  const std::string more =
+      "/**:\n  arm:\n    ros__parameters:\n      gains: {shoulder_active_joint: {p: 3}}\n"
+      "      joints: [elbow_active_joint, shoulder_active_joint]\n";
+  const std::string empty = "/**:\n  arm:\n    ros__parameters:\n";
+  CHECK(load_pid_gains(Q2d(), yaml(empty + gains + empty + more), "arm").gains[0].proportional ==
+        3);
+  CHECK(load_controller(yaml("b:\n  ros__parameters:\nb:\n  ros__parameters:\n" + arm)).name ==
+        "arm");
   // No value counts twice.
   CHECK_THAT(complaint_of([&] { return load_controller(yaml(elbow + rate + elbow), "arm"); }),
              Contains("test:12:7") && Contains("the key 'joints' is also in line 4"));

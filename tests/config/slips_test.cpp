@@ -373,7 +373,8 @@ TEST_CASE("placeholders without a value are named") {
     CHECK_THAT(p(value), Contains("test:3:6: shoulder_active_joint.p: the placeholder '") &&
                              Contains(unfilled + "a number"));
   }
-  const std::string its_value = "its value: ConfigSource(file, {{\"kp\", \"...\"}})";
+  const std::string its_value =
+      "its value: ConfigSource(file, {{\"kp\", \"...\"}}), or articula run --value kp=...";
   for (const std::string value : {"{{ kp }}", "{{kp}}"}) {
     CHECK(p(value) ==
           "test:3:7: shoulder_active_joint.p: the placeholder '" + value + unfilled + its_value);
@@ -391,9 +392,9 @@ TEST_CASE("placeholders without a value are named") {
   CHECK_THAT(of_gains("{% for j in joints %}\n{{ j }}: {p: 1}\n{% endfor %}\n"),
              Contains("test:1:2: it is not YAML") && Contains("'{% for j in joints %}' in line 1"));
   // YAML passes over lines that begin with % and hold no %YAML.
-  CHECK(of_gains(joints + "%gains%\n") ==
-        "test:2:1: the placeholder '%gains%" + unfilled +
-            "its value: ConfigSource(file, {{\"gains\", \"...\"}})");
+  CHECK(of_gains(joints + "%gains%\n") == "test:2:1: the placeholder '%gains%" + unfilled +
+                                              "its value: ConfigSource(file, {{\"gains\", "
+                                              "\"...\"}}), or articula run --value gains=...");
   CHECK_THAT(of_gains("% gains of the arm\n" + shoulder),
              Contains("test:1:1: a % at the beginning of the line"));
   CHECK(of_gains("%YAML 1.2\n---\n" + shoulder + "elbow_active_joint: {p: 1}\n") == "none");

@@ -58,12 +58,15 @@ function finish() {
 /^<!-- given$/ { given = 1; next }
 /^-->$/ && given { given = 0; next }
 given { take($0); next }
-/^ *```c\+\+/ || /^ +```cpp/ {
-  print file ":" FNR ": write ```cpp at the beginning of the line, so that the block is compiled" > "/dev/stderr"
-  failed = 1
+/^ *```/ {
+  fence = !fence
+  plain = fence && /^ *``` *$/
+  if (fence && (/^ *``` *([cC]\+\+|cxx|cc|hpp)/ || /^ +```cpp/ || /^```cpp +$/)) {
+    print file ":" FNR ": write ```cpp alone on the line, so that the block is compiled" > "/dev/stderr"
+    failed = 1
+  }
 }
-/^ *```/ { plain = !plain && !block && /^ *```$/ }
-plain && /; *$/ {
+plain && /; *(\/\/.*)?$/ {
   print file ":" FNR ": C++ in a block that is not ```cpp, so it is not compiled" > "/dev/stderr"
   failed = 1
 }

@@ -39,7 +39,8 @@ std::string refusal(const std::string& source, const UrdfOptions& options = {}) 
 
 /// The end of a message about a mass that is missing.
 const std::string kinematic =
-    "; to load the robot without masses and dynamics, use load_kinematic_urdf (KINEMATIC in CMake)";
+    "; to load the robot without masses and dynamics, use load_kinematic_urdf (KINEMATIC in CMake, "
+    "or articula run --mock)";
 
 /// A pendulum whose joint has that inside.
 std::string with_joint(const std::string& inside, const std::string& type = "continuous") {
@@ -183,16 +184,17 @@ TEST_CASE("Inertias of no real body") {
   CHECK(
       refusal(inertial("0")) ==
       "URDF: link 'rod': the link has inertia but no mass (mass 0 kg, principal moments of inertia "
-      "1, 1, 1 kg m^2); to accept it, set allow_unphysical (ALLOW_UNPHYSICAL in CMake)");
+      "1, 1, 1 kg m^2); to accept it, set allow_unphysical (ALLOW_UNPHYSICAL in CMake, "
+      "--allow-unphysical of articula)");
   CHECK(
       refusal(inertial("1", "2.5")) ==
       "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
       "of inertia 1, 1, 2.5 kg m^2); to accept it, set allow_unphysical (ALLOW_UNPHYSICAL in "
-      "CMake)");
+      "CMake, --allow-unphysical of articula)");
   CHECK(refusal(inertial("1", "1", "-1.5")) ==
         "URDF: link 'rod': the inertia is not positive definite (mass 1 kg, principal moments of "
         "inertia -0.5, 1, 2.5 kg m^2); to accept it, set allow_unphysical (ALLOW_UNPHYSICAL in "
-        "CMake)");
+        "CMake, --allow-unphysical of articula)");
   const std::string bad =
       "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' "
       "izz='2.5'/></inertial>";
@@ -207,7 +209,7 @@ TEST_CASE("Inertias of no real body") {
                     "type='fixed'><parent link='rod'/><child link='flag'/></joint>")) ==
       "URDF: link 'rod': the inertia breaks the triangle inequality (mass 1 kg, principal moments "
       "of inertia 1, 1, 2.5 kg m^2); to accept it and those of 'tool', 'flag', set "
-      "allow_unphysical (ALLOW_UNPHYSICAL in CMake)");
+      "allow_unphysical (ALLOW_UNPHYSICAL in CMake, --allow-unphysical of articula)");
   CHECK(refusal(inertial("-1"), {.allow_unphysical = true}) ==
         "URDF: link 'rod': the mass is negative (-1 kg)");
   CHECK(refusal(pendulum("<link name='rod'/>")) ==

@@ -74,7 +74,8 @@ TEST_CASE("Positions are controlled without masses") {
 
 TEST_CASE("The error about a robot without masses names load_kinematic_urdf") {
   const std::string advice =
-      "without masses and dynamics, use load_kinematic_urdf (KINEMATIC in CMake)";
+      "without masses and dynamics, use load_kinematic_urdf (KINEMATIC in CMake, or articula run "
+      "--mock)";
   CHECK_THAT(refusal(file), Contains("joint 'shoulder': the joint moves no link that has mass") &&
                                 Contains(advice));
   const std::string bare = pendulum("<link name=\"rod\"/>");

@@ -29,7 +29,7 @@ namespace detail {
   const auto are_gains = [](const ConfigNode& map) { return map.has_any({"p", "pid", "Kp"}); };
   const ConfigNode& node = section.parameters;
   const ConfigNode* gains = node.find("gains");
-  return are_gains(node) || (gains != nullptr && gains->is_map()) ||
+  return are_gains(node) || (gains != nullptr && gains->kind != ConfigNode::Kind::scalar) ||
          std::any_of(node.items.begin(), node.items.end(), are_gains);
 }
 

@@ -166,7 +166,7 @@ class UrdfDescription {
   [[nodiscard]] std::string advice(const DescriptionFault& fault) const {
     if (fault.rule == Rule::joint_moves_no_mass) {
       return "; to load the robot without masses and dynamics, use load_kinematic_urdf (KINEMATIC "
-             "in CMake)";
+             "in CMake, or articula run --mock)";
     }
     if (!concerns_inertia(fault.rule)) return "";
     std::string others;  // the option accepts all of a file
@@ -174,7 +174,8 @@ class UrdfDescription {
       if (link.name == fault.element || !concerns_inertia(detail::broken_rule(link))) continue;
       others += (others.empty() ? " and those of '" : ", '") + std::string(link.name) + "'";
     }
-    return "; to accept it" + others + ", set allow_unphysical (ALLOW_UNPHYSICAL in CMake)";
+    return "; to accept it" + others +
+           ", set allow_unphysical (ALLOW_UNPHYSICAL in CMake, --allow-unphysical of articula)";
   }
 
   UrdfContents contents_;

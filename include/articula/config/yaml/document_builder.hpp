@@ -135,26 +135,37 @@ class ConfigBuilder final : public YAML::EventHandler {
     }
   }
   [[nodiscard]] static bool is_section(const ConfigNode& node) {
-    return node.is_map() &&
-           (node.key == "ros__parameters" || std::ranges::any_of(node.items, is_section));
+    return node.key == "ros__parameters" ||
+           (node.is_map() && std::ranges::any_of(node.items, is_section));
   }
-  /// Makes one section of those with the same key.
-  void combine_sections(ConfigNode& map) const {
+  /// Makes one of the sections with the same key.
+  /// @param in_repeated  whether the map itself was repeated: then all maps in it count as sections
+  void combine_sections(ConfigNode& map, bool in_repeated = false) const {
     std::map<std::string, std::size_t> places;
     std::vector<ConfigNode> combined;
     std::set<std::size_t> repeated;
+    const auto may_repeat = [&](const ConfigNode& node) {
+      return is_section(node) || (in_repeated && node.is_map());
+    };
     for (ConfigNode& item : map.items) {
       const auto [known, is_new] = places.try_emplace(item.key, combined.size());
-      if (is_new || !is_section(item) || !is_section(combined[known->second])) {
+      if (is_new || !may_repeat(item) || !may_repeat(combined[known->second])) {
         combined.push_back(std::move(item));
         continue;
       }
-      auto& items = combined[known->second].items;
-      std::ranges::move(item.items, std::back_inserter(items));
-      repeated.insert(known->second);
+      ConfigNode& first = combined[known->second];
+      if (item.kind == ConfigNode::Kind::nothing) continue;
+      if (first.kind == ConfigNode::Kind::nothing) {
+        first = std::move(item);
+      } else if (first.is_map() && item.is_map()) {
+        std::ranges::move(item.items, std::back_inserter(first.items));
+        repeated.insert(known->second);
+      } else {
+        combined.push_back(std::move(item));
+      }
     }
     for (const std::size_t place : repeated) {
-      combine_sections(combined[place]);
+      combine_sections(combined[place], true);
       check_keys(combined[place]);
     }
     map.items = std::move(combined);

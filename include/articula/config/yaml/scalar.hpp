@@ -72,7 +72,9 @@ struct ParsedNumber {
 [[nodiscard]] inline std::string value_example(std::string_view text) {
   const std::string_view placeholder = placeholder_in(text);
   if (placeholder.empty()) return "";
-  return ": ConfigSource(file, {{\"" + shown(placeholder_name(placeholder)) + "\", \"...\"}})";
+  const std::string name = shown(placeholder_name(placeholder));
+  return ": ConfigSource(file, {{\"" + name + "\", \"...\"}}), or articula run --value " + name +
+         "=...";
 }
 
 /// Likewise, for the end of a message.

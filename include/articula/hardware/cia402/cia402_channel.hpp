@@ -60,7 +60,7 @@ struct Cia402Channel {
   }
   /// Appends a request that tells lost feedback from late feedback, if it is due.
   /// @return number of frames appended
-  std::size_t push_mark(const SyncHistory& syncs, CanBatch& batch) noexcept {
+  std::size_t push_mark(SyncHistory& syncs, CanBatch& batch) noexcept {
     const auto request = feedback.age().next_mark(set_up.process_data().stream_count, syncs);
     if (!request) return 0;
     return batch.push_back(canopen::encode_request(*request, drive.node)) ? 1 : 0;

@@ -66,7 +66,7 @@ struct Cia402Channels {
       all_enabled = all_enabled && progress == CanSetUp::done;
       constexpr std::uint32_t doubtful_age = 20;  // [cycles]
       const bool known = reports[j].age < doubtful_age && reports[j].enabled;
-      if (!known) channel.set_up.check_again(elapsed);
+      if (!known) channel.set_up.check_again(elapsed, syncs.is_new());
       all_known = all_known && known;
       all_follow_ = all_follow_ && channel.feedback.has_followed();
     }

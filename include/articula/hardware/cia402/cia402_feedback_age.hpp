@@ -44,16 +44,17 @@ class Cia402FeedbackAge {
 
   /// Counts a frame of a stream for which `is_in_time` holds.
   /// @param streams  number of process data objects that the drive sends
-  /// @param cycle    of the bus, this one
+  /// @param syncs    of the bus; receives the note that a request is due
   /// @param report   of the drive; receives the age
-  void count_in_time(std::size_t stream, std::size_t streams, std::uint64_t cycle,
+  void count_in_time(std::size_t stream, std::size_t streams, SyncHistory& syncs,
                      DriveReport& report) noexcept {
+    const std::uint64_t cycle = syncs.cycle();
     cycle_[stream] = cycle;
     next_[stream] = cycle + 1;
     skip_lost(stream, streams);
     if (least(cycle_, streams) == cycle) {
       report.age = 0;
-      least_age_ = 0;
+      if (least_age_ > 0) note_least_age(0, syncs);
     }
   }
   /// Counts any frame of a stream; parameters as above.
@@ -72,7 +73,7 @@ class Cia402FeedbackAge {
     const std::uint64_t oldest = least(cycle_, streams);
     if (oldest > 0) {
       report.age = static_cast<std::uint32_t>(syncs.cycle() - oldest);
-      least_age_ = std::min(least_age_, std::uint64_t{report.age});
+      if (report.age < least_age_) note_least_age(report.age, syncs);
     }
     return true;
   }
@@ -100,21 +101,22 @@ class Cia402FeedbackAge {
   /// is if some are missing and the last mark is ten cycles old. Any node answers it, by the object
   /// or by a refusal.
   [[nodiscard]] std::optional<canopen::Sdo> next_mark(std::size_t streams,
-                                                      const SyncHistory& syncs) noexcept {
+                                                      SyncHistory& syncs) noexcept {
     constexpr std::uint64_t interval = 10;  // [cycles]
     const std::uint64_t patience = std::max(std::uint64_t{20}, fastest_answer_ + 10);
     const std::uint32_t missing = lag(streams, syncs);
-    if (missing == 0) {
-      if (syncs.is_new() && least_age_ != unknown_age) least_age_ = 0;
-      return {};
+    if (missing == 0 && syncs.is_new() && least_age_ > 0 && least_age_ != unknown_age) {
+      note_least_age(0, syncs);
     }
+    if (missing == 0 && !must_measure_) return {};
     const std::uint64_t since = syncs.cycle() - mark_cycle_;
-    const bool known = missing <= known_lag_ && since < interval;
+    const bool known = !must_measure_ && missing <= known_lag_ && since < interval;
     if (awaits_mark_ ? since < patience : known) return {};
     // Subindices alternate, so that a late answer to the mark before does not count for this one.
     constexpr std::uint8_t objects = 5;
     mark_number_ = static_cast<std::uint8_t>((mark_number_ + 1) % objects);
     place_mark({canopen::identity, mark_number_}, syncs);
+    measures_ = must_measure_;
     return canopen::read_request(mark_);
   }
   /// Notes that an object is requested now. A request is a mark if the one before was for another
@@ -123,6 +125,7 @@ class Cia402FeedbackAge {
     awaits_mark_ = object != mark_;
     mark_ = object;
     mark_cycle_ = syncs.cycle();
+    measures_ = false;
   }
   /// Notes that the bus did not take the last request.
   void cancel_mark() noexcept { awaits_mark_ = false; }
@@ -132,7 +135,8 @@ class Cia402FeedbackAge {
   /// Without a queue, an answer to a request just before SYNC takes at least F - 1 cycles. Feedback
   /// takes less than a + 1. F and a are the fewest cycles counted. A queue delays both alike. So
   /// the drive has sent feedback to SYNCs up to F - 1 - (a + 1) cycles after the one before the
-  /// answer. Where another node sends SYNC, requests vary by up to one cycle.
+  /// answer. Where another node sends SYNC, requests vary by up to one cycle. F must not be from a
+  /// time with a longer queue than at a. So F is measured anew whenever a becomes less.
   /// @param object  that was requested
   /// @param sync    sender of SYNC
   void take_answer(const canopen::ObjectAddress& object, std::size_t streams,
@@ -141,15 +145,24 @@ class Cia402FeedbackAge {
     awaits_mark_ = false;
     has_answered_ = true;
     const std::uint64_t cycles = syncs.cycle() - mark_cycle_;
-    fastest_answer_ = std::min(fastest_answer_, cycles);
+    fastest_answer_ = measures_ ? cycles : std::min(fastest_answer_, cycles);
     const std::uint64_t unsure = least_age_ + 1 + (sync == SyncProducer::host ? 0 : 1);
-    const std::uint64_t covered =
-        mark_cycle_ + (fastest_answer_ > unsure ? fastest_answer_ - unsure : 0);
+    const bool covers_more = !must_measure_ && fastest_answer_ > unsure;
+    const std::uint64_t covered = mark_cycle_ + (covers_more ? fastest_answer_ - unsure : 0);
+    if (measures_) must_measure_ = measures_ = false;
     for (std::uint64_t& next : next_) next = std::max(next, covered + 1);
     known_lag_ = lag(streams, syncs);
   }
 
  private:
+  /// Notes the fewest cycles of any feedback.
+  [[gnu::cold]] void note_least_age(std::uint64_t age, SyncHistory& syncs) noexcept {
+    least_age_ = age;
+    must_measure_ = true;
+    measures_ = false;
+    syncs.note_missing();  // which lets the next output ask for a mark
+  }
+
   using Cycles = std::array<std::uint64_t, cia402::ProcessData::most>;
 
   /// Skips what the drive has sent on other streams before a frame that has arrived.
@@ -179,6 +192,8 @@ class Cia402FeedbackAge {
   bool awaits_mark_ = false;
   bool has_answered_ = false;  ///< a mark, since the end of feedback
   bool is_still_operational_ = false;
+  bool must_measure_ = false;  ///< the time of the fastest answer is not known for the least age
+  bool measures_ = false;      ///< by the last mark
   std::uint8_t mark_number_ = 0;
   canopen::ObjectAddress mark_{};
   std::uint64_t fastest_answer_ = 100;     ///< to a request [cycles]; at first the slowest expected

@@ -53,10 +53,13 @@ class Cia402SetUp {
   /// Begins to switch the watchdog of a disabled drive off. A failed set-up keeps its reason.
   void begin_release() noexcept { begin(script_.release); }
 
-  /// Starts the node again 100 ms after the last step, and reads its state. For a drive whose
-  /// feedback does not show that it is enabled: the start command may have been lost.
-  void check_again(std::chrono::nanoseconds elapsed) noexcept {
-    if (step_ < end_ || elapsed - finished_ < canopen::SdoClient::patience) return;
+  /// Starts the node again after 100 ms with SYNC, and reads its state. For a drive whose feedback
+  /// does not show that it is enabled: the start command may have been lost.
+  /// @param has_sync  whether there is SYNC, without which no drive sends feedback
+  void check_again(std::chrono::nanoseconds elapsed, bool has_sync) noexcept {
+    if (step_ < end_) return;
+    if (!has_sync) finished_ = elapsed;
+    if (elapsed - finished_ < canopen::SdoClient::patience) return;
     step_ = script_.start;
     finished_ = std::chrono::nanoseconds(-1);
     checks_again_ = true;

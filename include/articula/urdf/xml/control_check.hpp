@@ -88,7 +88,9 @@ class ControlCheck {
         if (name.empty()) add("a <" + interface + "> has no name");
         if (!name.empty() && !names.insert(name).second) {
           add(where + ": it occurs twice" +
-              (interface == "command_interface" ? "; the narrower limits are used" : ""));
+              (kind == "joint" && interface == "command_interface"
+                   ? "; the narrower limits are used"
+                   : ""));
         }
         check_words(element, where + ": ");
         check_params(element, where);
@@ -132,7 +134,7 @@ class ControlCheck {
     const std::string_view bound = has("max") || has("upper")   ? "max"
                                    : has("min") || has("lower") ? "min"
                                                                 : "";
-    const bool is_initial = small.starts_with("initial");
+    const bool is_initial = small.starts_with("initial") && where.starts_with("<state_interface");
     if (!any && bound.empty() && !has("limit") && !is_initial) return;
     add(where + ": the parameter '" + one_line(word) + "' is unknown and is ignored" +
         (is_initial      ? "; did you mean 'initial_value'?"
