@@ -12,7 +12,8 @@ namespace articula::canopen {
 
 /// The client of one node's objects: sends a request and recognizes its answer. The caller repeats
 /// a request without an answer after 100 ms. That is longer than a frame waits on a bus that can
-/// run a loop. All functions are real-time.
+/// run a loop. A node that is slower answers a repeated request twice. The later answers do not
+/// count for the next request to the same object. All functions are real-time.
 class SdoClient {
  public:
   static constexpr std::chrono::milliseconds patience{100};  ///< for an answer
@@ -21,7 +22,10 @@ class SdoClient {
   explicit constexpr SdoClient(std::uint8_t node = 0) noexcept : node_(node) {}
 
   /// Cancels the request.
-  constexpr void restart() noexcept { waiting_ = false; }
+  constexpr void restart() noexcept {
+    waiting_ = false;
+    repeats_ = 0;
+  }
 
   /// Whether a request has no answer yet.
   [[nodiscard]] constexpr bool waiting() const noexcept { return waiting_; }
@@ -36,6 +40,9 @@ class SdoClient {
   /// @param now    time of any monotonic clock
   /// @param batch  receives the frame
   constexpr void send(const Sdo& request, std::chrono::nanoseconds now, CanBatch& batch) noexcept {
+    const bool same_object = request.address == request_.address;
+    if (!same_object) late_ = 0;
+    repeats_ = same_object && waiting_ ? repeats_ + 1 : 0;
     request_ = request;
     waiting_ = batch.push_back(encode_request(request, node_));
     sent_ = now;
@@ -47,13 +54,20 @@ class SdoClient {
     const bool matches = answer.address == request_.address &&
                          (answer.kind == request_.kind || answer.kind == SdoKind::abort);
     if (!waiting_ || !matches) return false;
+    if (late_ > 0) {
+      --late_;
+      return false;
+    }
     waiting_ = false;
+    late_ = repeats_;
     return true;
   }
 
  private:
   std::uint8_t node_;
   bool waiting_ = false;
+  int repeats_ = 0;  ///< of the request
+  int late_ = 0;     ///< answers to an earlier request for the same object that may still come
   Sdo request_{};
   std::chrono::nanoseconds sent_{};
 };

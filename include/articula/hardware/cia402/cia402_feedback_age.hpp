@@ -145,11 +145,14 @@ class Cia402FeedbackAge {
     awaits_mark_ = false;
     has_answered_ = true;
     const std::uint64_t cycles = syncs.cycle() - mark_cycle_;
-    fastest_answer_ = measures_ ? cycles : std::min(fastest_answer_, cycles);
+    fastest_answer_ = std::min(fastest_answer_, cycles);
     const std::uint64_t unsure = least_age_ + 1 + (sync == SyncProducer::host ? 0 : 1);
     const bool covers_more = !must_measure_ && fastest_answer_ > unsure;
     const std::uint64_t covered = mark_cycle_ + (covers_more ? fastest_answer_ - unsure : 0);
-    if (measures_) must_measure_ = measures_ = false;
+    // While more is missing, there may be a queue. Feedback varies by a cycle, and one may be lost.
+    constexpr std::uint32_t usual = 2;  // [cycles]
+    if (measures_) must_measure_ = lag(streams, syncs) > least_age_ + usual;
+    measures_ = false;
     for (std::uint64_t& next : next_) next = std::max(next, covered + 1);
     known_lag_ = lag(streams, syncs);
   }

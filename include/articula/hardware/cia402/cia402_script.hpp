@@ -79,12 +79,11 @@ class Cia402Script {
     write_if_present({0x1017, 0}, 100, 2);  // the drive's heartbeat every 100 ms
     if (sync == SyncProducer::host) clear_sync_counter();
     add({{}, Action::set_up_pdos});
-    // Without the host's heartbeat the drive faults. A drive that refuses this, or its own objects,
-    // may choose another stop. Other objects come between this and the check below: the refusal of a
-    // repeated request does not count as an answer to the check then.
-    if (beats) write_if_present(cia402::abort_connection, 1, 2);
     write_if_present(cia402::interpolation_period, period, 1);
     write_if_present(cia402::interpolation_exponent, 0xfd, 1);  // 10^-3 s
+    // Without the host's heartbeat the drive faults. A drive that refuses this, or its own objects,
+    // may choose another stop.
+    if (beats) write_if_present(cia402::abort_connection, 1, 2);
     for (const canopen::ObjectValue& own : drive.objects) {
       add({own.address, Action::write, own.value, own.size});
     }
