@@ -348,11 +348,11 @@ TEST_CASE("drives that answer accesses after some cycles, and SYNC at once, are 
   const bool start_is_lost = GENERATE(false, true);
   CAPTURE(answer_delay, operational, start_is_lost);
   const auto bus = make_bus();
+  int to_lose = start_is_lost ? 1 : 0;
   Arm dead = make_arm(bus);
   if (operational) REQUIRE(dead.activate() == Status::ok);
   bus->answer_delay = std::chrono::milliseconds(answer_delay);
   bus->pass(500us);  // the host's cycles are half a period after SYNC
-  int to_lose = start_is_lost ? 1 : 0;
   bus->on_command = [&](CanFrame& frame) {
     const bool starts = frame == canopen::encode(canopen::NmtCommand::start, 6);
     return !starts || to_lose-- <= 0;

@@ -196,11 +196,11 @@ TEST_CASE("a drive that does not get the command to leave operation gets it agai
   const auto make_arm = [&] {
     return Arm(Codec(Cia402::list), support::FakeCanTransport<Drives>(bus));
   };
+  int to_lose = 2;
   Arm dead = make_arm(), arm = make_arm();
   REQUIRE(dead.activate() == Status::ok);
   bus->pass(500us);
   bus->feedback_delay = bus->answer_delay = std::chrono::milliseconds(lag);
-  int to_lose = 2;
   bus->on_command = [&](CanFrame& frame) {
     const auto command = canopen::NmtCommand::enter_pre_operational;
     const bool leaves =
