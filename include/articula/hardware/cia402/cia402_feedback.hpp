@@ -34,7 +34,7 @@ class Cia402Feedback {
   [[nodiscard, gnu::always_inline]] inline bool take_usual(const CanFrame& frame,
                                                            const cia402::ProcessData& data,
                                                            const Cia402Drive& drive,
-                                                           SyncHistory& syncs,
+                                                           const SyncHistory& syncs,
                                                            DriveReport& report) noexcept {
     constexpr cia402::TransmitLayout layout = cia402::usual_transmit[Number];
     const bool in_time = age_.is_in_time(layout.stream, syncs);
@@ -45,7 +45,7 @@ class Cia402Feedback {
       take_operation((bits & cia402::follows_target) != 0, report);
       report.fault = 0;
     }
-    age_.count_in_time(layout.stream, cia402::usual_transmit.size(), syncs, report);
+    age_.count_in_time(layout.stream, cia402::usual_transmit.size(), syncs.cycle(), report);
     take_figures(layout, frame, drive, report);
     if constexpr (layout.position != absent) {
       report.position = position_in(layout, frame, drive);

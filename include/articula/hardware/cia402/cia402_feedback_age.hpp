@@ -35,27 +35,23 @@ namespace articula {
 /// All functions are real-time.
 class Cia402FeedbackAge {
  public:
-  /// Whether the next frame of a stream answers the SYNC of this cycle.
+  /// Whether the next frame of a stream answers the SYNC of this cycle, as one before has done.
   [[nodiscard]] bool is_in_time(std::size_t stream, const SyncHistory& syncs) const noexcept {
-    return next_[stream] == syncs.cycle() && syncs.is_new();
+    return next_[stream] == syncs.cycle() && syncs.is_new() && least_age_ == 0;
   }
   /// The cycle of a stream's last frame; 0 if there was none.
   [[nodiscard]] std::uint64_t cycle_of(std::size_t stream) const noexcept { return cycle_[stream]; }
 
   /// Counts a frame of a stream for which `is_in_time` holds.
   /// @param streams  number of process data objects that the drive sends
-  /// @param syncs    of the bus; receives the note that a request is due
+  /// @param cycle    of the bus, this one
   /// @param report   of the drive; receives the age
-  void count_in_time(std::size_t stream, std::size_t streams, SyncHistory& syncs,
+  void count_in_time(std::size_t stream, std::size_t streams, std::uint64_t cycle,
                      DriveReport& report) noexcept {
-    const std::uint64_t cycle = syncs.cycle();
     cycle_[stream] = cycle;
     next_[stream] = cycle + 1;
     skip_lost(stream, streams);
-    if (least(cycle_, streams) == cycle) {
-      report.age = 0;
-      if (least_age_ > 0) note_least_age(0, syncs);
-    }
+    if (least(cycle_, streams) == cycle) report.age = 0;
   }
   /// Counts any frame of a stream; parameters as above.
   /// @param syncs  of the bus; receives the note that an answer is missing

@@ -14,13 +14,12 @@ class SyncHistory {
  public:
   /// Begins a cycle; the first one is number 1.
   constexpr void begin_cycle(bool with_sync) noexcept {
-    constexpr std::uint64_t oldest = std::uint64_t{1} << 63;
-    if (cycle_ > 63 && (gaps() & oldest) == 0) last_forgotten_ = cycle_ - 63;
     ++cycle_;
     if (!with_sync) cancel_sync();
   }
   /// Notes that the bus did not take the SYNC of this cycle.
   constexpr void cancel_sync() noexcept {
+    if (last_gap_ != cycle_ && last_gap_ + 1 != cycle_) last_before_gap_ = cycle_ - 1;
     gaps_ = gaps() | 1;
     last_gap_ = cycle_;
   }
@@ -29,9 +28,15 @@ class SyncHistory {
   [[nodiscard]] constexpr std::uint64_t cycle() const noexcept { return cycle_; }
   /// Whether this cycle began with SYNC.
   [[nodiscard]] constexpr bool is_new() const noexcept { return last_gap_ != cycle_; }
-  /// Whether a cycle from `first` on began with SYNC that is not in the record any more.
+  /// Whether a cycle from `first` on began with SYNC that is not in the record any more. True also
+  /// if that is not known, because several cycles without SYNC are in the record.
   [[nodiscard]] constexpr bool has_forgotten_from(std::uint64_t first) const noexcept {
-    return first <= last_forgotten_;
+    if (cycle_ < 64) return false;
+    const std::uint64_t oldest = cycle_ - 63;  // in the record
+    const bool ends_in_gap =
+        last_gap_ + 1 == oldest || (last_gap_ >= oldest && last_before_gap_ < oldest);
+    const std::uint64_t last = ends_in_gap ? last_before_gap_ : oldest - 1;
+    return last > 0 && first <= last;
   }
   /// Whether any of the last cycles began with SYNC.
   [[nodiscard]] constexpr bool has_begun() const noexcept { return from(0) != 0; }
@@ -67,9 +72,9 @@ class SyncHistory {
   }
 
   std::uint64_t cycle_ = 0;
-  std::uint64_t last_gap_ = 0;        ///< the last cycle without SYNC
-  std::uint64_t last_forgotten_ = 0;  ///< the last cycle with SYNC before the record; 0: none
-  std::uint64_t gaps_ = 0;            ///< a bit for each cycle without SYNC; bit 0 is last_gap_
+  std::uint64_t last_gap_ = 0;         ///< the last cycle without SYNC
+  std::uint64_t last_before_gap_ = 0;  ///< the last cycle with SYNC before that one; 0: none
+  std::uint64_t gaps_ = 0;             ///< a bit for each cycle without SYNC; bit 0 is last_gap_
   bool missing_ = false;
 };
 
