@@ -51,6 +51,13 @@ std::string massless_q2d() {
   return text;
 }
 
+/// A controller of positions, the name of whose first joint has a placeholder.
+const std::string controllers_with_placeholder =
+    "controller_manager:\n  ros__parameters:\n    update_rate: 1000\n"
+    "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
+    "arm:\n  ros__parameters:\n    joints: [$(var side)_active_joint, elbow_active_joint]\n"
+    "    command_interfaces: [position]\n";
+
 /// A program that runs a loop from files at a free port.
 class Running {
  public:
@@ -190,11 +197,7 @@ TEST_CASE("positions go to simulated drives, and to a mock") {
 TEST_CASE("a mock needs no masses, a simulation does") {
   const ScratchFile robot("massless.urdf"), controllers("placeholder.yaml");
   write(robot.path(), massless_q2d());
-  write(controllers.path(),
-        "controller_manager:\n  ros__parameters:\n    update_rate: 1000\n"
-        "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
-        "arm:\n  ros__parameters:\n    joints: [$(var side)_active_joint, elbow_active_joint]\n"
-        "    command_interfaces: [position]\n");
+  write(controllers.path(), controllers_with_placeholder);
   std::vector<std::string> words{"--port",
                                  "0",
                                  "run",
@@ -226,15 +229,12 @@ TEST_CASE("a new project without masses has drives of positions, and values in i
   const ScratchFile robot("massless.urdf"), controllers("drives.yaml");
   write(robot.path(), massless_q2d());
   write(controllers.path(),
-        "controller_manager:\n  ros__parameters:\n    update_rate: 1000\n"
-        "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
-        "arm:\n  ros__parameters:\n    joints: [$(var side)_active_joint, elbow_active_joint]\n"
-        "    command_interfaces: [position]\n"
-        "can_drives:\n  ros__parameters:\n    protocol: cia402\n"
-        "    $(var side)_active_joint: {node: 1, rated_effort: 10.0, position_scale: 10.0, "
-        "velocity_scale: 1.0}\n"
-        "    elbow_active_joint: {node: 2, rated_effort: 10.0, position_scale: 10.0, "
-        "velocity_scale: 1.0}\n");
+        controllers_with_placeholder +
+            "can_drives:\n  ros__parameters:\n    protocol: cia402\n"
+            "    $(var side)_active_joint: {node: 1, rated_effort: 10.0, position_scale: 10.0, "
+            "velocity_scale: 1.0}\n"
+            "    elbow_active_joint: {node: 2, rated_effort: 10.0, position_scale: 10.0, "
+            "velocity_scale: 1.0}\n");
   const support::ScratchFolder folder("massless");
   const Result result =
       run_articula({"new", robot.path().string(), controllers.path().string(), "--can", "can0",
