@@ -2,6 +2,7 @@
 // The bytes on the wire, as CiA 301 and 402 have them.
 #include <articula/hardware/canopen/canopen.hpp>
 #include <articula/hardware/canopen/canopen_pdo_mapping.hpp>
+#include <articula/hardware/canopen/canopen_sdo_client.hpp>
 #include <articula/hardware/cia402/cia402.hpp>
 
 #include "catch.hpp"
@@ -136,4 +137,27 @@ TEST_CASE("each state has its way to operation enabled") {
   CHECK(towards_operation(State::ready_to_switch_on) == 0x07);
   CHECK(towards_operation(State::switched_on) == 0x0f);
   CHECK(towards_operation(State::fault_reaction_active) == 0x00);
+}
+
+TEST_CASE("the second answer to a repeated request does not count for the next one") {
+  using namespace std::chrono_literals;
+  canopen::SdoClient client(5);
+  CanBatch batch;
+  const canopen::ObjectAddress object{0x6077, 0};
+  const canopen::Sdo abort{canopen::SdoKind::abort, object, 0x0602'0000, 4};
+  client.send(canopen::read_request(object), 0ms, batch);
+  CHECK(client.overdue(100ms));
+  client.send(canopen::read_request(object), 100ms, batch);
+  CHECK(client.take(abort));
+  client.send(canopen::write_request(object, 1, 2), 120ms, batch);
+  CHECK_FALSE(client.take(abort));
+  CHECK(client.waiting());
+  CHECK(client.take(abort));
+  // Another object in between: the second answer has come before.
+  client.send(canopen::read_request(object), 200ms, batch);
+  client.send(canopen::read_request(object), 300ms, batch);
+  CHECK(client.take(abort));
+  client.send(canopen::read_request({0x1000, 0}), 320ms, batch);
+  client.send(canopen::read_request(object), 340ms, batch);
+  CHECK(client.take(abort));
 }

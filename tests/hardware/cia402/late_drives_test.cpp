@@ -184,6 +184,41 @@ TEST_CASE("a queue that gets shorter during the set-up does not make old feedbac
   CHECK(good == 0);
 }
 
+TEST_CASE("a queue that comes back is not taken for lost feedback") {
+  const int before = GENERATE(6, 30);          // cycles of lag during the set-up
+  const int rest = GENERATE(range(0, 45, 3));  // from the drives' enabling to the queue's end [ms]
+  CAPTURE(before, rest);
+  std::chrono::nanoseconds enabled{};
+  Bench<Cia402> bench(0us);
+  auto& bus = *bench.bus;
+  auto& arm = bench.loop.hardware();
+  bus.on_feedback = [](CanFrame&) { return true; };
+  bus.feedback_delay = std::chrono::milliseconds(before) + 500us;  // of answers as well
+  bus.on_command = [&](CanFrame&) {
+    const bool are = bus.drives.enabled(0) && bus.drives.enabled(1);
+    if (are && enabled.count() == 0) enabled = bus.time;
+    const bool ends = enabled.count() > 0 && bus.time - enabled >= std::chrono::milliseconds(rest);
+    if (ends) bus.feedback_delay = 0us;
+    return true;
+  };
+  if (arm.activate() != Status::ok) return;
+  bus.on_command = [](CanFrame&) { return true; };
+  JointState<2> state;
+  const auto cycles = [&](int count) {
+    Status last = Status::ok;
+    for (int k = 0; k < count; ++k) {
+      bus.pass(1ms);
+      last = arm.read(state);
+      static_cast<void>(arm.write({{1, -1}}));
+    }
+    return last;
+  };
+  bus.feedback_delay = 0us;
+  CHECK(cycles(500) == Status::ok);
+  bus.feedback_delay = 4500us;
+  CHECK(cycles(100) == Status::hardware_fault);
+}
+
 TEST_CASE("a drive that does not get the command to leave operation gets it again") {
   const int lag = GENERATE(0, 6, 20);  // [cycles]
   CAPTURE(lag);
