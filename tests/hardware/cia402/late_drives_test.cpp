@@ -184,6 +184,20 @@ TEST_CASE("a queue that gets shorter during the set-up does not make old feedbac
   CHECK(good == 0);
 }
 
+TEST_CASE("slow drives that are ready at different times are enabled") {
+  const int answer_delay = GENERATE(60, 80, 95, 120);            // [ms]
+  const double transition = GENERATE(0.0, 0.1, 0.25, 0.3, 0.5);  // of the second drive [s]
+  CAPTURE(answer_delay, transition);
+  using Drives = Cia402::Drives;
+  const SimulatedCia402Quirks slow{.has_velocity = false, .transition_time = transition};
+  const auto bus = std::make_shared<support::FakeCanBus<Drives>>(
+      Drives(Cia402::list, {}, {SimulatedCia402Quirks(), slow}));
+  bus->answer_delay = std::chrono::milliseconds(answer_delay);
+  CanHardware<Q2d, Cia402Codec<Q2d>, support::FakeCanTransport<Drives>> arm(
+      Cia402Codec<Q2d>(Cia402::list), support::FakeCanTransport<Drives>(bus));
+  CHECK(arm.activate() == Status::ok);
+}
+
 TEST_CASE("a queue that comes back is not taken for lost feedback") {
   const int before = GENERATE(6, 30);          // cycles of lag during the set-up
   const int rest = GENERATE(range(0, 45, 3));  // from the drives' enabling to the queue's end [ms]
