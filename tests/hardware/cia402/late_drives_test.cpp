@@ -193,8 +193,8 @@ TEST_CASE("slow drives that are ready at different times are enabled") {
   const auto bus = std::make_shared<support::FakeCanBus<Drives>>(
       Drives(Cia402::list, {}, {SimulatedCia402Quirks(), slow}));
   bus->answer_delay = std::chrono::milliseconds(answer_delay);
-  CanHardware<Q2d, Cia402Codec<Q2d>, support::FakeCanTransport<Drives>> arm(
-      Cia402Codec<Q2d>(Cia402::list), support::FakeCanTransport<Drives>(bus));
+  CanHardware<Q2d, Cia402Codec<Q2d>, support::FakeCanTransport<Drives>> arm{
+      Cia402Codec<Q2d>(Cia402::list), support::FakeCanTransport<Drives>(bus)};
   CHECK(arm.activate() == Status::ok);
 }
 
