@@ -54,8 +54,8 @@ context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; 
   echo "Flags: \`$(context flags)\`, ours with \`-march=native\` besides; KDL and MuJoCo as Debian packages them."
   echo "Made by \`$(context command)\`, revision $(context revision)."
   echo
-  echo "Nanoseconds of one call, median of five repetitions; in brackets how many times as long as ours, the"
-  echo "described type. \"Shortest\" are MuJoCo's stages that the result needs, without the rest of the"
+  echo "The figures are nanoseconds of one call, the median of five repetitions. A figure in brackets is the ratio"
+  echo "to articula's described type. \"Shortest\" are MuJoCo's stages that the result needs, without the rest of the"
   echo "public function. KDL has the robot as kdl_parser makes it of the URDF. PR2: thirty joints, all free."
   echo "Forward kinematics and Jacobian are those of the tool, for the described type a link named at compile time."
   echo "Less than 2 ns cannot be told from the measuring itself. Median and largest coefficient of variation"
@@ -83,9 +83,9 @@ context() { sed -n "s/^ *\"$1\": \"\(.*\)\",\{0,1\}$/\1/p" "$json" | head -n 1; 
       }
     }' <<<"$cases"
   echo
-  echo "All these calls follow each other: caches and branch predictors hold what they need. In a loop that sleeps a"
-  echo "millisecond between calls, as a control loop does, they take (median and 99th percentile in nanoseconds;"
-  echo "\"clock\" is the time of reading the clock, which is in all of them):"
+  echo "All these calls follow each other: caches and branch predictors hold what they need. A control loop sleeps"
+  echo "between calls. The next table has nanoseconds of calls after a millisecond of sleep. \"Clock\" is the time of"
+  echo "reading the clock, which is in all of them."
   echo
   echo "| robot | operation | library | median | 99th percentile |"
   echo "|---|---|---|---:|---:|"
