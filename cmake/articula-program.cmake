@@ -61,6 +61,7 @@ target_link_libraries(articula_program PRIVATE articula::recording articula::con
 
 # What offers loops to ROS 2. Without Fast DDS it refuses.
 add_library(articula_ros2_command OBJECT ${CMAKE_CURRENT_LIST_DIR}/articula/ros2/ros2_options.cpp)
+target_compile_options(articula_ros2_command PRIVATE $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O0>)
 target_link_libraries(articula_ros2_command PRIVATE articula::recording CLI11::CLI11)
 if(TARGET articula::ros2)
   target_compile_definitions(articula_ros2_command PRIVATE ARTICULA_PROGRAM_HAS_ROS2)
@@ -82,10 +83,13 @@ if(TARGET articula::sweep AND ARTICULA_SWEPT_JOINTS)
     set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/make_experiment_${joints}.cpp)
     configure_file(${CMAKE_CURRENT_LIST_DIR}/articula/sweep/make_experiment.cpp.in ${articula_loop_file}
                    @ONLY)
+    set_source_files_properties(${articula_loop_file}
+                                PROPERTIES COMPILE_OPTIONS $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O1>)
     list(APPEND articula_sweep_files ${articula_loop_file})
   endforeach()
   add_library(articula_sweep_command OBJECT ${articula_sweep_files})
   target_include_directories(articula_sweep_command PRIVATE ${CMAKE_CURRENT_LIST_DIR}/articula)
+  target_compile_options(articula_sweep_command PRIVATE $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O0>)
   target_link_libraries(articula_sweep_command PRIVATE articula::sweep articula::recording articula::config
                                                        articula::urdf CLI11::CLI11)
   list(JOIN ARTICULA_SWEPT_JOINTS "," articula_swept_joints)

@@ -5,12 +5,12 @@
 #include "articula/control/limits/limit_motion.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/dynamics/engine/evaluate.hpp"
+#include "articula/dynamics/engine/tree_factors.hpp"
 #include "articula/dynamics/friction_effort.hpp"
 #include "articula/dynamics/mass_matrix.hpp"
 #include "articula/dynamics/nonlinear_effects.hpp"
 #include "articula/model/robot.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <limits>
@@ -63,6 +63,7 @@ class EffortLimiter {
   EffortLimiter(const R& robot, const CommandLimits<joint_count>& limits)
       : robot_(robot),
         limits_(limits),
+        parents_(elimination_tree(model_of(robot).mechanism)),
         damping_(joint_values(robot, [](const JointProperties& joint) { return joint.damping; })) {
     for (int j = 0; j < joint_count; ++j) {
       if (!is_finite(limits.deceleration[j]))
@@ -170,15 +171,23 @@ class EffortLimiter {
 
   /// Solves effort = m a + bias, where a_j is prescribed for the joints that are held, and effort_j
   /// for the others.
-  static void solve(const Matrix& m, const Vector& bias, const Mask& held, Vector& acceleration,
-                    Vector& effort) noexcept {
-    const Vector free = 1 - held;
+  void solve(const Matrix& m, const Vector& bias, const Mask& held, Vector& acceleration,
+             Vector& effort) const noexcept {
+    // Held joints leave the equations: identity rows and columns, and what they cost the others.
     const Vector prescribed = held * acceleration.array();
-    Matrix system = free.asDiagonal() * m * free.asDiagonal();
-    system.diagonal().array() += held;
-    const Vector right = prescribed + free.cwiseProduct(effort - bias - m * prescribed);
-    acceleration = system.llt().solve(right);
-    const Vector all = m * acceleration + bias;
+    const Vector needed = product<joint_count>(m, prescribed);
+    JointRows<double, joint_count> system = detail::to_rows(m);
+    JointArray<double, joint_count> right;
+    for (int j = 0; j < joint_count; ++j) {
+      right[j] = held[j] != 0 ? prescribed[j] : effort[j] - bias[j] - needed[j];
+      for (int i = 0; held[j] != 0 && i < joint_count; ++i) {
+        system[i][j] = system[j][i] = i == j ? 1 : 0;
+      }
+    }
+    const auto factors = factorise<double, joint_count>(parents_, system);
+    acceleration =
+        detail::to_vector(articula::solve<double, joint_count>(parents_, factors, right));
+    const Vector all = product<joint_count>(m, acceleration) + bias;
     effort = (held != 0).select(all.array(), effort.array());
   }
 
@@ -213,6 +222,7 @@ class EffortLimiter {
 
   [[no_unique_address]] R robot_;
   CommandLimits<joint_count> limits_;
+  JointArray<int, joint_count> parents_;  ///< elimination tree of the mass matrix
   JointArray<JointCommandLimits, joint_count> joint_limits_{};
   Vector damping_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/joint_reference.hpp"
+#include "articula/motion/joint_motion.hpp"
 #include "articula/motion/polynomial.hpp"
 
 #include <algorithm>
@@ -48,6 +49,32 @@ template <int N>
                                   points.begin());
 }
 
+namespace detail {
+
+/// The polynomial of one joint, see segment_polynomial(). Vectors of N joints take longer to compile.
+/// @param a, b           the points, with velocities times T and accelerations times T^2
+/// @param velocities     whether both points have them
+/// @param accelerations  likewise
+[[nodiscard]] inline std::array<double, 6> segment_of_joint(const JointMotion& a,
+                                                            const JointMotion& b, bool velocities,
+                                                            bool accelerations) noexcept {
+  const double d = b.position - a.position, va = a.velocity, vb = b.velocity;
+  const double aa = a.acceleration, ab = b.acceleration;
+  if (velocities && accelerations) {
+    return {a.position,
+            va,
+            aa / 2,
+            10 * d - 6 * va - 4 * vb - 1.5 * aa + 0.5 * ab,
+            -15 * d + 8 * va + 7 * vb + 1.5 * aa - ab,
+            6 * d - 3 * (va + vb) - (aa - ab) / 2};
+  }
+  if (velocities) return {a.position, va, 3 * d - 2 * va - vb, va + vb - 2 * d, 0, 0};
+  if (accelerations) return {a.position, d - (2 * aa + ab) / 6, aa / 2, (ab - aa) / 6, 0, 0};
+  return {a.position, d, 0, 0, 0, 0};
+}
+
+}  // namespace detail
+
 /// The position between two points a and b as a polynomial in s = t / T. Here t is the time since a,
 /// and T the duration. The values that both points have determine the degree, as in ROS's joint
 /// trajectory controller:
@@ -64,31 +91,21 @@ template <int N>
 template <int N>
 [[nodiscard]] std::array<JointVector<N>, 6> segment_polynomial(
     const TrajectoryPoint<N>& a, const TrajectoryPoint<N>& b) noexcept {
-  using Vector = JointVector<N>;
   const double T = b.time_from_start - a.time_from_start;
-  const Vector d = b.position - a.position, zero = Vector::Zero();
   const bool velocities = a.velocity && b.velocity,
              accelerations = a.acceleration && b.acceleration;
-  // Velocities times T and accelerations times T^2, so that no power of T is a divisor.
-  const Vector va = velocities ? Vector(T * *a.velocity) : zero;
-  const Vector vb = velocities ? Vector(T * *b.velocity) : zero;
-  const Vector aa = accelerations ? Vector(T * T * *a.acceleration) : zero;
-  const Vector ab = accelerations ? Vector(T * T * *b.acceleration) : zero;
-  Vector c1 = d, c2 = aa / 2, c3 = zero, c4 = zero, c5 = zero;
-  if (velocities && accelerations) {
-    c1 = va;
-    c3 = 10 * d - 6 * va - 4 * vb - 1.5 * aa + 0.5 * ab;
-    c4 = -15 * d + 8 * va + 7 * vb + 1.5 * aa - ab;
-    c5 = 6 * d - 3 * (va + vb) - (aa - ab) / 2;
-  } else if (velocities) {
-    c1 = va;
-    c2 = 3 * d - 2 * va - vb;
-    c3 = va + vb - 2 * d;
-  } else if (accelerations) {
-    c1 = d - (2 * aa + ab) / 6;
-    c3 = (ab - aa) / 6;
+  std::array<JointVector<N>, 6> polynomial;
+  for (int j = 0; j < N; ++j) {
+    // Velocities times T and accelerations times T^2, so that no power of T is a divisor.
+    const auto scaled = [&](const TrajectoryPoint<N>& point) {
+      return JointMotion{point.position[j], velocities ? T * (*point.velocity)[j] : 0,
+                         accelerations ? T * T * (*point.acceleration)[j] : 0};
+    };
+    const std::array<double, 6> own =
+        detail::segment_of_joint(scaled(a), scaled(b), velocities, accelerations);
+    for (std::size_t k = 0; k < own.size(); ++k) polynomial[k][j] = own[k];
   }
-  return {a.position, c1, c2, c3, c4, c5};
+  return polynomial;
 }
 
 /// The reference between two points: the segment_polynomial() and its derivatives, with linear
@@ -100,11 +117,17 @@ template <int N>
 [[nodiscard]] JointReference<N> interpolate(const TrajectoryPoint<N>& a,
                                             const TrajectoryPoint<N>& b, double t) noexcept {
   const double T = b.time_from_start - a.time_from_start, s = t / T;
-  const auto [c0, c1, c2, c3, c4, c5] = segment_polynomial(a, b);
-  return {c0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5)))),
-          (c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / T,
-          (2 * c2 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / T / T,
-          a.effort + (b.effort - a.effort) * s};
+  const auto polynomial = segment_polynomial(a, b);
+  JointReference<N> reference;
+  for (int j = 0; j < N; ++j) {
+    const double c0 = polynomial[0][j], c1 = polynomial[1][j], c2 = polynomial[2][j],
+                 c3 = polynomial[3][j], c4 = polynomial[4][j], c5 = polynomial[5][j];
+    reference.position[j] = c0 + s * (c1 + s * (c2 + s * (c3 + s * (c4 + s * c5))));
+    reference.velocity[j] = (c1 + s * (2 * c2 + s * (3 * c3 + s * (4 * c4 + s * 5 * c5)))) / T;
+    reference.acceleration[j] = (2 * c2 + s * (6 * c3 + s * (12 * c4 + s * 20 * c5))) / T / T;
+    reference.effort[j] = a.effort[j] + (b.effort[j] - a.effort[j]) * s;
+  }
+  return reference;
 }
 
 /// The reference between two points for either kind of segment.
