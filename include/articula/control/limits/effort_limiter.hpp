@@ -173,22 +173,30 @@ class EffortLimiter {
   /// for the others.
   void solve(const Matrix& m, const Vector& bias, const Mask& held, Vector& acceleration,
              Vector& effort) const noexcept {
-    // Held joints leave the equations: identity rows and columns, and what they cost the others.
-    const Vector prescribed = held * acceleration.array();
-    const Vector needed = product<joint_count>(m, prescribed);
     JointRows<double, joint_count> system = detail::to_rows(m);
     JointArray<double, joint_count> right;
-    for (int j = 0; j < joint_count; ++j) {
-      right[j] = held[j] != 0 ? prescribed[j] : effort[j] - bias[j] - needed[j];
-      for (int i = 0; held[j] != 0 && i < joint_count; ++i) {
-        system[i][j] = system[j][i] = i == j ? 1 : 0;
+    for (int j = 0; j < joint_count; ++j) right[j] = effort[j] - bias[j];
+    // Held joints leave the equations: what they cost the others goes to the right-hand side.
+    for (int h = 0; h < joint_count; ++h) {
+      if (held[h] == 0) continue;
+      for (int i = 0; i < joint_count; ++i) {
+        right[i] -= m(i, h) * acceleration[h];
+        system[i][h] = system[h][i] = 0;
       }
+    }
+    for (int h = 0; h < joint_count; ++h) {
+      if (held[h] == 0) continue;
+      right[h] = acceleration[h];
+      system[h][h] = 1;
     }
     const auto factors = factorise<double, joint_count>(parents_, system);
     acceleration =
         detail::to_vector(articula::solve<double, joint_count>(parents_, factors, right));
-    const Vector all = product<joint_count>(m, acceleration) + bias;
-    effort = (held != 0).select(all.array(), effort.array());
+    for (int h = 0; h < joint_count; ++h) {
+      if (held[h] == 0) continue;
+      effort[h] = bias[h];
+      for (int i = 0; i < joint_count; ++i) effort[h] += m(i, h) * acceleration[i];
+    }
   }
 
   /// Finds the undecided joint that violates its limits most, and sets its acceleration to one that
