@@ -3,7 +3,6 @@
 #pragma once
 
 #include "articula/control/switching/switch_board.hpp"
-#include "articula/core/command_parts.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/loop/supervision/supervised_loop.hpp"
@@ -13,7 +12,6 @@
 #include "articula/replay/recorded_hardware.hpp"
 #include "articula/replay/replay_difference.hpp"
 
-#include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -238,17 +236,11 @@ class Replay {
     }
   }
 
-  /// The same bits. Text has one NaN only, so any is like any other.
-  [[nodiscard]] static bool are_same(double a, double b) noexcept {
-    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
-           (std::isnan(a) && std::isnan(b));
-  }
-
   [[nodiscard]] std::optional<ReplayDifference> compare(const Record& record, Status status) const {
     ReplayDifference difference{.cycle = record.cycle, .time = record.time};
     const double time =
         static_cast<double>(first_period_ + periods_of(loop_.time())) * loop_.period();
-    if (!are_same(record.time, time)) {
+    if (!has_same_bits(record.time, time)) {
       difference.quantity = "time";
       difference.recorded = record.time;
       difference.computed = time;
@@ -264,19 +256,7 @@ class Replay {
     if constexpr (supervised) {  // which keeps the last command where it writes none
       if (!loop_.hardware().written() && is_finite(command)) return std::nullopt;
     }
-    const auto recorded = parts_of(record.command), computed = parts_of(command);
-    for (int j = 0; j < joint_count; ++j) {
-      for (std::size_t part = 0; part < recorded.size(); ++part) {
-        const double was = (*recorded[part].values)[j], is = (*computed[part].values)[j];
-        if (are_same(was, is)) continue;
-        difference.joint = joint_names(loop_.hardware().robot())[static_cast<std::size_t>(j)];
-        difference.quantity = to_string(recorded[part].quantity);
-        difference.recorded = was;
-        difference.computed = is;
-        return difference;
-      }
-    }
-    return std::nullopt;
+    return difference_of(loop_.hardware().robot(), difference, record.command, command);
   }
 
   const Recording<joint_count, Command>& recording_;

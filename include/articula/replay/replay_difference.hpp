@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A difference between a recording and its replay.
+/// @file The first difference between a recording and its replay.
 #pragma once
 
+#include "articula/core/command_parts.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/model/robot.hpp"
 
+#include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 namespace articula {
@@ -32,6 +38,34 @@ struct ReplayDifference {
                              difference.joint, ": ", difference.quantity, " ",
                              digits(difference.recorded), " was recorded, ",
                              digits(difference.computed), " is computed"});
+}
+
+/// Whether two numbers have the same bits. Text has one NaN only, so any is like any other.
+/// Real-time: yes.
+[[nodiscard]] inline bool has_same_bits(double a, double b) noexcept {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) ||
+         (std::isnan(a) && std::isnan(b));
+}
+
+/// The first number in which two commands differ, if one does.
+/// @param where  cycle and time, to which the difference is added
+/// Real-time: no (allocates).
+template <Robot R, class Command>
+[[nodiscard]] std::optional<ReplayDifference> difference_of(const R& robot, ReplayDifference where,
+                                                            const Command& recorded,
+                                                            const Command& computed) {
+  const auto was = parts_of(recorded), is = parts_of(computed);
+  for (int j = 0; j < joint_count<R>; ++j) {
+    for (std::size_t part = 0; part < was.size(); ++part) {
+      where.recorded = (*was[part].values)[j];
+      where.computed = (*is[part].values)[j];
+      if (has_same_bits(where.recorded, where.computed)) continue;
+      where.joint = joint_names(robot)[static_cast<std::size_t>(j)];
+      where.quantity = to_string(was[part].quantity);
+      return where;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace articula
