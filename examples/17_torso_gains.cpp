@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Both arms of a torso reach forward, one of them with a load of 0 to 1 kg that the controller does not
 // know. The program searches gains for all six joints by three numbers, so that 95 % of the torsos
-// follow best, and tries them on torsos that the search has not seen.
+// follow best, and tries them on torsos that the search has not seen. The plot has the error of each
+// of these over its load.
 #include <articula/articula.hpp>
 #include <articula/robots/two_arm_torso.hpp>
 #include <articula/sweep/closed_loop_experiment.hpp>
@@ -9,8 +10,14 @@
 #include <articula/sweep/sweep.hpp>
 #include <articula/tuning/equivalent_inertia.hpp>
 
+#include "plot.hpp"
+
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
+#include <functional>
+#include <limits>
+#include <string>
 #include <vector>
 
 using namespace articula;
@@ -38,7 +45,9 @@ JointPidGains<6> gains_of(const Tuning& t) {
   return gains;
 }
 
-SweepResult torsos(const Tuning& tuning, std::uint64_t runs, std::uint64_t seed) {
+/// @param each  gets the load [kg] and the worst joint's rms tracking error [rad] of each torso
+SweepResult torsos(const Tuning& tuning, std::uint64_t runs, std::uint64_t seed,
+                   const std::function<void(double, double)>& each = {}) {
   ClosedLoopOptions<6> options;
   options.duration = 1.5;
   options.target = bent;
@@ -49,8 +58,16 @@ SweepResult torsos(const Tuning& tuning, std::uint64_t runs, std::uint64_t seed)
   const ClosedLoopExperiment experiment(
       TwoArmTorso(), gains_of(tuning),
       [](const JointPidGains<6>& gains) { return PidPlusGravity<TwoArmTorso>(gains); }, options);
+  SweepHooks hooks;
+  hooks.row = [&each, metrics = experiment.metrics()](const SweepRow& torso) {
+    double worst = 0;
+    for (std::size_t k = 0; k < metrics.size(); ++k) {
+      if (metrics[k].name.ends_with(".tracking_rms")) worst = std::max(worst, torso.metrics[k]);
+    }
+    if (each) each(torso.parameters[0], worst);
+  };
   return sweep(experiment,
-               {.sampling = {.method = SamplingMethod::sobol, .runs = runs, .seed = seed}});
+               {.sampling = {.method = SamplingMethod::sobol, .runs = runs, .seed = seed}}, hooks);
 }
 
 /// The rms tracking error of the worst joint that 95 % of the torsos stay below [rad].
@@ -77,7 +94,10 @@ void print(const char* name, const Tuning& t, const SweepResult& result) {
 
 int main() {
   const Tuning first{10, 1, 1};
-  const SweepResult before = torsos(first, 256, 2);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Plot plot("torso_gains", {"first guess [rad]", "searched [rad]"}, "load [kg]");
+  const SweepResult before =
+      torsos(first, 256, 2, [&](double load, double by) { plot.add(load, {by, none}); });
   print("first", first, before);
 
   const auto tuning_of = [](const std::vector<double>& x) { return Tuning{x[0], x[1], x[2]}; };
@@ -90,7 +110,9 @@ int main() {
                      const SweepResult result = torsos(tuning_of(x), 32, 1);
                      return error_of(result) + unstable_share(result);
                    });
-  const SweepResult after = torsos(tuning_of(best.parameters), 256, 2);
+  const SweepResult after = torsos(tuning_of(best.parameters), 256, 2,
+                                   [&](double load, double by) { plot.add(load, {none, by}); });
   print("searched", tuning_of(best.parameters), after);
+  plot.save();
   return error_of(after) < 0.7 * error_of(before) && unstable_share(after) < 0.05 ? 0 : 1;
 }

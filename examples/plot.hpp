@@ -15,9 +15,10 @@
 
 /// A curve of a panel.
 struct Curve {
-  std::string data;   ///< what gnuplot draws: a function, or as from `column_of`
-  std::string style;  ///< in gnuplot's words; may be empty
-  std::string title;  ///< in the key; none if empty
+  std::string data;             ///< what gnuplot draws: a function, or as from `column_of`
+  std::string style;            ///< in gnuplot's words; may be empty
+  std::string title;            ///< in the key; none if empty
+  std::string drawn = "lines";  ///< or "points"
 };
 
 /// A column of a CSV file over its first column.
@@ -27,13 +28,13 @@ inline std::string column_of(const std::string& csv, std::size_t number, long sk
   return "'" + csv + "' every " + std::to_string(skip) + "::1 using 1:" + std::to_string(number);
 }
 
-/// Curves of one unit over time.
+/// Curves of one unit over time, or over another quantity.
 struct Panel {
   std::string title;  ///< may be empty
   std::string unit;   ///< label of the vertical axis
   std::vector<Curve> curves{};
   std::string range = "[*:*]";  ///< of the vertical axis
-  std::string times = "[]";     ///< of the horizontal axis; all data by default
+  std::string times = "[]";     ///< range of the horizontal axis; all data by default
 };
 
 /// Panels in rows. The script, the drawing and the data lie in one folder.
@@ -43,6 +44,7 @@ struct Figure {
   std::size_t columns = 1;
   std::string layout{};  ///< more words for gnuplot's `set multiplot`
   std::string key = "outside center top horizontal";
+  std::string horizontal = "time [s]";  ///< label of the horizontal axis
   std::vector<Panel> panels{};
 
   /// Writes <name>.gp.
@@ -59,13 +61,13 @@ struct Figure {
            << (panels.size() + columns - 1) / columns << ',' << columns << ' ' << layout << '\n';
     for (std::size_t k = 0; k < panels.size(); ++k) {
       const Panel& panel = panels[k];
-      if (k + columns == panels.size()) script << "set xlabel 'time [s]'\n";
+      if (k + columns == panels.size()) script << "set xlabel '" << horizontal << "'\n";
       script << "set title '" << panel.title << "' offset 0,-0.5\nset ylabel '" << panel.unit
              << "'\nplot " << panel.times << ' ' << panel.range;
       const char* separator = " ";
-      for (const auto& [data, style, title] : panel.curves) {
-        script << separator << "\\\n  " << data << " with lines " << style << " title '" << title
-               << "' noenhanced";
+      for (const auto& [data, style, title, drawn] : panel.curves) {
+        script << separator << "\\\n  " << data << " with " << drawn << ' ' << style << " title '"
+               << title << "' noenhanced";
         separator = ", ";
       }
       script << '\n';
@@ -89,7 +91,8 @@ struct Figure {
   }
 };
 
-/// Collects the values of a run and draws them: one curve per column, one panel per unit.
+/// Collects the values of a run and draws them: one curve per column, one panel per unit. Values of
+/// many runs are points over a quantity in which the runs differ.
 ///
 ///     Plot plot("waves", {"shoulder [rad]", "elbow [rad]", "elbow effort [N m]"});
 ///     plot.add(loop.time(), {state.position[0], state.position[1], state.effort[1]});
@@ -98,25 +101,31 @@ class Plot {
  public:
   /// @param name     of the files, made of letters, digits and underscores
   /// @param columns  names of the curves, each with its unit in brackets at the end
-  Plot(std::string name, const std::vector<std::string>& columns)
+  /// @param points_over  the horizontal quantity with its unit: values are points; empty: they are
+  ///                     curves over time
+  Plot(std::string name, const std::vector<std::string>& columns,
+       const std::string& points_over = {})
       : figure_{.name = std::move(name)}, width_(columns.size()), file_(csv()) {
+    if (!points_over.empty()) figure_.horizontal = points_over;
+    const std::string drawn = points_over.empty() ? "lines" : "points";
+    const std::string style = points_over.empty() ? "linewidth 2" : "pointtype 7 pointsize 0.4";
     file_.precision(9);
-    file_ << "time [s]";
+    file_ << figure_.horizontal;
     for (std::size_t c = 0; c < width_; ++c) {
       file_ << ',' << columns[c];
       const std::size_t end = columns[c].rfind('[');
       panel_of(columns[c].substr(end))
-          .curves.push_back(
-              {column_of(csv(), c + 2), "linewidth 2", columns[c].substr(0, end - 1)});
+          .curves.push_back({column_of(csv(), c + 2), style, columns[c].substr(0, end - 1), drawn});
     }
     file_ << '\n';
     figure_.height = 80 + 300 * static_cast<int>(figure_.panels.size());
   }
 
-  /// One point in time [s], with a value for each column.
-  void add(double time, std::initializer_list<double> values) {
+  /// One point in time [s] or of the horizontal quantity, with a value for each column. NaN is not
+  /// drawn.
+  void add(double horizontal, std::initializer_list<double> values) {
     if (values.size() != width_) throw std::invalid_argument("plot: one value for each column");
-    file_ << time;
+    file_ << horizontal;
     for (const double value : values) file_ << ',' << value;
     file_ << '\n';
   }
