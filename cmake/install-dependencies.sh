@@ -42,6 +42,7 @@ case ${1:-} in
   --all)
     view_packages
     packages+=(chromium) # tests/view/page
+    packages+=(fish)     # tests/terminal
     packages+=(clang-19 libclang-rt-19-dev clang-format-19 clang-tidy-19 valgrind)
     packages+=(liborocos-kdl-dev libmujoco-dev) # peers, in tests and benchmarks
     # tests/webassembly

@@ -169,19 +169,31 @@ std::string names_by_fish(const std::string& type) {
 }
 
 std::string fish(const std::vector<Entry>& entries) {
-  std::string text = R"(function __articula_is
+  const std::vector<std::string> valued = valued_options(entries);
+  std::string text = R"(function __articula_words # without options and their values, and a space
   set -l words
+  set -l is_value 0
   for word in (commandline -opc)[2..-1]
-    string match -q -- '-*' $word; or set -a words $word
+    if test $is_value = 1
+      set is_value 0
+      continue
+    end
+    switch $word
+      case )" + joined(valued) +
+                     R"(
+        set is_value 1
+      case '-*'
+      case '*'
+        set -a words $word
+    end
   end
-  string match -q -- "$argv[1] *" "$words "; or test "$argv[1]" = "$words"
+  echo "$words "
+end
+function __articula_is
+  string match -q -- "$argv[1] *" (__articula_words)
 end
 function __articula_is_first
-  set -l words
-  for word in (commandline -opc)[2..-1]
-    string match -q -- '-*' $word; or set -a words $word
-  end
-  test -z "$words"
+  test (__articula_words) = ' '
 end
 function __articula_names
   set -l words (commandline -opc)
@@ -196,14 +208,17 @@ end
     const std::string condition =
         entry.words.empty() ? "__articula_is_first" : "__articula_is " + quoted(entry.words);
     for (const CLI::App* command : entry.commands) {
-      const std::string files = entry.words.empty() ? "" : " -f";
-      text += "complete -c articula" + files + " -n " + quoted(condition) + " -a " +
+      text += "complete -c articula -f -n " + quoted(condition) + " -a " +
               quoted(command->get_name()) + " -d " + quoted(command->get_description()) + "\n";
     }
     for (const std::string& option : entry.options) {
       text += "complete -c articula -n " + quoted(condition) + " -l " + quoted(option.substr(2));
       const auto named = entry.named_options.find(option);
-      if (named != entry.named_options.end()) text += " -x -a " + names_by_fish(named->second);
+      if (named != entry.named_options.end()) {
+        text += " -x -a " + names_by_fish(named->second);
+      } else if (std::ranges::find(valued, option) != valued.end()) {
+        text += " -r";
+      }
       text += "\n";
     }
     if (!entry.argument.empty()) {
