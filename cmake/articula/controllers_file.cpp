@@ -97,7 +97,7 @@ struct Reading {
     return chosen.empty() || std::ranges::find(chosen, name) != chosen.end();
   }
   void leave_out(const std::string& name, const std::string& reason) {
-    const std::string line = plan.file + ": controller '" + name + "': " + reason;
+    const std::string line = plan.source.name() + ": controller '" + name + "': " + reason;
     if (!chosen.empty()) throw Refusal(line);
     left_out.push_back(line);
   }
@@ -180,7 +180,7 @@ int default_substeps(double period) {
 ControllersPlan read_controllers(const articula::ConfigSource& source,
                                  const std::vector<std::string>& chosen) {
   const std::string& file = source.name();
-  Reading reading{.plan = {.file = file, .source = source}, .chosen = chosen};
+  Reading reading{.plan = {.source = source}, .chosen = chosen};
   ControllersPlan& plan = reading.plan;
   const auto all = articula::detail::find_sections(source);
   const bool has_manager = std::ranges::any_of(all.sections, [](const auto& section) {

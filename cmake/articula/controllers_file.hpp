@@ -51,7 +51,6 @@ struct PlannedController {
 
 /// What a file says about a loop.
 struct ControllersPlan {
-  std::string file{};                 ///< its name
   articula::ConfigSource source{""};  ///< the file, and values of its placeholders
   double period = 1e-3;               ///< [s]
   int substeps = 1;                   ///< of a simulation, in a period

@@ -103,7 +103,7 @@ std::string code_of(const ConfigNode& drive, const Protocol& protocol) {
 
 PlannedDrives read_drives(const ControllersPlan& plan, const std::string& interface,
                           const articula::UrdfDescription& robot) {
-  const std::string& file = plan.file;
+  const std::string& file = plan.source.name();
   const auto all = articula::detail::find_sections(plan.source);
   const auto section = std::ranges::find(all.sections, "can_drives", &ConfigSection::name);
   if (section == all.sections.end()) {

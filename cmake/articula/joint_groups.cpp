@@ -49,7 +49,7 @@ std::vector<PlannedGroup> joint_groups(const articula::UrdfDescription& robot,
       }
       for (const std::string& joint : own.joints) {
         if (!contains(group.joints, joint)) continue;
-        throw Refusal(plan.file + ": the controllers '" +
+        throw Refusal(plan.source.name() + ": the controllers '" +
                       plan.controllers[group.controllers.front()].name + "' and '" +
                       controller.name + "' share joint '" + joint +
                       "', and other joints not; choose controllers with the same joints, or with "

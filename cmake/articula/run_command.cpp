@@ -79,12 +79,13 @@ RunLoop loop_for(const articula::UrdfDescription& robot, const std::vector<Plann
                  const ControllersPlan& plan) {
   const std::string advice = "; the option --compile makes a loop for any of them";
   if (groups.size() > 4) {
-    throw Refusal(plan.file + ": its controllers are for " + std::to_string(groups.size()) +
-                  " groups of joints; loops for 4 are ready" + advice);
+    throw Refusal(plan.source.name() + ": its controllers are for " +
+                  std::to_string(groups.size()) + " groups of joints; loops for 4 are ready" +
+                  advice);
   }
   for (const PlannedGroup& group : groups) {
     if (group.controllers.size() <= 8) continue;
-    throw Refusal(plan.file + ": it lists " + std::to_string(group.controllers.size()) +
+    throw Refusal(plan.source.name() + ": it lists " + std::to_string(group.controllers.size()) +
                   " controllers for the same joints; loops for 8 are ready" + advice);
   }
   const articula::ModelSize size = articula::model_size(robot->joints);
@@ -138,7 +139,7 @@ std::string installed_page() {
 ControllersPlan pass_on(const std::string& quantity) {
   using enum ControllerKind;
   ControllersPlan plan;
-  plan.file = "--command " + quantity;
+  plan.source = articula::ConfigSource::text("", "--command " + quantity);
   plan.controllers.push_back({.name = quantity,
                               .kind = quantity == "effort"     ? bypass
                                       : quantity == "velocity" ? forward_velocity
@@ -164,7 +165,7 @@ void run(const Program& program, const Run& options) {
 
   const std::vector<PlannedGroup> groups = joint_groups(robot, controllers);
   if (options.is_mock && controllers.drives == Drives::efforts) {
-    throw Refusal(controllers.file +
+    throw Refusal(controllers.source.name() +
                   ": its controllers command efforts, which do not move a mock; leave --mock out "
                   "for a simulation");
   }
