@@ -66,6 +66,7 @@ class Delayed {
 /// What lanes differ in.
 struct Differences {
   double mass = 0.4;      ///< relative
+  bool whole = false;     ///< all links of an arm by one factor
   double friction = 0;    ///< highest, relative to the effort limit
   double stop = 10;       ///< farthest stop from the start [rad]
   double noise = 0;       ///< of positions [rad]
@@ -80,8 +81,9 @@ std::vector<LaneSetup<R>> random_setups(Random& random, const Differences& by) {
   std::vector<LaneSetup<R>> setups(static_cast<std::size_t>(lanes<symbolic::Pack<>>));
   for (LaneSetup<R>& setup : setups) {
     auto description = R::description;
+    double scale = by.whole ? random.number(1 - by.mass, 1 + by.mass) : 1;
     for (Link& link : description.links) {
-      const double scale = random.number(1 - by.mass, 1 + by.mass);
+      if (!by.whole) scale = random.number(1 - by.mass, 1 + by.mass);
       link.mass *= scale;
       for (double* x : {&link.inertia.xx, &link.inertia.xy, &link.inertia.xz, &link.inertia.yy,
                         &link.inertia.yz, &link.inertia.zz}) {
