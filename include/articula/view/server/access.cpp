@@ -2,6 +2,7 @@
 #include "articula/view/server/access.hpp"
 
 #include "articula/core/refuse.hpp"
+#include "articula/text/characters.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -98,7 +99,7 @@ std::string Access::host_fault(std::string_view host) const {
   if (!is_loopback_) return {};  // The token protects, and the names of this machine are not known.
   const std::string_view name = without_port(host);
   if (name == "127.0.0.1" || name == "localhost" || name == "[::1]" || name == address_) return {};
-  return "the host '" + std::string(name) + "' is not a name of this server; use " + address_;
+  return "the host '" + detail::shown(name) + "' is not a name of this server; use " + address_;
 }
 
 std::string Access::origin_fault(std::optional<std::string_view> origin,
@@ -107,7 +108,7 @@ std::string Access::origin_fault(std::optional<std::string_view> origin,
   const std::string own(host);
   if (*origin == "http://" + own || *origin == "https://" + own) return {};
   if (std::find(origins_.begin(), origins_.end(), *origin) != origins_.end()) return {};
-  return "pages of the origin '" + std::string(*origin) +
+  return "pages of the origin '" + detail::shown(*origin) +
          "' may not connect; add it to ViewOptions::origins if they shall";
 }
 
