@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <future>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -149,6 +150,21 @@ TEST_CASE("a name that was bound to this machine's address is refused") {
       "upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n"
       "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n");
   CHECK(upgrade.result_int() == 421);
+}
+
+TEST_CASE("what a client sends cannot command the terminal that prints a warning") {
+  FakePort port;
+  std::promise<std::string> warned;
+  auto warning = warned.get_future();
+  const View view(port,
+                  {.port = 0, .warn = [&](const std::string& text) { warned.set_value(text); }});
+  // C1 characters command terminals as ESC [ does, which HTTP forbids. 9Bh alone is not UTF-8.
+  CHECK(support::get(view.port(), "/",
+                     "Host: a\xc2\x9b\x9b"
+                     "31m\xc3\xa9\r\n")
+            .result_int() == 421);
+  CHECK(warning.get() ==
+        "view: refused: the host 'a??31m\xc3\xa9' is not a name of this server; use 127.0.0.1");
 }
 
 TEST_CASE("who does not know the token gets nothing but the code of the page") {

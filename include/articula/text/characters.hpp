@@ -102,8 +102,8 @@ struct TextCharacter {
   return "";
 }
 
-/// A text from outside as a message shows it. It is short, on one line, without control characters,
-/// which terminals may obey, and with the codes of characters that cannot be seen.
+/// A text from a file as a message shows it. It is short, on one line, without control characters,
+/// and with the codes of characters that cannot be seen.
 [[nodiscard]] inline std::string shown(std::string_view text) {
   constexpr std::size_t longest = 60;
   std::string result;
@@ -111,12 +111,11 @@ struct TextCharacter {
   while (taken < std::min(text.size(), longest)) {
     const TextCharacter character = first_character(text.substr(taken));
     taken += character.bytes.size();
-    const char32_t code = character.code;  // 0 where it is not UTF-8
-    const bool is_control = code < 0x20 || (code >= 0x7f && code < 0xa0);
-    if (!odd_name(code).empty()) {
-      result += "<" + code_text(code) + ">";
+    const auto first = static_cast<unsigned char>(character.bytes[0]);
+    if (!odd_name(character.code).empty()) {
+      result += "<" + code_text(character.code) + ">";
     } else {
-      result += is_control ? "?" : character.bytes;
+      result += first < 0x20 || first == 0x7f ? "?" : character.bytes;
     }
   }
   return taken < text.size() ? result + "..." : result;

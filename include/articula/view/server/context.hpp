@@ -6,6 +6,7 @@
 #include "articula/view/server/access.hpp"
 #include "articula/view/server/clients/broadcast.hpp"
 #include "articula/view/server/futures/futures_thread.hpp"
+#include "articula/view/server/printable.hpp"
 #include "articula/view/view_options.hpp"
 
 #include <atomic>
@@ -32,14 +33,16 @@ struct Context {
         futures(loop_port) {}
 
   /// Warns of something, at most once a second, so that a hostile client cannot fill a disk.
+  /// @param text  may contain what a client has sent
   void warn(const std::string& text) {
     const auto now = std::chrono::steady_clock::now();
     if (now - warned < std::chrono::seconds(1)) return;
     warned = now;
+    const std::string line = "view: " + printable(text);
     if (options.warn) {
-      options.warn("view: " + text);
+      options.warn(line);
     } else {
-      std::fprintf(stderr, "view: %s\n", text.c_str());
+      std::fprintf(stderr, "%s\n", line.c_str());
     }
   }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/server/http_session.hpp"
 
-#include "articula/text/characters.hpp"
 #include "articula/view/server/clients/files.hpp"
 #include "articula/view/server/websocket_session.hpp"
 
@@ -94,7 +93,7 @@ void HttpSession::got(Error error) {
   const auto target = parse_target(request.target());
   if (!target) return send(plain(request, http::status::bad_request, "The target is malformed."));
   if (auto refused = refusal(request, *target)) {
-    context_.warn("refused: " + std::string(articula::detail::trimmed(refused->body())));
+    context_.warn("refused: " + refused->body());
     return send(std::move(*refused));
   }
   if (beast::websocket::is_upgrade(request)) return upgrade(std::move(request));
