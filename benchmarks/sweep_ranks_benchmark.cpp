@@ -6,7 +6,7 @@
 // of its mean, and sends it. Rank 0 takes chunks one after the other, for the measured time, and sends
 // the next one. A message takes 20 us. Each rank has two chunks, as in continue_sweep_with_mpi. The
 // runs that rank 0 computes are left out. The efficiency is that of all ranks, 1 for a rank alone.
-#include <articula/futures/random_draw.hpp>
+#include <articula/sim/random_draw.hpp>
 #include <articula/sweep/jobs/chunk_packing.hpp>
 #include <articula/sweep/run_chunk.hpp>
 

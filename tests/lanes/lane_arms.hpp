@@ -32,25 +32,27 @@ inline constexpr double tolerance = 1e-7;
 inline constexpr double tolerance = 0;
 #endif
 
-/// A simulator that gets each command some cycles later.
+/// A simulator that gets each command some cycles later, or the one before instead.
 template <class R>
 class Delayed {
  public:
   using RobotType = R;
   static constexpr int joint_count = articula::joint_count<R>;
 
-  Delayed(Simulator<R> simulator, int delay)
-      : simulator_(std::move(simulator)), sent_(static_cast<std::size_t>(delay)) {}
+  Delayed(Simulator<R> simulator, int delay, const LostCommands& lost)
+      : simulator_(std::move(simulator)), sent_(static_cast<std::size_t>(delay)), lost_(lost) {}
   [[nodiscard]] Status activate() { return simulator_.activate(); }
   [[nodiscard]] Status deactivate() { return simulator_.deactivate(); }
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     return simulator_.read(state);
   }
   [[nodiscard]] Status write(const EffortCommand<joint_count>& command) noexcept {
-    if (sent_.empty()) return simulator_.write(command);
-    EffortCommand<joint_count>& oldest = sent_[count_++ % sent_.size()];
+    if (!lost_.contain(count_)) last_ = command;
+    const std::uint64_t count = count_++;
+    if (sent_.empty()) return simulator_.write(last_);
+    EffortCommand<joint_count>& oldest = sent_[count % sent_.size()];
     const EffortCommand<joint_count> arrived = oldest;
-    oldest = command;
+    oldest = last_;
     return simulator_.write(arrived);
   }
   [[nodiscard]] const R& robot() const { return simulator_.robot(); }
@@ -60,7 +62,9 @@ class Delayed {
  private:
   Simulator<R> simulator_;
   std::vector<EffortCommand<joint_count>> sent_;
-  std::size_t count_ = 0;
+  LostCommands lost_;
+  EffortCommand<joint_count> last_{};  ///< that is not lost
+  std::uint64_t count_ = 0;
 };
 
 /// What lanes differ in.
@@ -73,6 +77,7 @@ struct Differences {
   double resolution = 0;  ///< of encoders [rad]
   bool hostile = false;   ///< references of extreme size
   int delay = 0;          ///< highest [cycles]
+  double lost = 0;        ///< highest share of the commands
 };
 
 template <class R>
@@ -111,6 +116,7 @@ std::vector<LaneSetup<R>> random_setups(Random& random, const Differences& by) {
     setup.simulation.encoder_resolution.setConstant(by.resolution * random.integer(0, 2));
     setup.simulation.seed = static_cast<std::uint64_t>(random.integer(1, 1000));
     setup.delay = random.integer(0, by.delay);
+    if (by.lost > 0) setup.lost = {random.number(0, by.lost), setup.simulation.seed};
   }
   return setups;
 }
@@ -144,8 +150,8 @@ auto compare(unsigned seed, const Differences& by, int cycles) {
   const auto setups = random_setups<R>(random, by);
   Lanes lanes(setups, PidPlusGravity<R, symbolic::Pack<>>(stiff_gains<R>()));
   std::vector<Alone> alone;
-  for (const auto& [robot, options, delay] : setups) {
-    alone.emplace_back(Hardware(Simulator<VariedRobot<R>>(robot, options), delay),
+  for (const auto& [robot, options, delay, lost] : setups) {
+    alone.emplace_back(Hardware(Simulator<VariedRobot<R>>(robot, options), delay, lost),
                        PidPlusGravity<R>(stiff_gains<R>()));
   }
   struct {

@@ -44,6 +44,11 @@ TEST_CASE("Q2Ds in lanes take references of any size as one by one") {
   CHECK(seen.at_limit > 100);
 }
 
+TEST_CASE("Q2Ds in lanes lose commands of their own") {
+  support::compare<Q2d>(6, {.delay = 2, .lost = 0.5}, 1500);
+  support::compare<Q2d>(7, {.lost = 1}, 500);
+}
+
 TEST_CASE("Q2Ds in lanes have sensors and delays of their own") {
   support::compare<Q2d>(5, {.friction = 0.05, .noise = 1e-4, .resolution = 1e-4, .delay = 3}, 1500);
 }
@@ -165,6 +170,8 @@ TEST_CASE("Setups that cannot run are refused with the lane and the reason") {
   CHECK_THAT(refusal([](auto& all) { all[1].simulation.period = 2e-3; }),
              Contains("lane 1: period 0.002 s with 1 substeps differs from lane 0"));
   CHECK_THAT(refusal([](auto& all) { all[1].delay = -1; }), Contains("lane 1: delay -1"));
+  CHECK_THAT(refusal([](auto& all) { all[1].lost.share = 1.5; }),
+             Contains("lane 1: lost commands: the share 1.5 is not within 0 .. 1"));
   CHECK_THAT(refusal([](auto& all) { all[1].simulation.initial_position = {0, 4}; }),
              Contains("lane 1: simulator: initial_position 4 of joint"));
   CHECK(refusal([](auto&) {}) == "accepted");

@@ -169,7 +169,8 @@ TEST_CASE("runs have the same numbers in lanes as alone, and the same bits in an
                   {VariedQuantity::initial_position, {}, -0.1, 0.1},
                   {VariedQuantity::proportional, "elbow_active_joint", 0.5, 2},
                   {VariedQuantity::integral, {}, 0, 2},
-                  {VariedQuantity::derivative, {}, 0.5, 2}};
+                  {VariedQuantity::derivative, {}, 0.5, 2},
+                  {VariedQuantity::lost_commands, {}, 0, 0.5}};
   const ClosedLoopExperiment experiment(Q2d(), Q2d::pid_gains, make_for_lanes, options);
   const auto rows = rows_of(experiment, {.sampling = {.runs = 50}, .threads = 2, .chunk = 50});
   REQUIRE(rows.size() == 50);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <articula/futures/philox.hpp>
+#include <articula/sim/philox.hpp>
 #include <articula/sweep/sampling/samples.hpp>
 
 #include "catch.hpp"

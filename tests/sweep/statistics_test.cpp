@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <articula/futures/random_draw.hpp>
+#include <articula/sim/random_draw.hpp>
 #include <articula/sweep/statistics/metric_summary.hpp>
 
 #include "catch.hpp"

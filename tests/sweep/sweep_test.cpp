@@ -38,7 +38,8 @@ auto arms() {
                         {VariedQuantity::delay, {}, 0, 0.003},
                         {VariedQuantity::position_noise, {}, 0, 1e-4},
                         {VariedQuantity::encoder_resolution, "shoulder_active_joint", 0, 1e-3},
-                        {VariedQuantity::proportional, "elbow_active_joint", 0.5, 2}});
+                        {VariedQuantity::proportional, "elbow_active_joint", 0.5, 2},
+                        {VariedQuantity::lost_commands, {}, 0, 0.5}});
 }
 
 /// All bits of all rows.
@@ -97,7 +98,7 @@ TEST_CASE("a run is a loop of one's own, to the last bit") {
     const auto own = experiment.loop({number, row.seed, row.parameters});
     using Robot = VariedRobot<Q2d>;
     ControlLoop loop(DelayedCommands<Simulator<Robot>, EffortCommand<2>>(
-                         Simulator<Robot>(own.robot.value(), own.simulation), own.delay),
+                         Simulator<Robot>(own.robot.value(), own.simulation), own.delay, own.lost),
                      PidPlusGravity<Q2d>(own.gains));
     StepMetrics elbow(0, -0.2);
     double effort = 0;
@@ -165,6 +166,26 @@ TEST_CASE("a light, strongly damped arm takes shorter steps") {
   }
 }
 
+TEST_CASE("lost commands leave the drives what they had") {
+  const auto metric = [](double share, const char* name) {
+    const auto experiment = experiment_of({{VariedQuantity::lost_commands, {}, share, share}});
+    const Samples samples(experiment.parameters(), {.runs = 1});
+    const SweepRow row = run_once(experiment, samples, 0, experiment.metrics().size());
+    return row.metrics[detail::metric_index(experiment.metrics(), name)];
+  };
+  CHECK(metric(1, "elbow_active_joint.effort_peak") == 0);
+  // Each command acts for a mean of 1 / (1 - 0.9) periods, as a delay of some milliseconds.
+  CHECK(metric(0.9, "elbow_active_joint.overshoot") > metric(0, "elbow_active_joint.overshoot"));
+
+  int lost = 0;
+  constexpr int cycles = 10000;
+  for (std::uint64_t cycle = 0; cycle < cycles; ++cycle) {
+    lost += LostCommands{.share = 0.3, .seed = 7}.contain(cycle) ? 1 : 0;
+  }
+  // Of independent draws the count has a standard deviation of 46; six of them are one in 10^9.
+  CHECK(std::abs(lost - 3000) < 6 * 46);
+}
+
 TEST_CASE("an unstable loop is a result") {
   const auto experiment =
       experiment_of({{VariedQuantity::proportional, {}, 1, 1e6, Spacing::logarithmic, 5},
@@ -207,6 +228,8 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
   CHECK_THAT(refused({VariedQuantity::payload, {}, 0, 1}), Catch::Contains("needs the name"));
   CHECK_THAT(refused({VariedQuantity::delay, "elbow_active_joint", 0, 1}),
              Catch::Contains("whole loop"));
+  CHECK_THAT(refused({VariedQuantity::lost_commands, {}, 0, 1.5}),
+             Catch::Contains("'lost_commands': its range 0 .. 1.5 is not within 0 .. 1"));
   CHECK_THAT(refused({VariedQuantity::damping, {}, 0, 1e6}), Catch::Contains("with damping 1e+06"));
   CHECK_THAT(message([&] {
                static_cast<void>(experiment_of(

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/futures/future_options.hpp"
-#include "articula/futures/random_draw.hpp"
+#include "articula/sim/random_draw.hpp"
 #include "articula/model/canonical_mechanism.hpp"
 #include "articula/model/robot.hpp"
 

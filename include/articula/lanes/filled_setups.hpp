@@ -24,7 +24,7 @@ template <DescribedRobot R>
   }
   const auto& first = setups.front().simulation;
   for (std::size_t k = 0; k < setups.size(); ++k) {
-    const auto& [robot, options, delay] = setups[k];
+    const auto& [robot, options, delay, lost] = setups[k];
     const auto refuse = [k](MessageParts parts) {
       detail::refuse({"lane ", k, ": ", message_of(parts)});
     };
@@ -38,6 +38,7 @@ template <DescribedRobot R>
     }
     try {
       validate(robot, options);
+      validate(lost);
     } catch (const std::invalid_argument& error) {
       refuse({error.what()});
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/dynamics/varied_robot.hpp"
+#include "articula/sim/lost_commands.hpp"
 #include "articula/sim/simulator_options.hpp"
 
 namespace articula {
@@ -16,6 +17,7 @@ struct LaneSetup {
   SimulatorOptions<joint_count<R>> simulation{};
   /// Delay of the command, 0 .. 1 000 000 [cycles]. The drives give no effort before the first command.
   int delay = 0;
+  LostCommands lost{};  ///< before their delay
 };
 
 }  // namespace articula

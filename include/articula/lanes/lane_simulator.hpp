@@ -14,13 +14,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace articula {
 
-/// Simulates a robot of its own in each lane: other masses, friction, stops, start, sensors, delay.
-/// Each moves as `Simulator<VariedRobot<R>>` moves it alone, up to rounding. It is hardware of the
+/// Simulates a robot of its own in each lane: other masses, friction, stops, start, sensors, delay
+/// and lost commands. Each moves as `Simulator<VariedRobot<R>>` moves it alone, up to rounding. It is hardware of the
 /// described robot, which is what a controller knows. Drives take efforts.
 ///
 /// A step is computed for all lanes together. It is computed once more alone for each lane that has
@@ -74,7 +75,7 @@ class LaneSimulator {
     for (int j = 0; j < joint_count; ++j) {
       effort[j] = active_ ? select(finite, effort[j], S(0)) : S(0);
     }
-    advance(longest_delay_ > 0 ? delayed(effort) : effort);
+    advance(all_arrive_at_once_ ? effort : arrived(effort));
     if (!all_of(finite)) return Status::non_finite_command;
     return active_ ? Status::ok : Status::inactive;
   }
@@ -143,6 +144,7 @@ class LaneSimulator {
         substeps_(setups[0].simulation.substeps),
         sensors_(options_of(setups)) {
     alone_.reserve(setups.size());
+    std::size_t longest_delay = 0;
     for (int k = 0; k < lane_count; ++k) {
       const LaneSetup<R>& own = setups[static_cast<std::size_t>(k)];
       alone_.emplace_back(own.robot);
@@ -150,9 +152,11 @@ class LaneSimulator {
       set_lane(truth_.velocity, k, own.simulation.initial_velocity);
       moving_[k] = k < static_cast<int>(given.size()) ? -1 : 0;
       delays_[k] = static_cast<std::size_t>(own.delay);
-      longest_delay_ = std::max(longest_delay_, delays_[k]);
+      lost_[k] = own.lost;
+      longest_delay = std::max(longest_delay, delays_[k]);
+      all_arrive_at_once_ = longest_delay == 0 && all_arrive_at_once_ && !(own.lost.share > 0);
     }
-    sent_.assign(longest_delay_ + 1, Vector::Zero());
+    sent_.assign(longest_delay + 1, Vector::Zero());
     start_ = truth_.position;
     measured_ = choose(sensors_.measure(truth_), truth_);
   }
@@ -181,8 +185,13 @@ class LaneSimulator {
   }
 
   /// The efforts that reach the drives now.
-  [[nodiscard]] Vector delayed(const Vector& effort) noexcept {
+  [[nodiscard]] Vector arrived(const Vector& effort) noexcept {
+    const Vector before = sent_[(newest_ + sent_.size() - 1) % sent_.size()];
     sent_[newest_] = effort;
+    for (int k = 0; k < lane_count; ++k) {
+      if (lost_[k].contain(cycle_)) set_lane(sent_[newest_], k, lane_of(before, k));
+    }
+    ++cycle_;
     Vector arrived;
     for (int k = 0; k < lane_count; ++k) {
       const std::size_t at = (newest_ + sent_.size() - delays_[k]) % sent_.size();
@@ -230,9 +239,11 @@ class LaneSimulator {
   int substeps_;
   JointSensors<joint_count, S> sensors_;
   JointArray<std::size_t, lane_count> delays_{};
-  std::size_t longest_delay_ = 0;
-  std::vector<Vector> sent_{};  ///< the last efforts, in turn
+  JointArray<LostCommands, lane_count> lost_{};
+  bool all_arrive_at_once_ = true;  ///< without delay or loss in any lane
+  std::vector<Vector> sent_{};      ///< the last efforts, in turn
   std::size_t newest_ = 0;
+  std::uint64_t cycle_ = 0;
   Mask moving_{};
   Vector start_ = Vector::Zero();
   Vector external_ = Vector::Zero();

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Hardware whose commands arrive late.
+/// @file Hardware whose commands arrive late, or are lost.
 #pragma once
 
 #include "articula/core/hardware.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/sim/lost_commands.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace articula {
 
 /// A simulator whose drives get each command some periods later. Until the first one arrives, they
-/// get a command of zeros. Without a delay it is the simulator, to the last bit.
+/// get a command of zeros. In the place of a lost command they get the one before. Without delay and
+/// loss it is the simulator, to the last bit.
 /// @tparam H        the simulator
 /// @tparam Command  that is delayed
 template <class H, class Command>
@@ -24,8 +27,11 @@ class DelayedCommands {
 
   /// @param simulator  behind the delay
   /// @param delay      0 .. 1 000 000 [periods]
-  /// @throws std::invalid_argument if the delay is out of range
-  DelayedCommands(H simulator, int delay) : simulator_(std::move(simulator)) {
+  /// @param lost       commands that do not arrive
+  /// @throws std::invalid_argument if the delay or the share of lost commands is out of range
+  DelayedCommands(H simulator, int delay, const LostCommands& lost = {})
+      : simulator_(std::move(simulator)), lost_(lost) {
+    validate(lost);
     constexpr int longest = 1'000'000;
     if (delay < 0 || delay > longest) {
       detail::refuse({"delay: ", delay, " periods are not within 0 .. ", longest});
@@ -43,7 +49,8 @@ class DelayedCommands {
   }
   /// Real-time: yes.
   [[nodiscard]] Status write(const Command& command) noexcept {
-    waiting_[next_] = command;
+    const std::size_t before = next_ == 0 ? waiting_.size() - 1 : next_ - 1;
+    waiting_[next_] = lost_.contain(cycle_++) ? waiting_[before] : command;
     next_ = next_ + 1 == waiting_.size() ? 0 : next_ + 1;
     return simulator_.write(waiting_[next_]);
   }
@@ -56,6 +63,8 @@ class DelayedCommands {
   H simulator_;
   std::vector<Command> waiting_{};  ///< a ring; the place behind the newest has the oldest
   std::size_t next_ = 0;
+  LostCommands lost_;
+  std::uint64_t cycle_ = 0;
 };
 
 }  // namespace articula

@@ -75,7 +75,7 @@ class LaneLoops {
     arms_.reserve(loops.size());
     for (const VariedLoop<R>* own : loops) {
       const LanePort<R, S> port(*own->robot, period, *exchange_, static_cast<int>(arms_.size()));
-      arms_.emplace_back(Port(port, own->delay), make(own->gains));
+      arms_.emplace_back(Port(port, own->delay, own->lost), make(own->gains));
     }
   }
 

@@ -65,8 +65,10 @@ class LanesOfOneLoop {
   [[nodiscard]] static std::vector<LaneSetup<R>> setups_of(const Loops& loops) {
     std::vector<LaneSetup<R>> setups;
     for (const VariedLoop<R>* each : loops) {
-      setups.push_back(
-          {.robot = *each->robot, .simulation = each->simulation, .delay = each->delay});
+      setups.push_back({.robot = *each->robot,
+                        .simulation = each->simulation,
+                        .delay = each->delay,
+                        .lost = each->lost});
     }
     return setups;
   }

@@ -24,7 +24,8 @@ template <DynamicRobot R, Robot Simulated, class Make>
   using Controller = std::remove_cvref_t<decltype(make(own.gains))>;
   using Command = typename CheckedController<Controller, articula::joint_count<R>, double>::Command;
   using Delayed = DelayedCommands<Simulator<Simulated>, Command>;
-  ControlLoop arm(Delayed(Simulator<Simulated>(robot, own.simulation), own.delay), make(own.gains));
+  ControlLoop arm(Delayed(Simulator<Simulated>(robot, own.simulation), own.delay, own.lost),
+                  make(own.gains));
   Simulator<Simulated>& simulator = arm.hardware().simulator();
   RunWatch<R> watch(plan, simulator.true_state().position, effort_limits(robot));
   for (int cycle = 0;; ++cycle) {

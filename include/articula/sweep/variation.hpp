@@ -21,6 +21,7 @@ enum class VariedQuantity : unsigned char {
   friction,            ///< dry friction of a joint: a factor [1]
   added_friction,      ///< dry friction of a joint beside the described one [N m or N]
   delay,               ///< of the commands, rounded to whole periods [s]
+  lost_commands,       ///< share of the commands that do not arrive [1]
   position_noise,      ///< standard deviation of a joint's measurement [rad or m]
   velocity_noise,      ///< likewise [rad/s or m/s]
   encoder_resolution,  ///< of a joint [rad or m]
@@ -50,6 +51,7 @@ inline constexpr auto varied_quantities = std::to_array<VariedTraits>({
     {.name = "friction", .unit = "1"},
     {.name = "added_friction", .unit = "N m"},
     {.name = "delay", .unit = "s", .subject = VariedSubject::loop, .highest = 10},
+    {.name = "lost_commands", .unit = "1", .subject = VariedSubject::loop, .highest = 1},
     {.name = "position_noise", .unit = "rad"},
     {.name = "velocity_noise", .unit = "rad/s"},
     {.name = "encoder_resolution", .unit = "rad", .lowest = 0},

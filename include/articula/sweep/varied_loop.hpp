@@ -8,6 +8,7 @@
 #include "articula/futures/varied_model.hpp"
 #include "articula/model/canonical_mechanism.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/sim/lost_commands.hpp"
 #include "articula/sim/simulator_options.hpp"
 #include "articula/sweep/variation.hpp"
 
@@ -51,6 +52,7 @@ struct VariedLoop {
   JointPidGains<joint_count> gains{};          ///< of its controller
   SimulatorOptions<joint_count> simulation{};  ///< with noise and the seed of this run
   int delay = 0;                               ///< of the commands [periods]
+  LostCommands lost{};                         ///< commands that do not arrive
 };
 
 namespace detail {
@@ -115,6 +117,9 @@ void vary(Loop& loop, const PlacedVariation& placed, double value) {
     case delay:
       loop.delay = static_cast<int>(std::lround(value / simulation.period));
       return;
+    case lost_commands:
+      loop.lost.share = value;
+      return;
     default:
       break;
   }
@@ -165,7 +170,7 @@ template <DynamicRobot R>
                                         std::span<const PlacedVariation> variations,
                                         std::span<const double> values, std::uint64_t seed) {
   VariedLoop<R> loop = nominal;
-  loop.simulation.seed = seed;
+  loop.simulation.seed = loop.lost.seed = seed;
   bool changes_bodies = false;
   for (std::size_t k = 0; k < variations.size(); ++k) {
     vary(loop, variations[k], values[k]);

@@ -2,7 +2,7 @@
 /// @file A random order of numbers that needs no memory.
 #pragma once
 
-#include "articula/futures/random_draw.hpp"
+#include "articula/sim/random_draw.hpp"
 
 #include <bit>
 #include <cstdint>

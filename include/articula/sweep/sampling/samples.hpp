@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
-#include "articula/futures/random_draw.hpp"
+#include "articula/sim/random_draw.hpp"
 #include "articula/sweep/sampling/keyed_permutation.hpp"
 #include "articula/sweep/sampling/sweep_parameter.hpp"
 

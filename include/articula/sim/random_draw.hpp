@@ -2,7 +2,7 @@
 /// @file Random numbers that depend on their place alone.
 #pragma once
 
-#include "articula/futures/philox.hpp"
+#include "articula/sim/philox.hpp"
 
 #include <cstdint>
 
