@@ -83,13 +83,10 @@ if(TARGET articula::sweep AND ARTICULA_SWEPT_JOINTS)
     set(articula_loop_file ${PROJECT_BINARY_DIR}/articula_loops/make_experiment_${joints}.cpp)
     configure_file(${CMAKE_CURRENT_LIST_DIR}/articula/sweep/make_experiment.cpp.in ${articula_loop_file}
                    @ONLY)
-    set_source_files_properties(${articula_loop_file}
-                                PROPERTIES COMPILE_OPTIONS $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O1>)
     list(APPEND articula_sweep_files ${articula_loop_file})
   endforeach()
   add_library(articula_sweep_command OBJECT ${articula_sweep_files})
   target_include_directories(articula_sweep_command PRIVATE ${CMAKE_CURRENT_LIST_DIR}/articula)
-  target_compile_options(articula_sweep_command PRIVATE $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O0>)
   target_link_libraries(articula_sweep_command PRIVATE articula::sweep articula::recording articula::config
                                                        articula::urdf CLI11::CLI11)
   list(JOIN ARTICULA_SWEPT_JOINTS "," articula_swept_joints)
