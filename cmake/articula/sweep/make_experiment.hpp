@@ -25,7 +25,8 @@ AnyExperiment make_experiment(const SweepPlan& plan) {
                             articula::PidPlusGravity<Robot>, articula::ComputedTorque<Robot>>;
   const auto robot = std::make_shared<const Robot>(articula::load_urdf<N>(plan.robot.value()));
   const PlannedController& planned = plan.controllers.controllers.front();
-  const auto gains = articula::load_pid_gains(*robot, plan.controllers.source, planned.section).gains;
+  const auto gains =
+      articula::load_pid_gains(*robot, plan.controllers.source, planned.section).gains;
   const auto make = [robot, kind = planned.kind](const articula::JointPidGains<N>& own) -> Any {
     switch (kind) {
       case ControllerKind::pid:
