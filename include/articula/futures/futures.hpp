@@ -9,9 +9,9 @@
 #include "articula/dynamics/varied_robot.hpp"
 #include "articula/futures/future_end.hpp"
 #include "articula/futures/future_options.hpp"
-#include "articula/sim/random_draw.hpp"
 #include "articula/futures/varied_model.hpp"
 #include "articula/loop/command_history.hpp"
+#include "articula/sim/random_draw.hpp"
 #include "articula/sim/simulator.hpp"
 
 #include <algorithm>

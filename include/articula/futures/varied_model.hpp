@@ -3,9 +3,9 @@
 #pragma once
 
 #include "articula/futures/future_options.hpp"
-#include "articula/sim/random_draw.hpp"
 #include "articula/model/canonical_mechanism.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/sim/random_draw.hpp"
 
 #include <cstdint>
 #include <type_traits>
