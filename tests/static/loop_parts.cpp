@@ -54,6 +54,9 @@ struct Limp {
 #else
   void start(const ControlInput<N>&) START_NOEXCEPT {}
 #endif
+#ifdef BRAKE_MAY_THROW
+  Command<N> brake(const ControlInput<N>&) { return {}; }
+#endif
 #ifdef UPDATE_OF_A_STATE
   Command<N> update(const JointState<N>&, const JointReference<N>&, double) noexcept { return {}; }
 #else

@@ -117,8 +117,16 @@ concept Controller =
 /// cannot brake. A controller without `brake` is not called in such a cycle.
 template <class C, int N, class S = double>
 concept Brakes = requires(C& controller, const ControlInput<N, S>& input) {
-  { controller.brake(input) } noexcept;
+  { controller.brake(input) } noexcept -> std::convertible_to<Outcome<CommandOf<C, N, S>>>;
 };
+
+namespace detail {
+
+/// A type with a member `brake` that does not fit would never be asked to brake.
+template <class C, int N, class S = double>
+concept BrakeFits = Brakes<C, N, S> || !requires { &C::brake; };
+
+}  // namespace detail
 
 /// Starts a controller, if it has a `start`. Real-time: yes, if that is.
 /// @param input  with no cut

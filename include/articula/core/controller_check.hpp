@@ -21,7 +21,10 @@ struct CheckedUpdate {
   static constexpr bool gives_command = JointCommand<Result, N, S>;
   // One that is no command is replaced, so that the message below is the first.
   using Command = std::conditional_t<gives_command, Result, EffortCommand<N, S>>;
-  static_assert(update_is_noexcept<C, N, S>(), "update of the controller must be noexcept");
+  static_assert(
+      update_is_noexcept<C, N, S>(),
+      "update of the controller must be noexcept and take a const ControlInput<N>& (a copy "
+      "is not noexcept), see core/controller.hpp");
   static_assert(gives_command,
                 "update of the controller must return a command for N joints by value, such as "
                 "EffortCommand<N>, or an Outcome of one, see core/controller.hpp");
@@ -43,6 +46,10 @@ struct CheckedController : CheckedUpdate<C, N, S> {
                 "start of the controller must take a const ControlInput<N>& for the N joints of "
                 "this robot, see core/controller.hpp");
   static_assert(start_is_noexcept<C, N, S>(), "start of the controller must be noexcept");
+  static_assert(
+      BrakeFits<C, N, S>,
+      "brake of the controller must be noexcept, take a const ControlInput<N>& and return "
+      "what update returns, see core/controller.hpp");
 };
 
 }  // namespace articula::detail

@@ -112,7 +112,7 @@ template <Robot SimulatedRobot, class C, class Command>
     const JointLimits& limits = model_of(robot).joints[j].limits;
     position[j] = std::clamp(position[j], limits.lower, limits.upper);
   }
-  simulator.place(position, start.state.velocity);
+  simulator.set_state(position, start.state.velocity);
   CommandHistory<Command> history;
   history.start_with(start.command, start.state, Held::load);
   history.begin();

@@ -21,7 +21,8 @@ template <class HardwareType>
     refuse({"loop: period ", period, " s is not a positive number"});
   }
   if (asked && *asked != period) {
-    refuse({"loop: period ", *asked, " s, but the hardware has ", period, " s"});
+    refuse({"loop: period ", *asked, " s, but the hardware has ", period,
+            " s; leave the loop's period out, or set the hardware's"});
   }
   return period;
 }

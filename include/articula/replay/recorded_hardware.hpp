@@ -46,7 +46,7 @@ class RecordedHardware {
     requires DynamicRobot<R>
   {
     simulator_.emplace(simulator);
-    simulator_->place(record_.state.position, record_.state.velocity);
+    simulator_->set_state(record_.state.position, record_.state.velocity);
   }
   [[nodiscard]] bool is_simulated() const noexcept { return simulator_.has_value(); }
   /// The simulator, once there is one.

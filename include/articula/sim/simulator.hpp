@@ -121,8 +121,8 @@ class Simulator {
   /// @param position  finite, within the joints' limits [rad or m], N x 1
   /// @param velocity  finite [rad/s or m/s], N x 1
   /// Real-time: yes.
-  void place(const JointVector<joint_count, S>& position,
-             const JointVector<joint_count, S>& velocity) noexcept {
+  void set_state(const JointVector<joint_count, S>& position,
+                 const JointVector<joint_count, S>& velocity) noexcept {
     truth_ = {position, velocity, JointVector<joint_count, S>::Zero()};
     sensors_ = JointSensors<joint_count, S>(options_);
     measured_ = sensors_.measure(truth_);

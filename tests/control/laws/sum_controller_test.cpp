@@ -155,3 +155,39 @@ TEST_CASE("an overflow of an unlimited drive is over in the next cycle") {
   static_cast<void>(pid.update({{}, reference_of(support::largest), 1.0}));
   CHECK(is_finite(pid.update({{}, reference_of(0), 1e-3})));
 }
+
+namespace {
+
+/// A law of somebody else, which takes back what was cut off and has no `start`.
+struct Tracking {
+  JointVector<2> integral{0, 0};
+
+  JointVector<2> output(const ControlInput<2>& in) noexcept {
+    integral -= 0.1 * in.cut;
+    return in.reference.position + integral;
+  }
+};
+
+/// Gives the reference's velocity on the first joint, of whatever size.
+struct Push {
+  JointVector<2> output(const ControlInput<2>& in) noexcept {
+    return {in.reference.velocity[0], 0};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a law whose neighbour gives NaN or overflows for one cycle has nothing of it later") {
+  for (const double bad : {support::not_a_number, support::infinity, -support::infinity}) {
+    CAPTURE(bad);
+    EffortController<Q2d, Tracking, Push> controller{Q2d(), {}, {}};
+    JointReference<2> reference;
+    reference.position = {0.5, 100};  // the second joint's limit cuts this
+    reference.velocity = {bad, 0};
+    const auto command = controller.update({{}, reference, 1e-3});
+    CHECK(command.effort[1] == 13.62);
+    reference.velocity.setZero();
+    reference.position.setConstant(0.25);
+    CHECK(controller.update({{}, reference, 1e-3}).effort == JointVector<2>(0.25, 0.25));
+  }
+}

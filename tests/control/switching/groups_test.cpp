@@ -276,8 +276,10 @@ TEST_CASE("joints in two groups, in none, or unknown are refused by name") {
                     Contains("'elbow_active_joint' of group 'e' is in group 's' already"));
   CHECK_THROWS_WITH(make({{{"s", {shoulder, shoulder}}, {"e", {elbow}}}}),
                     Contains("'shoulder_active_joint' of group 's' is in group 's' already"));
-  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"e", {"wrist"}}}}), Contains("'wrist'"));
-  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"", {elbow}}}}), Contains("group 2 has no name"));
+  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"e", {"wrist"}}}}),
+                    Contains("groups: group 'e': ") && Contains("'wrist'"));
+  CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"", {elbow}}}}),
+                    Contains("group 2 has no name; expected 2 groups, one for each controller"));
   CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"s", {elbow}}}}), Contains("two are named 's'"));
   for (const int bad : {0, -1}) {
     CHECK_THROWS_WITH(make({{{"s", {shoulder}}, {"e", {elbow}, bad}}}),

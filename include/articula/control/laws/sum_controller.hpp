@@ -5,7 +5,9 @@
 #include "articula/control/laws/command_range.hpp"
 #include "articula/control/laws/control_law.hpp"
 #include "articula/control/laws/valid_gains.hpp"
+#include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
+#include "articula/core/scalar.hpp"
 #include "articula/model/robot.hpp"
 
 #include <cstddef>
@@ -76,6 +78,11 @@ class SumController {
       // has a direction, as any that is too large.
       command[j] = range_.clamp(total[j], j);
       clip_[j] = total[j] - command[j];
+    }
+    // A law integrates what was cut: neither a failed command nor an overflow may stay in its memory.
+    const MaskOf<Scalar> finite = is_finite(clip_);
+    if (!all_of(finite)) {
+      for (int j = 0; j < joint_count; ++j) clip_[j] = select(finite, clip_[j], Scalar(0));
     }
     return {command};
   }

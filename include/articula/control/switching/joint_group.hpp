@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <stdexcept>
 #include <vector>
 
 namespace articula {
@@ -19,6 +20,20 @@ struct JointGroup {
   std::vector<Name> joints{};
   int divisor = 1;  ///< its controller is asked in every cycle of this number, >= 1
 };
+
+namespace detail {
+
+/// The index of a joint that a group names.
+template <Robot R>
+[[nodiscard]] int joint_of_group(const R& robot, const JointGroup& group, const Name& joint) {
+  try {
+    return joint_index(robot, joint.view());
+  } catch (const std::invalid_argument& error) {
+    refuse({"groups: group '", group.name.view(), "': ", error.what()});
+  }
+}
+
+}  // namespace detail
 
 /// The place of each joint's group in the list.
 /// @param robot   whose joints these are
@@ -35,7 +50,10 @@ template <Robot R, std::size_t GroupCount>
   owners.fill(GroupCount);
   for (std::size_t g = 0; g < GroupCount; ++g) {
     const JointGroup& group = groups[g];
-    if (group.name.empty()) detail::refuse({"groups: group ", g + 1, " has no name"});
+    if (group.name.empty()) {
+      detail::refuse({"groups: group ", g + 1, " has no name; expected ", GroupCount,
+                      " groups, one for each controller, each with a name"});
+    }
     for (std::size_t other = 0; other < g; ++other) {
       if (groups[other].name == group.name) {
         detail::refuse({"groups: two are named '", group.name.view(), "'"});
@@ -46,7 +64,7 @@ template <Robot R, std::size_t GroupCount>
           {"groups: divisor ", group.divisor, " of group '", group.name.view(), "' is below 1"});
     }
     for (const Name& joint : group.joints) {
-      std::size_t& owner = owners[joint_index(robot, joint.view())];
+      std::size_t& owner = owners[detail::joint_of_group(robot, group, joint)];
       if (owner != GroupCount) {
         detail::refuse({"groups: joint '", joint.view(), "' of group '", group.name.view(),
                         "' is in group '", groups[owner].name.view(), "' already"});

@@ -19,8 +19,8 @@ namespace articula {
 /// joints' offsets, and keep the power:
 /// actuator_effort . actuator_velocity = joint_effort . joint_velocity.
 /// Write one for gearing that SimpleTransmission, DifferentialTransmission and FourBarTransmission do
-/// not cover; TransmittedHardware takes it. For one gear between motor and joint in a CAN drive, use
-/// the scales of the drive instead.
+/// not cover. TransmittedHardware takes it, and refuses it if its maps do not agree. For one gear
+/// between motor and joint in a CAN drive, use the scales of the drive instead.
 ///
 /// - `size` is the number of joints, and of actuators;
 /// - `joint_position(q_a)`, `joint_velocity(v_a)`, `joint_effort(effort_a)` convert from actuators to

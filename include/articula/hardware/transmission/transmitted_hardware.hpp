@@ -8,6 +8,7 @@
 #include "articula/core/refuse.hpp"
 #include "articula/hardware/transmission/hardware_adapter.hpp"
 #include "articula/hardware/transmission/transmission.hpp"
+#include "articula/hardware/transmission/transmission_check.hpp"
 #include "articula/model/robot.hpp"
 
 #include <algorithm>
@@ -63,7 +64,7 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
   /// @param hardware  of the actuators
   /// @param gearings  one for each of the transmissions
   /// @throws std::invalid_argument with the joint or actuator and the value, if a name is unknown or
-  ///         occurs twice, or a figure is out of range
+  ///         occurs twice, a figure is out of range, or a transmission's maps do not agree
   explicit TransmittedHardware(ActuatorHardware hardware, const Gearing<Transmissions>&... gearings)
     requires DescribedRobot<R>
       : TransmittedHardware(R(), std::move(hardware), gearings...) {}
@@ -196,6 +197,7 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
                       " leave no range; expected lower <= upper, velocity and effort >= 0"});
     }
     validate(gearing.transmission, where);
+    detail::check_maps(gearing.transmission, where);
     return part;
   }
 

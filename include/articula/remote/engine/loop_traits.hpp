@@ -21,7 +21,7 @@ using HardwareOf = std::remove_cvref_t<decltype(std::declval<LoopType&>().hardwa
 template <class LoopType>
 inline constexpr bool is_simulated =
     requires(HardwareOf<LoopType>& hardware, const JointVector<LoopType::joint_count>& numbers) {
-      hardware.place(numbers, numbers);
+      hardware.set_state(numbers, numbers);
       hardware.set_external_effort(numbers);
       hardware.true_state();
     };

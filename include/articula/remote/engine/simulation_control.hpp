@@ -79,13 +79,13 @@ class SimulationControl {
       if constexpr (is_supervised<LoopType>) {
         const bool was_active = modes_.active() || modes_.mode() == LoopMode::starting;
         static_cast<void>(loop_.stop());
-        hardware.place(wish.position, rest);
+        hardware.set_state(wish.position, rest);
         if (was_active) return modes_.activate(own);
       } else {
         // A cycle without hardware makes the loop start its controller again, without a memory.
         static_cast<void>(hardware.deactivate());
         static_cast<void>(loop_.update());
-        hardware.place(wish.position, rest);
+        hardware.set_state(wish.position, rest);
         static_cast<void>(hardware.activate());
         loop_.reference() = {.position = wish.position};
       }
