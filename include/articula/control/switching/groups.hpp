@@ -235,8 +235,7 @@ class Groups : public ControllerTuple<Controllers...> {
   static void for_each_switch(auto& groups, auto function) noexcept {
     groups.for_each([&](auto& controller, std::size_t g) noexcept {
       using C = std::remove_cvref_t<decltype(controller)>;
-      constexpr bool has_switch = detail::switch_size<C> != 0;
-      if constexpr (has_switch) function(switch_in(controller), g);
+      if constexpr (detail::switch_size<C> != 0) function(switch_in(controller), g);
     });
   }
 
