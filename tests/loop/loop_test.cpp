@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop when all goes well, and its set-up when it does not.
 #include <articula/articula.hpp>
+#include <articula/hardware/can/can_fault.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <cmath>
@@ -261,6 +262,16 @@ TEST_CASE("hardware that cannot be activated is refused") {
   CHECK_THROWS_AS(FussyLoop(hardware, {}), std::runtime_error);
   CHECK_THROWS_WITH(FussyLoop(hardware, {}), Contains("activated"));
   CHECK(*hardware.activations == 2);
+  // The loop has the hardware, so its message tells the hardware's fault.
+  struct Drive : Fussy {
+    [[nodiscard]] CanFault fault() const noexcept {
+      return {.cause = CanCause::no_activation, .joint = 1};
+    }
+  };
+  Drive drive;
+  drive.activation = Status::hardware_fault;
+  using DriveLoop = Loop<Drive, support::ConstantEffort>;
+  CHECK_THROWS_WITH(DriveLoop(drive, {}), Contains("activated: ") && Contains(": joint 1"));
 }
 
 TEST_CASE("a simulator dictates the period") {

@@ -11,6 +11,7 @@
 #include <articula/loop/loop.hpp>
 #include <articula/loop/supervision/supervised_loop.hpp>
 #include <articula/robots/q2d.hpp>
+#include <articula/robots/ur10.hpp>
 
 #include <array>
 #include <concepts>
@@ -100,6 +101,9 @@ int main() {
   Loop of_any_robot{Drives(), Limp<Q2d>(), 2e-3};
   static_assert(std::same_as<decltype(of_one_robot)::ControllerType, LimpArm>);
   static_assert(std::same_as<decltype(of_any_robot)::ControllerType, Limp<Q2d>>);
+#ifdef CONTROLLER_OF_ANOTHER_ROBOT
+  Loop mistake{Drives(), Pid<Ur10>(JointPidGains<6>())};
+#endif
 #ifdef FUNCTION_MAY_THROW
   Loop mistake{Drives(), [](const ControlInput<2>&) { return EffortCommand<2>(); }};
 #endif

@@ -305,6 +305,27 @@ TEST_CASE("a part is looked at for its own joints, and at its own rate") {
   CHECK_THAT(groups(10).front(), Contains(std::string(names[1])) && Contains("period of 0.01 s"));
 }
 
+TEST_CASE("joints without gains beside joints with gains are named") {
+  const auto notices = [](const JointPidGains<6>& gains) {
+    return gain_notices(Ur10(), PidPlusGravity<Ur10>(gains), JointVector<6>::Zero(), period);
+  };
+  const PidGains some{.proportional = 1, .derivative = 0.1};
+  REQUIRE(notices({some, some, some, some}).size() == 1);
+  CHECK(
+      notices({some, some, some, some}).front() ==
+      "no feedback moves joint 'wrist_2_joint' and 'wrist_3_joint': its gains are 0. Remedy: give "
+      "gains for each joint.");
+  CHECK(notices({}).empty());
+  CHECK(notices({some, some, some, some, some, PidGains{.derivative = 0.1}}).empty());
+  // Each group has a controller for the whole robot, of which its own joints count.
+  const auto names = joint_names(Q2d());
+  const JointPidGains<2> first{some, {}}, second{PidGains{}, some};
+  const Groups<Q2d, Pid<Q2d>, Pid<Q2d>> groups(
+      {{{"one", {Name(names[0])}}, {"other", {Name(names[1])}}}}, Pid<Q2d>(first),
+      Pid<Q2d>(second));
+  CHECK(gain_notices(Q2d(), groups, JointVector<2>::Zero(), period).empty());
+}
+
 TEST_CASE("the ready robots' own gains need no notice") {
   CHECK(Loop<Q2dSim, PidPlusGravity>().notices().empty());
   CHECK(Loop<Q2dSim, Bypass>().notices().empty());

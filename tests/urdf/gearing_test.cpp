@@ -105,7 +105,7 @@ TEST_CASE("Transmissions that are missing or make no sense are refused, and name
       "<transmission name=\"stuck\"><actuator name=\"a\"/><joint name=\"pivot\"/>"
       "<mechanicalReduction>0</mechanicalReduction></transmission>");
   CHECK_THROWS_WITH(gearing_of<SimpleTransmission>(description, "shoulder"),
-                    Contains("'shoulder' does not exist"));
+                    Contains("'shoulder' does not exist; the file has 'stuck'"));
   CHECK_THROWS_WITH(gearing_of<SimpleTransmission>(description, "stuck"),
                     Contains("'stuck'") && Contains("reduction 0"));
   CHECK_THROWS_WITH(described_with("<transmission name=\"t\"><actuator name=\"a\"/>"

@@ -12,6 +12,16 @@
 
 namespace articula::detail {
 
+/// Whether a controller that has a number of joints has that of the robot.
+template <class C, int N>
+[[nodiscard]] consteval bool is_for_joints() {
+  if constexpr (requires { C::joint_count; }) {
+    return C::joint_count == N;
+  } else {
+    return true;
+  }
+}
+
 /// What is asserted of a type that can be called.
 /// @tparam N  number of joints
 /// @tparam S  type of a number
@@ -32,7 +42,9 @@ struct CheckedUpdate {
 template <class C, int N, class S>
 struct CheckedUpdate<C, N, S, false> {
   using Command = EffortCommand<N, S>;  // so that the message below is the first
-  static_assert(HasUpdate<C, N, S>,
+  static_assert(is_for_joints<C, N>(),
+                "the controller's joint_count is not that of this robot: it is for another robot");
+  static_assert(HasUpdate<C, N, S> || !is_for_joints<C, N>(),
                 "the controller has no update(const ControlInput<N>&) for the N joints of this "
                 "robot, see core/controller.hpp");
 };
@@ -42,7 +54,7 @@ struct CheckedUpdate<C, N, S, false> {
 /// @tparam S  type of a number
 template <class C, int N, class S = double>
 struct CheckedController : CheckedUpdate<C, N, S> {
-  static_assert(StartFits<C, N, S>,
+  static_assert(StartFits<C, N, S> || !is_for_joints<C, N>(),
                 "start of the controller must take a const ControlInput<N>& for the N joints of "
                 "this robot, see core/controller.hpp");
   static_assert(start_is_noexcept<C, N, S>(), "start of the controller must be noexcept");

@@ -10,7 +10,7 @@
 #include "articula/loop/command_history.hpp"
 #include "articula/loop/cycle_input.hpp"
 #include "articula/loop/loop_parts.hpp"
-#include "articula/loop/loop_period.hpp"
+#include "articula/loop/loop_set_up.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/tuning/gain_notices.hpp"
 
@@ -99,13 +99,12 @@ class ControlLoop {
   ///                    none
   /// @throws std::invalid_argument if the period is not a positive number, or not that which the
   ///         hardware dictates
-  /// @throws std::runtime_error if the hardware cannot be activated
+  /// @throws std::runtime_error if the hardware cannot be activated, with its fault
   ControlLoop(HardwareType hardware, C controller, std::optional<double> period = {})
       : hardware_(std::move(hardware)),
         controller_(std::move(controller)),
         period_(detail::loop_period(hardware_, period)) {
-    if (hardware_.activate() != Status::ok)
-      throw std::runtime_error("loop: hardware cannot be activated");
+    detail::activate(hardware_);
     input_.read = hardware_.read(state_);
     const bool known = input_.read == Status::ok && all_of(is_finite(state_.position));
     initial_position_ = known ? state_.position : Vector(Vector::Constant(unknown));

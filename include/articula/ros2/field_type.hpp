@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How ROS calls the type of a field.
+/// @file The names of C++ types as fields of ROS messages.
 #pragma once
 
 #include "articula/ros2/fields.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The interface of what a sweep runs many times.
+/// @file The interface of an experiment, which a sweep runs many times.
 #pragma once
 
 #include "articula/futures/future_end.hpp"

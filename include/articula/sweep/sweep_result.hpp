@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a sweep has found.
+/// @file The runs of a sweep, summarised: quantiles and the worst runs.
 #pragma once
 
 #include "articula/core/finite.hpp"

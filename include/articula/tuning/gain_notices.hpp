@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Notices about gains that make a joint unstable, before the robot moves.
+/// @file Notices about gains that make a joint unstable or are missing, before the robot moves.
 #pragma once
 
 #include "articula/control/laws/part_scope.hpp"
@@ -134,12 +134,39 @@ struct SampledJoint {
                      " s. Remedy: ", remedies(joint), "."});
 }
 
+/// Whether a joint has gains that are not 0.
+template <class Part>
+[[nodiscard]] bool has_gains(const Part& part, int joint) {
+  const SampledFeedback law = part.sampled_feedback(static_cast<std::size_t>(joint));
+  return law.proportional != 0 || law.integral != 0 || law.derivative != 0;
+}
+
+/// Adds the joints without gains beside joints with gains: a list may have been too short.
+template <Robot R, class Part>
+void add_missing_gains(const R& robot, const Part& part, const PartScope<joint_count<R>>& scope,
+                       std::vector<std::string>& notices) {
+  std::vector<std::string> without;
+  bool some = false;
+  for (int j = 0; j < joint_count<R>; ++j) {
+    if (scope.joints[j] == 0) continue;
+    if (has_gains(part, j)) {
+      some = true;
+    } else {
+      without.push_back(message_of({"'", model_of(robot).joints[j].name.view(), "'"}));
+    }
+  }
+  if (!some || without.empty()) return;
+  notices.push_back("no feedback moves joint " + in_words(without, " and ") +
+                    ": its gains are 0. Remedy: give gains for each joint.");
+}
+
 /// Adds the notices of a part of a controller, and of the parts that it consists of.
 template <Robot R, class Part>
 void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_count<R>>& scope,
                       const JointVector<joint_count<R>>& q, double period,
                       std::vector<std::string>& notices) {
   if constexpr (requires { part.sampled_feedback(std::size_t{}); }) {
+    add_missing_gains(robot, part, scope, notices);
     for (int j = 0; j < joint_count<R>; ++j) {
       if (scope.joints[j] == 0) continue;
       SampledJoint joint{.plant = {},
@@ -164,7 +191,8 @@ void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_co
 
 }  // namespace detail
 
-/// Notices about a controller's gains, a line each: which joints they make unstable, and remedies.
+/// Notices about a controller's gains, a line each: which joints they make unstable, which joints
+/// have none beside others that have, and remedies.
 /// A joint is unstable if its spectral_radius under its law is above 1. Each joint is checked
 /// alone, with viscous damping, and with its inertia while the other joints are free.
 ///

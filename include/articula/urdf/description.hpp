@@ -157,7 +157,8 @@ class UrdfDescription {
                     detail::fault_text(fault, contents_.links, contents_.joints) + advice(fault));
   }
 
-  /// The contents. Real-time: yes.
+  /// The contents, which end with this description: a loop over them needs one with a name.
+  /// Real-time: yes.
   [[nodiscard]] const UrdfContents& operator*() const noexcept { return contents_; }
   [[nodiscard]] const UrdfContents* operator->() const noexcept { return &contents_; }
 

@@ -39,7 +39,9 @@ template <Transmission T>
   const std::string where = description->file + ": transmission '" + std::string(name) + "'";
   const auto found = std::ranges::find(description->transmissions, name, &UrdfTransmission::name);
   if (found == description->transmissions.end()) {
-    detail::refuse({where, " does not exist"});
+    std::string known;
+    for (const auto& each : description->transmissions) known += " '" + each.name + "'";
+    detail::refuse({where, " does not exist; the file has", known.empty() ? " none" : known});
   }
   // The last part of, for example, "transmission_interface/SimpleTransmission".
   const std::string type = found->type.substr(found->type.find_last_of("/:") + 1);

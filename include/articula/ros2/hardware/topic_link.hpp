@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a TopicHardware does in the thread of its transport, and its exchange with the loop.
+/// @file The topics of a TopicHardware, read and written outside the loop's thread.
 #pragma once
 
 #include "articula/core/joint_command.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a server of parameters asks for: their values, and to change them.
+/// @file The interface of a node's parameters: reading and changing their values.
 #pragma once
 
 #include "articula/ros2/messages/rcl_interfaces.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What is known of a loop: its last cycle, its situation, the last references.
+/// @file A loop's last cycle, situation and references, as the bridge read them.
 #pragma once
 
 #include "articula/remote/port.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a reader or writer of DDS is made from.
+/// @file The topic, type and quality of service of a reader or writer of DDS.
 #pragma once
 
 #include "articula/ros2/quality_of_service.hpp"

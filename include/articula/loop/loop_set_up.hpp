@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The period of a loop.
+/// @file The period of a loop, and the activation of its hardware.
 #pragma once
 
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/core/status.hpp"
 
 #include <optional>
+#include <stdexcept>
+#include <string>
 
 namespace articula::detail {
 
@@ -25,6 +28,20 @@ template <class HardwareType>
             " s; leave the loop's period out, or set the hardware's"});
   }
   return period;
+}
+
+/// Activates hardware that a loop has taken. It ends with the exception, so the exception tells its
+/// fault.
+/// @throws std::runtime_error if the hardware cannot be activated
+template <class HardwareType>
+void activate(HardwareType& hardware) {
+  const Status status = hardware.activate();
+  if (status == Status::ok) return;
+  std::string fault(to_string(status));
+  if constexpr (requires { fault = describe(hardware.fault()); })
+    fault = describe(hardware.fault());
+  throw std::runtime_error("loop: the hardware cannot be activated: " + fault +
+                           " (see docs/hardware.md)");
 }
 
 }  // namespace articula::detail
