@@ -150,6 +150,34 @@ TEST_CASE("a wrong number of the controller never reaches the hardware") {
   }
 }
 
+TEST_CASE("a wrong number that a controller writes into an outcome is a failed command") {
+  double wrong = 0;
+  const auto control = [&](const ControlInput<2>& in) noexcept {
+    Outcome<EffortCommand<2>> outcome(EffortCommand<2>{gravity(TiltedQ2d(), in.state.position)});
+    outcome.command.effort[1] += wrong;
+    return outcome;
+  };
+  struct Controller {
+    decltype(control) control_;
+    Outcome<EffortCommand<2>> update(const ControlInput<2>& in) noexcept { return control_(in); }
+    Outcome<EffortCommand<2>> brake(const ControlInput<2>& in) noexcept { return control_(in); }
+  };
+  for (const double number : wrong_numbers) {
+    for (const bool brakes : {false, true}) {
+      CAPTURE(number, brakes);
+      wrong = 0;
+      ControlLoop loop{arm(), Controller{control}};
+      REQUIRE(loop.update() == Status::ok);
+      wrong = number;
+      if (brakes) loop.reference().position[0] = not_a_number;
+      CHECK(loop.update() == (brakes ? Status::non_finite_reference : Status::non_finite_command));
+      CHECK(loop.command().effort == holding_effort());
+      CHECK(loop.hardware().written.effort == holding_effort());
+      CHECK_FALSE(loop.hardware().was_given_non_finite);
+    }
+  }
+}
+
 TEST_CASE("states at the ends of the numbers are survived") {
   for (const double huge : {support::largest, -support::largest, 1e300, support::smallest}) {
     CAPTURE(huge);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How to write a controller of one's own, and how a loop calls it.
+/// @file The concept of a controller, to write one of your own, and its calls by a loop.
 #pragma once
 
 #include "articula/core/control_input.hpp"
@@ -67,6 +67,17 @@ template <class Command>
 struct CommandIn<Outcome<Command>> {
   using Type = Command;
 };
+
+/// The outcome of a call. The command of an Outcome may have changed since that was made, so it is
+/// looked at once more.
+template <class Command>
+[[nodiscard]] Outcome<Command> checked(const Command& command) noexcept {
+  return command;
+}
+template <class Command>
+[[nodiscard]] Outcome<Command> checked(const Outcome<Command>& outcome) noexcept {
+  return {outcome.command, outcome.verdict};
+}
 
 /// Cycles in a row without a call over which a controller's memory is kept.
 inline constexpr int borne_cycles = 3;
@@ -139,7 +150,7 @@ void start_controller(C& controller, const ControlInput<N, S>& input) noexcept {
 template <class C, int N, class S>
 [[nodiscard]] Outcome<CommandOf<C, N, S>> update_controller(
     C& controller, const ControlInput<N, S>& input) noexcept {
-  return detail::called(controller, input);
+  return detail::checked(detail::called(controller, input));
 }
 
 /// Lets a controller brake the joints. Real-time: yes, if its `brake` is.
@@ -149,7 +160,7 @@ template <class C, int N, class S>
 [[nodiscard]] Outcome<CommandOf<C, N, S>> brake_controller(
     C& controller, const ControlInput<N, S>& input) noexcept {
   if constexpr (Brakes<C, N, S>) {
-    return controller.brake(input);
+    return detail::checked(controller.brake(input));
   } else {
     return {};
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How to connect drives and sensors of one's own to a loop.
+/// @file The concept of hardware, to connect drives and sensors of your own to a loop.
 #pragma once
 
 #include "articula/core/joint_command.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What one lane simulates.
+/// @file The robot, drives and sensors that one lane simulates.
 #pragma once
 
 #include "articula/dynamics/varied_robot.hpp"

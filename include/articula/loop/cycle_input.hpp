@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What came into one cycle of a loop beside the state and the reference.
+/// @file The input of one cycle of a loop beside state and reference.
 #pragma once
 
 #include "articula/core/status.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What was changed of a loop between two of its recorded cycles.
+/// @file A change of a loop between two of its recorded cycles.
 #pragma once
 
 #include "articula/control/switching/switch_request.hpp"

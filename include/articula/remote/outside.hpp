@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a Remote does in all threads but its loop's.
+/// @file The side of a Remote in all threads but its loop's.
 #pragma once
 
 #include "articula/loop/status_advice.hpp"

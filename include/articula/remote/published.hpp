@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a loop has published of itself, for those who watch.
+/// @file The state that a loop publishes of itself, for those who watch.
 #pragma once
 
 #include "articula/control/switching/switch_board.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What programs outside the loop can ask of it.
+/// @file The requests of programs outside the loop.
 #pragma once
 
 #include "articula/reference/joint_signals.hpp"

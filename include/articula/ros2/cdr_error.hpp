@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What can be wrong with a message in CDR.
+/// @file The errors of a message in CDR.
 #pragma once
 
 #include <cstdint>

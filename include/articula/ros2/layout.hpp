@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the layout of a message depends on: the distribution of ROS, and its memory.
+/// @file The layout of a message: the distribution of ROS, and its memory.
 #pragma once
 
 #include "articula/ros2/inline_sequence.hpp"

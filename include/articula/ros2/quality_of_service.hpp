@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What ROS 2 asks of the transport for each kind of topic.
+/// @file The quality of service of each kind of topic of ROS 2.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file How requests and replies of services find each other, in the two dialects of ROS 2.
+/// @file The headers that match replies to requests, in the two dialects of ROS 2.
 #pragma once
 
 #include "articula/ros2/fields.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the ROS 2 side of a program needs from a transport: topics and services as bytes.
+/// @file The transport that ROS 2 needs below it: topics and services as bytes.
 #pragma once
 
 #include "articula/ros2/quality_of_service.hpp"

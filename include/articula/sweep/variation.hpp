@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What may vary from run to run in a closed loop.
+/// @file The quantities of a closed loop that vary from run to run.
 #pragma once
 
 #include "articula/core/name.hpp"

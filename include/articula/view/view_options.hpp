@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a view shows, to whom, and where.
+/// @file The options of a view: content, audience, address.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which of several controllers shall be active: requests checked and planned.
+/// @file The choice of active controllers: requests checked and planned.
 #pragma once
 
 #include "articula/control/switching/switch_request.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which controllers shall start and stop, and the answer to such a request.
+/// @file A request to start and stop controllers, and its answer.
 #pragma once
 
 #include "articula/core/name.hpp"

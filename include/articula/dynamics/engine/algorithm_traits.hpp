@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What an algorithm of a robot needs: masses, the frames of its bodies, one link.
+/// @file The needs of an algorithm of a robot: masses, the frames of its bodies, one link.
 #pragma once
 
 #include "articula/model/robot.hpp"

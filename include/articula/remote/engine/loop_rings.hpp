@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What passes between a loop's thread and the threads outside.
+/// @file The rings between a loop's thread and the threads outside.
 #pragma once
 
 #include "articula/loop/exchange/event_ring.hpp"

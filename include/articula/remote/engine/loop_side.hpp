@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a Remote does in the thread of its loop.
+/// @file The side of a Remote in the thread of its loop.
 #pragma once
 
 #include "articula/loop/exchange/switch_exchange.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What kind of loop a Remote has, from its type.
+/// @file The kind of a Remote's loop, from its type.
 #pragma once
 
 #include "articula/core/joint_vector.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a remote loop publishes of itself.
+/// @file The record that a remote loop publishes in each cycle.
 #pragma once
 
 #include "articula/loop/supervision/loop_mode.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Where the futures of a question begin, and what they follow.
+/// @file The beginning of a question's futures, and the reference that they follow.
 #pragma once
 
 #include "articula/core/command_parts.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which readers and writers belong to which node, as ROS tools ask for it.
+/// @file The graph of nodes with their readers and writers, as ROS tools ask for it.
 #pragma once
 
 #include "articula/ros2/layout.hpp"

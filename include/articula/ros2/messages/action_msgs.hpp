@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What all actions have.
+/// @file The messages that all actions have.
 #pragma once
 
 #include "articula/ros2/fields.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Which reader and writer belongs to which node.
+/// @file The readers and writers of each node, as a message.
 #pragma once
 
 #include "articula/ros2/fields.hpp"

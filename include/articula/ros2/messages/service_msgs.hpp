@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What all services have.
+/// @file The messages that all services have.
 #pragma once
 
 #include "articula/ros2/fields.hpp"

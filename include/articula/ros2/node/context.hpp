@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What all nodes of a program share: transport, distribution, time, counters.
+/// @file The context that all nodes of a program share: transport, distribution, time, counters.
 #pragma once
 
 #include "articula/ros2/layout.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file When something that is done at a rate is due.
+/// @file The times at which something periodic is due.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the JavaScript of a page calls: see page/src/live_socket.ts. One page, one loop.
+/// @file The functions that a page's JavaScript calls, see page/src/live_socket.ts.
 #include "articula/view/live/live_loop.hpp"
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What a client's frame asks of the server.
+/// @file The actions that a client's frame asks of the server.
 #pragma once
 
 #include "articula/remote/gains/parameter.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Who may connect to a view. Pure: headers in, refusals out.
+/// @file The rules on who may connect to a view. Pure: headers in, refusals out.
 #pragma once
 
 #include "articula/view/view_options.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What all connections of a view share. Everything here belongs to the view's thread.
+/// @file The context that all connections of a view share, in the view's thread.
 #pragma once
 
 #include "articula/remote/port.hpp"

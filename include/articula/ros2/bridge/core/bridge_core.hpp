@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the parts of a Bridge share.
+/// @file The core that the parts of a Bridge share.
 #pragma once
 
 #include "articula/ros2/bridge/core/bridge_options.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What has come and waits for `poll`, from threads of Fast DDS.
+/// @file Messages from threads of Fast DDS, which wait for `poll`.
 #pragma once
 
 #include <fastdds/rtps/common/SampleIdentity.h>

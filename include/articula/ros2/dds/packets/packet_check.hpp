@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Whether the parts of an RTPS packet are as long as they say.
+/// @file A check that the parts of an RTPS packet are as long as they say.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What the view has last sent of each topic, for clients that subscribe later.
+/// @file The last message of each topic of a view, for clients that subscribe later.
 #pragma once
 
 #include "articula/remote/port.hpp"

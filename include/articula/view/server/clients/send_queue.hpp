@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file What waits to be sent to one client.
+/// @file The queue of frames that wait to be sent to one client.
 #pragma once
 
 #include "articula/view/protocol/messages/frame.hpp"
