@@ -156,8 +156,8 @@ void add_missing_gains(const R& robot, const Part& part, const PartScope<joint_c
     }
   }
   if (!some || without.empty()) return;
-  notices.push_back("no feedback moves joint " + in_words(without, " and ") +
-                    ": its gains are 0. Remedy: give gains for each joint.");
+  notices.push_back("the gains of joint " + in_words(without, " and ") +
+                    " are 0. Remedy: give gains for each joint.");
 }
 
 /// Adds the notices of a part of a controller, and of the parts that it consists of.
