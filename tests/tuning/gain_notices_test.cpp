@@ -311,10 +311,9 @@ TEST_CASE("joints without gains beside joints with gains are named") {
   };
   const PidGains some{.proportional = 1, .derivative = 0.1};
   REQUIRE(notices({some, some, some, some}).size() == 1);
-  CHECK(
-      notices({some, some, some, some}).front() ==
-      "no feedback moves joint 'wrist_2_joint' and 'wrist_3_joint': its gains are 0. Remedy: give "
-      "gains for each joint.");
+  CHECK(notices({some, some, some, some}).front() ==
+        "the gains of joint 'wrist_2_joint' and 'wrist_3_joint' are 0. Remedy: give gains for each "
+        "joint.");
   CHECK(notices({}).empty());
   CHECK(notices({some, some, some, some, some, PidGains{.derivative = 0.1}}).empty());
   // Each group has a controller for the whole robot, of which its own joints count.
