@@ -205,6 +205,11 @@ TEST_CASE("signals are played around the reference, which then returns") {
   REQUIRE(answer);
   CHECK(answer->request == number);
   CHECK(done(*answer));
+  remote::Cycle cycle;
+  do {
+    REQUIRE(arm.session->next(cycle));
+  } while (!(cycle.reference_position[1] > 0));  // NaN before the activation
+  CHECK(answer->cycle == cycle.number);
   arm.cycles(2000);
   CHECK(arm.loop.reference().position.isApprox(JointVector<2>(0.4, 0), 1e-12));
 
@@ -228,6 +233,7 @@ TEST_CASE("a loop that does not run gives no answer in time, and does nothing la
   }
   CHECK(answer->request == number);
   CHECK(answer->verdict == support::Verdict::timed_out);
+  CHECK(answer->cycle == 0);
   arm.cycles(10);
   CHECK(arm.remote.situation().motion == "rest");
   CHECK(!arm.session->answer());

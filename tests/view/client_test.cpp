@@ -351,7 +351,7 @@ TEST_CASE("requests go to the port, and refusals come back with their reason") {
   FakePort port;
   Talk talk(port);
   CHECK(talk.call("/go", R"({"positions":{"elbow":0.5}})") ==
-        Json{{"success", true}, {"message", "done"}});
+        Json{{"success", true}, {"message", "done"}, {"cycle", 8}});
   CHECK(port.reference()[1] == 0.5);
   CHECK(talk.call("/go", R"({"positions":{"knee":0.5}})") ==
         Json{{"success", false}, {"message", "there is no joint 'knee'"}});

@@ -177,7 +177,10 @@ class FakePort final : public remote::Port {
       const std::string fault = port_.take(request);
       if (!port_.answers_) return ++asked_;
       const auto verdict = fault.empty() ? remote::Verdict::done : remote::Verdict::refused;
-      answers_.push_back({++asked_, verdict, fault.empty() ? "done" : fault});
+      answers_.push_back({.request = ++asked_,
+                          .verdict = verdict,
+                          .text = fault.empty() ? "done" : fault,
+                          .cycle = fault.empty() ? 8u : 0u});
       return asked_;
     }
     std::optional<remote::Answer> answer() override { return take_first(answers_); }

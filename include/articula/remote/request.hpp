@@ -173,6 +173,7 @@ struct Answer {
   std::string text{};  ///< the reason of a refusal, or the outcome, as "goal reached"
   /// Of a trajectory, if it began or was refused for what it is; otherwise idle.
   TrajectoryOutcome outcome = TrajectoryOutcome::idle;
+  unsigned long long cycle = 0;  ///< of the loop: the first one after it began the request; 0: none
 };
 
 }  // namespace articula::remote

@@ -79,6 +79,7 @@ template <Robot R>
 [[nodiscard]] Answer answer_to(const R& robot, const Task<R>& task) {
   Answer answer = answer_text(robot, task);
   answer.outcome = task.outcome;
+  answer.cycle = task.cycle;
   return answer;
 }
 

@@ -98,7 +98,12 @@ export async function experiment(browser, url) {
   ]) {
     await robot.click(`[data-kind=${kind}]`);
     if (kind === 'sine') await robot.type('#panel-experiments [name=frequency]', 1);
-    await robot.click('.primary::-p-text(Run)');
+    // Cycles of a while have not arrived when the user clicks.
+    await robot.page.evaluate(() => {
+      const start = performance.now();
+      while (performance.now() < start + 2000);
+      document.querySelector('#panel-experiments .primary').click();
+    });
     await robot.until(
       `the ${kind} has results`,
       (title) => document.querySelector('.results caption')?.textContent.startsWith(title),

@@ -66,6 +66,9 @@ export async function playback(browser, url) {
   // A browser that stands still for seconds, on a busy machine, has a gap in its recording.
   for (let k = 0; k < 10 && (!span || span.hasGap); ++k) span = await record(robot);
 
+  // The recording goes on behind the motion, so that a zoom to it shows a part.
+  await robot.until('later cycles', (to) => articula.session.samples.lastTime > to + 0.2, span.to);
+
   // The slider.
   await robot.page.focus(slider);
   await robot.page.keyboard.press('Home');
@@ -105,7 +108,8 @@ export async function playback(browser, url) {
   check(!(await robot.page.evaluate(() => articula.playback.isPlaying)), 'the slider stops it');
   await checkShown(robot);
 
-  // The file replays to the last bit.
+  // A zoomed plot stays where it is, also if another cycle is shown. The file replays to the last bit.
+  await robot.page.evaluate(() => articula.playback.seek(articula.playback.samples.end - 1));
   await robot.page.evaluate(({from, to}) => articula.plots.zoom(from, to), span);
   await withDownload(robot, 'button::-p-text(MCAP)', (file) => {
     const {stdout, status} = spawnSync(process.env.SERVER, ['--replay', file], {encoding: 'utf8'});

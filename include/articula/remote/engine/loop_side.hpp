@@ -142,6 +142,7 @@ class LoopSide {
       return returns_.finish(next, TaskEnd::expired);
     }
     if (rings_.watch.is_void(next.sign)) return returns_.finish(next, TaskEnd::operator_lost);
+    next.cycle = cycles_ + 1;
     // std::visit could throw, if only in theory.
     [&]<std::size_t... I>(std::index_sequence<I...>) noexcept {
       ((next.wish.index() == I ? begin_own(next, *std::get_if<I>(&next.wish)) : void()), ...);
@@ -164,7 +165,7 @@ class LoopSide {
   void begin(Task<R>& own, [[maybe_unused]] task::Switch& wish) noexcept {
     if constexpr (switched) {
       wish.outcome = switch_in(loop_.controller()).request(wish.request);
-      note_change(own);
+      rings_.changed.push(&own);
     }
     returns_.finish(own, TaskEnd::done);
   }
@@ -173,13 +174,8 @@ class LoopSide {
       if (!change->fits()) return returns_.finish(own, TaskEnd::outdated);
     }
     for (const auto& change : wish.changes) change->apply();
-    note_change(own);
-    returns_.finish(own, TaskEnd::done);
-  }
-  /// The controller is not the same in the next cycle.
-  void note_change(Task<R>& own) noexcept {
-    own.cycle = cycles_ + 1;
     rings_.changed.push(&own);
+    returns_.finish(own, TaskEnd::done);
   }
 
   void publish(const CycleTiming& timing) noexcept {

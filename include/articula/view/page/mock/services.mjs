@@ -54,12 +54,13 @@ function move(arm, motion, source) {
   if (arm.mode !== 'active') return refuse(`the loop is ${arm.mode}`);
   arm.motion = motion;
   arm.source = source;
+  const cycle = arm.number + 1;
   // The answer comes when the motion has ended.
   return new Promise((resolve) => {
     const timer = setInterval(() => {
       if (arm.source === source) return;
       clearInterval(timer);
-      resolve({success: true, message: 'goal reached'});
+      resolve({success: true, message: 'goal reached', cycle});
     }, 10);
   });
 }

@@ -49,8 +49,9 @@ export class Playback extends Emitter<{changed: null}> {
 
   /** Keeps the recording as it is; the robot goes on to show the present. */
   hold(): void {
+    if (this.held) return;
     const {samples} = this.session;
-    if (!this.held && samples && samples.end > samples.first) this.held = samples.copy();
+    if (samples && samples.end > samples.first) this.held = samples.copy();
     this.emit('changed', null);
   }
 

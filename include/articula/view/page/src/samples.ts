@@ -113,12 +113,22 @@ export class Samples {
 
   /** The first row at or after a time. */
   rowAt(time: number): number {
+    return this.firstRow((row) => this.time(row) >= time);
+  }
+
+  /** The first row of a cycle's number or a later one. */
+  rowOf(number: number): number {
+    return this.firstRow((row) => this.value('number', row) >= number);
+  }
+
+  /** The first row from which on a condition holds. */
+  private firstRow(holds: (row: number) => boolean): number {
     let low = this.first;
     let high = this.end;
     while (low < high) {
       const middle = (low + high) >> 1;
-      if (this.time(middle) < time) low = middle + 1;
-      else high = middle;
+      if (holds(middle)) high = middle;
+      else low = middle + 1;
     }
     return low;
   }

@@ -36,6 +36,7 @@ export class Session extends Emitter<Events> {
   statistics: Statistics | null = null;
   futures: Futures | null = null;
   connected = false;
+  private awaited: {number: number; resolve: () => void}[] = [];
   private readonly client: FoxgloveClient;
 
   constructor(open: () => Socket) {
@@ -61,6 +62,7 @@ export class Session extends Emitter<Events> {
     this.client.subscribe('/cycles', (message) => {
       if (!this.samples) return;
       this.samples.append(message as Cycles);
+      this.note(this.samples);
       this.emit('cycles', message as Cycles);
     });
     this.client.subscribe('/statistics', (message) => {
@@ -93,6 +95,14 @@ export class Session extends Emitter<Events> {
     }
   }
 
+  /** Waits for the cycle of a number, or a later one. It may arrive after an answer of the loop. */
+  arrival(number: number): Promise<void> {
+    return new Promise((resolve) => {
+      this.awaited.push({number, resolve});
+      if (this.samples) this.note(this.samples);
+    });
+  }
+
   publish(topic: string, message: object): void {
     this.client.publish(topic, message);
   }
@@ -108,6 +118,12 @@ export class Session extends Emitter<Events> {
     this.emit('futures', futures);
   }
 
+  private note(samples: Samples): void {
+    const newest = samples.value('number', samples.end - 1);
+    for (const {resolve} of this.awaited.filter(({number}) => number <= newest)) resolve();
+    this.awaited = this.awaited.filter(({number}) => !(number <= newest));
+  }
+
   private setConnected(connected: boolean): void {
     if (connected === this.connected) return;
     this.connected = connected;
@@ -121,6 +137,7 @@ export class Session extends Emitter<Events> {
       const sheet = (await this.client.call('/robot', {})) as RobotSheet;
       this.sheet = sheet;
       this.samples = new Samples(sheet);
+      this.awaited = []; // of the program before
       this.emit('robot', sheet);
       const {parameters} = (await this.client.call('/describe_parameters', {})) as {
         parameters: Parameter[];

@@ -150,6 +150,7 @@ export interface Futures {
 export interface ServiceAnswer {
   success: boolean;
   message: string;
+  cycle?: number; // the first one after the loop began what was asked
 }
 
 export function isPrismatic(joint: SheetJoint): boolean {

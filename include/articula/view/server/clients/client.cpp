@@ -203,13 +203,15 @@ void Client::take_answers() {
     if (found == pending_.end()) continue;
     const Reply to = std::move(found->second);
     pending_.erase(found);
-    reply(to, answer->verdict == remote::Verdict::done, answer->text);
+    reply(to, answer->verdict == remote::Verdict::done, answer->text, answer->cycle);
   }
 }
 
-void Client::reply(const Reply& to, bool success, const std::string& text) {
+void Client::reply(const Reply& to, bool success, const std::string& text,
+                   unsigned long long cycle) {
   if (const auto* call = std::get_if<CallReply>(&to)) {
-    const Json json = {{"success", success}, {"message", text.empty() ? "done" : text}};
+    Json json = {{"success", success}, {"message", text.empty() ? "done" : text}};
+    if (cycle > 0) json["cycle"] = cycle;
     queue_.add_answer(response_frame(call->service, call->call, json));
     return;
   }

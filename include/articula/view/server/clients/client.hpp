@@ -84,7 +84,8 @@ class Client {
   void act(const Complaint& action);
 
   void ask(const remote::Request& request, const Reply& reply);
-  void reply(const Reply& reply, bool success, const std::string& text);
+  void reply(const Reply& reply, bool success, const std::string& text,
+             unsigned long long cycle = 0);
   void ask(const remote::FuturesQuestion& question, const CallReply& reply);
   void take_answers();
   void take_futures();

@@ -30,9 +30,11 @@ Json advertise_json() {
 }
 
 Json services_json() {
-  const std::string answer = to_text(
-      {{"type", "object"},
-       {"properties", {{"success", {{"type", "boolean"}}}, {"message", {{"type", "string"}}}}}});
+  const std::string answer = to_text({{"type", "object"},
+                                      {"properties",
+                                       {{"success", {{"type", "boolean"}}},
+                                        {"message", {{"type", "string"}}},
+                                        {"cycle", {{"type", "integer"}}}}}});
   Json json = {{"op", "advertiseServices"}, {"services", Json::array()}};
   int id = 0;
   for (const Service& service : services()) {

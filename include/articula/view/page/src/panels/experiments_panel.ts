@@ -152,14 +152,16 @@ export class ExperimentsPanel {
     const target = this.target.value;
     const signal = this.signal();
     const duration = this.duration.input.valueAsNumber;
-    const from = samples.lastTime;
     const answer = await this.session.ask('/play_signals', {
       signals: [{joint: name, kind, target, ...signal}],
       duration,
     });
-    if (!answer.success || samples !== this.session.samples) return;
+    if (!answer.success || answer.cycle === undefined) return;
     // What follows the signal, as the way back, does not count.
-    const to = Math.min(samples.lastTime, from + duration);
+    const end = answer.cycle + Math.round(duration / sheet.period) - 1;
+    await this.session.arrival(end);
+    if (samples !== this.session.samples) return;
+    const [from, to] = [answer.cycle, end].map((cycle) => samples.time(samples.rowOf(cycle)));
     const result = responseTo(samples, joint, from, to, kind, signal.frequency ?? 0);
     this.results.prepend(this.describe(result, `${kind} on ${name}`, target, sheet.joints[joint]));
     while (this.results.children.length > 8) this.results.lastChild?.remove();

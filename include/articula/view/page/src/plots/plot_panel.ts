@@ -100,6 +100,7 @@ export class PlotPanel implements PaneOwner {
 
   zoom(from: number, to: number): void {
     this.held = [from, to];
+    this.lastDrawn = 0;
     this.playback.hold();
   }
 
