@@ -7,13 +7,20 @@
 #include "catch.hpp"
 #include "memory_transport.hpp"
 
+#include <string>
+
 using namespace articula;
 using articula::testing::heap_calls_in;
 
 TEST_CASE("reading, writing and stopping over topics stay off the heap") {
   support::MemoryTransport transport;
   // The machine may be busy: figures stay good for long.
-  ros2::TopicHardware<Q2d> arm(Q2d(), transport, {.stale_after = 60, .silent_after = 60});
+  const std::string clock = GENERATE(as<std::string>(), "", "/clock");
+  ros2::TopicHardware<Q2d> arm(Q2d(), transport,
+                               {.stale_after = 60, .silent_after = 60, .clock_topic = clock});
+  if (!clock.empty()) {
+    transport.publish(clock, support::bytes_of(ros2::rosgraph_msgs::msg::Clock{{1, 0}}));
+  }
   ros2::sensor_msgs::msg::JointState<ros2::Jazzy> message;
   message.name = {"shoulder_active_joint", "elbow_active_joint"};
   message.position = {0.1, 0.2};

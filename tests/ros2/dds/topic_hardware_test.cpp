@@ -2,6 +2,9 @@
 // Hardware over topics, over DDS on loopback, with a peer in ROS's place.
 #include "articula/ros2/hardware/topic_hardware.hpp"
 
+#include <articula/control/bypass.hpp>
+#include <articula/loop/loop.hpp>
+#include <articula/loop/run.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "articula/ros2/names.hpp"
@@ -10,7 +13,9 @@
 #include "fast_dds_peer.hpp"
 #include "support.hpp"
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <thread>
@@ -62,4 +67,49 @@ TEST_CASE("states come in and commands go out over DDS, and the end is a stop") 
   }
   while (command.velocity != std::vector<double>{0, 0} && !is_over()) turn();
   CHECK(command.velocity == std::vector<double>{0, 0});
+}
+
+TEST_CASE("a loop keeps the pace of a simulator's clock over DDS") {
+  talk_over_udp_only();
+  FastDdsPeer peer(domain());
+  const auto states = peer.make_writer(ros2::topic_name("/robot_joint_states"),
+                                       ros2::dds_type_name<States>(), false, true);
+  const auto times =
+      peer.make_writer(ros2::topic_name("/clock"),
+                       ros2::dds_type_name<ros2::rosgraph_msgs::msg::Clock>(), false, true);
+  const auto commands =
+      peer.make_reader(ros2::topic_name("/robot_joint_commands"), ros2::dds_type_name<States>());
+  States joints;
+  joints.name = {"shoulder_active_joint", "elbow_active_joint"};
+  joints.position = {0, 0};
+  std::atomic<bool> ends = false;
+  std::uint64_t periods = 0;
+  std::thread simulator([&] {  // a third of real time
+    while (!ends) {
+      ++periods;
+      const auto time =
+          ros2::to_message<ros2::builtin_interfaces::msg::Time>(std::chrono::milliseconds(periods));
+      peer.write(times, bytes_of(ros2::rosgraph_msgs::msg::Clock{time}));
+      peer.write(states, bytes_of(joints));
+      static_cast<void>(peer.take(commands));
+      std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    }
+  });
+
+  using Arm = ros2::TopicHardware<Q2d>;
+  const auto start = std::chrono::steady_clock::now();
+  Loop<Arm, Bypass> loop(
+      Arm(std::make_unique<ros2::FastDdsTransport>(ros2::FastDdsOptions{.domain = domain()},
+                                                   ros2::Distribution::jazzy),
+          {.stale_after = 5, .silent_after = 5, .set_up_time = 30, .clock_topic = "/clock"}));
+  ros2::TopicClock clock = loop.hardware().clock();
+  const RunReport report = run(loop, clock, {.cycles = 200});
+  const auto took = std::chrono::steady_clock::now() - start;
+  ends = true;
+  simulator.join();
+  CHECK(report.status == Status::ok);
+  CHECK(report.end == RunEnd::finished);
+  CHECK(report.cycles == 200);
+  CHECK(report.cycles + report.missed <= periods);
+  CHECK(took >= std::chrono::milliseconds(3) * 200);
 }

@@ -5,6 +5,7 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/ros2/hardware/topic_clock.hpp"
 #include "articula/ros2/hardware/topic_link.hpp"
 #include "articula/ros2/hardware/topic_thread.hpp"
 
@@ -31,9 +32,11 @@ namespace articula::ros2 {
 /// - A joint that is silent for `silent_after` is a fault, which lasts until `activate`. In a fault and
 ///   at the end the joints get no effort, no velocity, or the position where they are.
 /// - If `write` is not called for `command_deadline`, the transport's thread sends that stop.
+/// - A simulator that does not run in real time needs TopicHardwareOptions::clock_topic. These times
+///   are then its own, and `clock` paces the loop.
 /// @tparam R            the robot
 /// @tparam CommandType  EffortCommand, PositionCommand or VelocityCommand
-/// @tparam Clock        for ages and deadlines; a test may have another one
+/// @tparam Clock        of this host; a test may have another one
 template <Robot R, class CommandType = EffortCommand<articula::joint_count<R>>,
           class Clock = std::chrono::steady_clock>
   requires JointCommand<CommandType, articula::joint_count<R>> &&
@@ -51,7 +54,8 @@ class TopicHardware {
                 const TopicHardwareOptions& options = {})
       : robot_(robot), thread_(std::make_unique<detail::TopicThread>(std::move(transport))) {
     use(thread_->transport(), options);
-    thread_->start([link = link_.get()] { link->exchange(); });
+    thread_->start([link = link_.get()] { link->exchange(); },
+                   [link = link_.get()] { link->fail(); });
   }
   /// For a robot known at compile time.
   explicit TopicHardware(std::unique_ptr<Transport> transport,
@@ -141,9 +145,21 @@ class TopicHardware {
   /// Real-time: no (allocates).
   void exchange() { link_->exchange(); }
 
+  /// The clock of a loop that keeps the simulator's pace.
+  /// @param stop  ends the run in which the loop waits for a paused simulator; outlives the clock
+  /// @throws std::invalid_argument if there is no TopicHardwareOptions::clock_topic
+  /// Real-time: no (throws).
+  [[nodiscard]] TopicClock clock(const StopFlag* stop = nullptr) const {
+    if (link_->simulated_time() == nullptr) {
+      articula::detail::refuse({"topic hardware: there is no clock_topic, as /clock"});
+    }
+    return {link_->simulated_time(), stop};
+  }
+
   /// Why activation is not possible now; empty if it is. In the loop's thread. Real-time: no.
   [[nodiscard]] std::string problem() {
     if (thread_ != nullptr && !thread_->error().empty()) return thread_->error();
+    if (!has_time()) return "no time on " + clock_topic_;
     const auto& latest = link_->states();
     if (age_of(latest) >= stale_after_) {
       return "joint '" + std::string(link_->joint_name(latest.oldest())) +
@@ -163,15 +179,19 @@ class TopicHardware {
     stale_after_ = to_duration(options.stale_after);
     silent_after_ = to_duration(options.silent_after);
     set_up_time_ = to_duration(options.set_up_time);
+    clock_topic_ = options.clock_topic;
     states_topic_ = options.joint_states_topic;
     commands_topic_ = options.joint_commands_topic;
   }
-  [[nodiscard]] static std::chrono::nanoseconds age_of(
-      const TopicStates<joint_count>& states) noexcept {
-    return Clock::now().time_since_epoch() - states.arrival[states.oldest()];
+  [[nodiscard]] std::chrono::nanoseconds age_of(
+      const TopicStates<joint_count>& states) const noexcept {
+    return link_->now() - states.arrival[states.oldest()];
+  }
+  [[nodiscard]] bool has_time() const noexcept {
+    return link_->simulated_time() == nullptr || link_->simulated_time()->is_known();
   }
   [[nodiscard]] bool is_ready() noexcept {
-    return age_of(link_->states()) < stale_after_ && link_->has_reader();
+    return has_time() && age_of(link_->states()) < stale_after_ && link_->has_reader();
   }
   void put_stop() noexcept {
     link_->put(detail::stop_command<Command, joint_count>(link_->states().state.position), false);
@@ -181,7 +201,7 @@ class TopicHardware {
   std::unique_ptr<detail::TopicThread> thread_{};  ///< none: the program polls
   std::unique_ptr<Link> link_{};                   ///< ends before its transport
   std::chrono::nanoseconds stale_after_{}, silent_after_{}, set_up_time_{};
-  std::string states_topic_{}, commands_topic_{};
+  std::string clock_topic_{}, states_topic_{}, commands_topic_{};
   Mode mode_ = Mode::inactive;
 };
 

@@ -25,6 +25,9 @@ struct TopicHardwareOptions {
   double silent_after = 0.5;      ///< age from which a joint is silent, which is a fault [s]
   double set_up_time = 5;         ///< longest wait for a state of each joint at activation [s]
   double command_deadline = 0.1;  ///< time without `write` after which a stop is sent [s]
+  /// in: rosgraph_msgs/msg/Clock, as /clock: the times above are those of the simulator. Empty: those
+  /// of this host.
+  std::string clock_topic{};
   Distribution distribution = Distribution::jazzy;  ///< of the ROS programs in the domain
   std::string node{};  ///< name of the node; empty: topic_based_ros2_control_ and the robot's
 };
@@ -52,7 +55,9 @@ inline void validate(const TopicHardwareOptions& options) {
   }
   for (const auto& [name, topic] : {std::pair<std::string_view, std::string_view>{
                                         "joint_states_topic", options.joint_states_topic},
-                                    {"joint_commands_topic", options.joint_commands_topic}}) {
+                                    {"joint_commands_topic", options.joint_commands_topic},
+                                    {"clock_topic", options.clock_topic}}) {
+    if (name == "clock_topic" && topic.empty()) continue;
     if (topic.size() < 2 || topic.front() != '/') {
       articula::detail::refuse(
           {"topic hardware: ", name, " '", topic, "' is no full name, as /arm/joint_states"});

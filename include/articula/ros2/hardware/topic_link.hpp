@@ -6,7 +6,9 @@
 #include "articula/loop/exchange/latest_value.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/ros2/hardware/joint_state_collector.hpp"
+#include "articula/ros2/hardware/topic_clock.hpp"
 #include "articula/ros2/hardware/topic_hardware_options.hpp"
+#include "articula/ros2/messages/rosgraph_msgs.hpp"
 #include "articula/ros2/node/publisher.hpp"
 #include "articula/ros2/node/ros_time.hpp"
 #include "articula/ros2/node/subscription.hpp"
@@ -43,7 +45,7 @@ template <Robot R>
 
 /// States in and commands out, each by one wait-free exchange.
 /// @tparam Command  effort, position or velocity
-/// @tparam Clock    for ages and deadlines
+/// @tparam Clock    for ages and deadlines, if there is no topic with a clock
 template <Robot R, class Command, class Clock>
 class TopicLink {
  public:
@@ -62,13 +64,18 @@ class TopicLink {
         collector_(names_, options.sum_wrapped_joint_states) {
     subscribe<Message>(node_, options.joint_states_topic, quality_of_service::sensor_data,
                        [this](const Message& message) { take(message); });
+    if (options.clock_topic.empty()) return;
+    simulated_ = std::make_shared<ToldTime>();
+    subscribe<rosgraph_msgs::msg::Clock>(
+        node_, options.clock_topic, quality_of_service::sensor_data,
+        [this](const auto& message) { simulated_->take(from_message(message.clock)); });
   }
 
   // For the transport's thread:
 
   /// Sends the last command that was written, or a stop if none was written in time.
   void exchange() {
-    const Time now = Clock::now().time_since_epoch();
+    const Time now = this->now();
     if (outgoing_.update()) {
       send(outgoing_.value().command);
       follows_ = outgoing_.value().follows;
@@ -80,6 +87,11 @@ class TopicLink {
     }
     undecoded_.store(context_.dropped.malformed, std::memory_order_relaxed);
     has_reader_.store(commands_.readers() > 0, std::memory_order_relaxed);
+  }
+
+  /// The transport has failed: nothing will come any more.
+  void fail() {
+    if (simulated_ != nullptr) simulated_->end();
   }
 
   // For the loop's thread:
@@ -96,6 +108,14 @@ class TopicLink {
 
   // For any thread:
 
+  /// The simulator's time, or this host's. Real-time: yes, but for the clock.
+  [[nodiscard]] Time now() const noexcept {
+    return simulated_ != nullptr ? simulated_->now() : Time(Clock::now().time_since_epoch());
+  }
+  /// The time of a simulator; null without a topic for it.
+  [[nodiscard]] const std::shared_ptr<ToldTime>& simulated_time() const noexcept {
+    return simulated_;
+  }
   [[nodiscard]] bool has_reader() const noexcept {
     return has_reader_.load(std::memory_order_relaxed);
   }
@@ -120,7 +140,7 @@ class TopicLink {
   }
 
   void take(const Message& message) {
-    const StatesMessage taken = collector_.take(message, Clock::now().time_since_epoch());
+    const StatesMessage taken = collector_.take(message, now());
     taken_[static_cast<std::size_t>(taken)].fetch_add(1, std::memory_order_relaxed);
     if (taken == StatesMessage::accepted) incoming_.write(collector_.states());
   }
@@ -128,7 +148,8 @@ class TopicLink {
   void send(const Command& command) {
     Message message;
     message.header.stamp = to_message<builtin_interfaces::msg::Time>(
-        std::chrono::system_clock::now().time_since_epoch());
+        simulated_ != nullptr ? simulated_->told()
+                              : std::chrono::system_clock::now().time_since_epoch());
     for (const Name& name : names_) message.name.emplace_back(name.view());
     const auto put_values = [](const JointVector<N>& values, std::vector<double>& to) {
       to.assign(values.begin(), values.end());
@@ -150,6 +171,7 @@ class TopicLink {
   Time deadline_;
   std::array<Name, static_cast<std::size_t>(N)> names_;
   JointStateCollector<N> collector_;
+  std::shared_ptr<ToldTime> simulated_{};
   Time written_{};        ///< when the last command came from the loop
   bool follows_ = false;  ///< another one is to come
   LatestValue<TopicStates<N>> incoming_{};

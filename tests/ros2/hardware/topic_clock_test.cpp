@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// A loop keeps the pace of a simulator that lives behind topics.
+#include "articula/ros2/hardware/topic_clock.hpp"
+
+#include <articula/control/pid_plus_gravity.hpp>
+#include <articula/loop/loop.hpp>
+#include <articula/loop/loop_clock.hpp>
+#include <articula/loop/run.hpp>
+#include <articula/robots/q2d.hpp>
+#include <articula/ros2/hardware/topic_hardware.hpp>
+
+#include "catch.hpp"
+#include "memory_transport.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+using namespace articula;
+using ros2::TopicClock;
+using ros2::TopicHardware;
+using support::MemoryTransport;
+using States = ros2::sensor_msgs::msg::JointState<ros2::Jazzy>;
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+
+static_assert(LoopClock<TopicClock>);
+
+namespace {
+
+using Arm = TopicHardware<Q2d>;
+const ros2::TopicHardwareOptions simulated{.set_up_time = 0, .clock_topic = "/clock"};
+
+void publish_states(MemoryTransport& transport) {
+  States message;
+  message.name = {"shoulder_active_joint", "elbow_active_joint"};
+  message.position = {0.1, 0.2};
+  transport.publish("/robot_joint_states", support::bytes_of(message));
+}
+void publish_time(MemoryTransport& transport, nanoseconds time) {
+  const ros2::rosgraph_msgs::msg::Clock message{
+      ros2::to_message<ros2::builtin_interfaces::msg::Time>(time)};
+  transport.publish("/clock", support::bytes_of(message));
+}
+
+// A clock that tells how often somebody has waited for it.
+struct CountingClock {
+  [[nodiscard]] nanoseconds now() const noexcept { return clock.now(); }
+  nanoseconds wait_until(nanoseconds due) noexcept {
+    ++waits;
+    return clock.wait_until(due);
+  }
+  TopicClock clock;
+  std::atomic<int> waits = 0;
+};
+
+// A simulator that runs a millisecond in each poll until it fails.
+class FailingSimulator final : public ros2::Transport {
+ public:
+  std::unique_ptr<ros2::SampleWriter> advertise(const ros2::TopicEndpoint& topic) override {
+    return memory_.advertise(topic);
+  }
+  void subscribe(const ros2::TopicEndpoint& topic, OnSample on_sample) override {
+    memory_.subscribe(topic, std::move(on_sample));
+  }
+  void serve(const ros2::ServiceEndpoint&, OnRequest) override {}
+  void poll(std::chrono::milliseconds longest) override {
+    std::this_thread::sleep_for(longest);
+    publish_time(memory_, milliseconds(++polls_));
+    publish_states(memory_);
+    if (polls_ == 300) throw std::runtime_error("the network is gone");
+  }
+
+ private:
+  MemoryTransport memory_{};
+  int polls_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("ages and deadlines are those of the simulator") {
+  MemoryTransport transport;
+  Arm arm(Q2d(), transport, simulated);
+  JointState<2> state;
+  const auto sent = [&] {
+    const auto message = transport.last<States>("/robot_joint_commands");
+    REQUIRE(message);
+    return *message;
+  };
+  publish_states(transport);
+  arm.exchange();
+  CHECK(arm.activate() == Status::hardware_fault);
+  CHECK(arm.problem() == "no time on /clock");
+
+  const TopicClock clock = arm.clock();
+  publish_time(transport, milliseconds(100'000));
+  publish_states(transport);
+  arm.exchange();
+  REQUIRE(arm.activate() == Status::ok);
+  CHECK(arm.write({JointVector<2>{1, 2}}) == Status::ok);
+  arm.exchange();
+  CHECK(sent().effort == std::vector<double>{1, 2});
+  CHECK(sent().header.stamp.sec == 100);
+  std::this_thread::sleep_for(milliseconds(150));  // a pause longer than all times
+  arm.exchange();
+  CHECK(sent().effort == std::vector<double>{1, 2});
+  CHECK(arm.read(state) == Status::ok);
+
+  const nanoseconds start = clock.now();
+  publish_time(transport, milliseconds(100'049));
+  CHECK(arm.read(state) == Status::ok);
+  publish_time(transport, milliseconds(100'050));
+  CHECK(arm.read(state) == Status::stale_state);
+  publish_time(transport, milliseconds(100'100));
+  arm.exchange();
+  CHECK(sent().effort == std::vector<double>{0, 0});
+  CHECK(arm.statistics().missed_deadlines == 1);
+
+  // The simulation begins once more: the loop's time goes on.
+  publish_time(transport, milliseconds(0));
+  CHECK(clock.now() - start == milliseconds(100));
+  publish_time(transport, milliseconds(7));
+  CHECK(clock.now() - start == milliseconds(107));
+  publish_states(transport);
+  CHECK(arm.read(state) == Status::ok);
+}
+
+TEST_CASE("times of any messages never run backwards") {
+  MemoryTransport transport;
+  Arm arm(Q2d(), transport, simulated);
+  const TopicClock clock = arm.clock();
+  nanoseconds last = clock.now();
+  for (int k = 0; k < 20; ++k) {
+    for (const std::int32_t second : {INT32_MAX, INT32_MIN, 0, -1}) {
+      const ros2::rosgraph_msgs::msg::Clock message{{second, UINT32_MAX}};
+      transport.publish("/clock", support::bytes_of(message));
+      CHECK(clock.now() >= last);
+      last = clock.now();
+    }
+  }
+}
+
+TEST_CASE("a loop makes a cycle for each period of the simulator, and stands still with it") {
+  MemoryTransport transport;
+  Arm arm(Q2d(), transport, simulated);
+  publish_time(transport, milliseconds(5000));
+  publish_states(transport);
+  arm.exchange();
+  Loop<Arm, PidPlusGravity> loop(std::move(arm));
+  loop.reference().position = {0.1, 0.2};
+  StopFlag stop;
+  CountingClock clock{loop.hardware().clock(&stop)};
+  std::atomic<int> cycles = 0;
+  const auto reaches = [&](int count) {
+    for (int k = 0; k < 20'000 && clock.waits <= count; ++k) {
+      std::this_thread::sleep_for(milliseconds(1));
+    }
+    return cycles == count && clock.waits == count + 1;
+  };
+  RunReport report;
+  std::thread thread([&] {
+    report = run(loop, clock, {.stop = &stop}, [&](auto&, const RunReport& now) {
+      cycles = static_cast<int>(now.cycles);
+      return now.status == Status::ok;
+    });
+  });
+  REQUIRE(reaches(0));
+  const auto tell = [&](int time) {
+    publish_states(transport);
+    publish_time(transport, milliseconds(5000 + time));
+    loop.hardware().exchange();
+  };
+  for (int k = 1; k <= 100; ++k) {
+    tell(k);
+    REQUIRE(reaches(k));
+  }
+  std::this_thread::sleep_for(milliseconds(100));  // longer than the deadline of a command
+  CHECK(cycles == 100);
+  tell(100);
+  CHECK(loop.hardware().statistics().missed_deadlines == 0);
+
+  tell(110);  // a message for ten periods
+  REQUIRE(reaches(102));
+  tell(111);
+  REQUIRE(reaches(103));
+  stop.request();  // in the midst of a pause
+  thread.join();
+  CHECK(report.end == RunEnd::stopped);
+  CHECK(report.status == Status::ok);
+  CHECK(report.missed == 8);
+}
+
+TEST_CASE("a transport that fails ends a wait for the simulator in a fault") {
+  Loop<Arm, PidPlusGravity> loop(
+      Arm(std::make_unique<FailingSimulator>(), {.clock_topic = "/clock"}));
+  loop.reference().position = {0.1, 0.2};
+  TopicClock clock = loop.hardware().clock();
+  const RunReport report = run(loop, clock);
+  CHECK(report.end == RunEnd::declined);
+  CHECK(report.status == Status::hardware_fault);
+  CHECK(loop.hardware().problem() == "the network is gone");
+}
+
+TEST_CASE("without a topic there is no clock, and its name is a full one") {
+  MemoryTransport transport;
+  CHECK_THROWS_WITH(Arm(Q2d(), transport).clock(),
+                    "topic hardware: there is no clock_topic, as /clock");
+  CHECK_THROWS_WITH(Arm(Q2d(), transport, {.clock_topic = "clock"}),
+                    "topic hardware: clock_topic 'clock' is no full name, as /arm/joint_states");
+}
