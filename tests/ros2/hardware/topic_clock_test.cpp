@@ -33,7 +33,19 @@ static_assert(LoopClock<TopicClock>);
 
 namespace {
 
+// This host's clock, which stands still unless a test moves it.
+struct HandClock {
+  using duration = nanoseconds;
+  using rep = duration::rep;
+  using period = duration::period;
+  using time_point = std::chrono::time_point<HandClock>;
+  [[maybe_unused]] static constexpr bool is_steady = true;
+  static time_point now() noexcept { return time_point(time); }
+  static inline duration time{1'000'000'000};
+};
+
 using Arm = TopicHardware<Q2d>;
+using HandArm = TopicHardware<Q2d, EffortCommand<2>, HandClock>;
 const ros2::TopicHardwareOptions simulated{.set_up_time = 0, .clock_topic = "/clock"};
 
 void publish_states(MemoryTransport& transport) {
@@ -83,9 +95,9 @@ class FailingSimulator final : public ros2::Transport {
 
 }  // namespace
 
-TEST_CASE("ages and deadlines are those of the simulator") {
+TEST_CASE("nothing is older than by the simulator's clock") {
   MemoryTransport transport;
-  Arm arm(Q2d(), transport, simulated);
+  HandArm arm(Q2d(), transport, simulated);
   JointState<2> state;
   const auto sent = [&] {
     const auto message = transport.last<States>("/robot_joint_commands");
@@ -97,43 +109,65 @@ TEST_CASE("ages and deadlines are those of the simulator") {
   CHECK(arm.activate() == Status::hardware_fault);
   CHECK(arm.problem() == "no time on /clock");
 
-  const TopicClock clock = arm.clock();
-  publish_time(transport, milliseconds(100'000));
+  int now = 100'000;
+  const auto pass = [&](int simulated_time, int host_time) {
+    HandClock::time += milliseconds(host_time);
+    publish_time(transport, milliseconds(now += simulated_time));
+    arm.exchange();
+  };
+  pass(0, 0);
   publish_states(transport);
-  arm.exchange();
   REQUIRE(arm.activate() == Status::ok);
   CHECK(arm.write({JointVector<2>{1, 2}}) == Status::ok);
   arm.exchange();
   CHECK(sent().effort == std::vector<double>{1, 2});
   CHECK(sent().header.stamp.sec == 100);
-  std::this_thread::sleep_for(milliseconds(150));  // a pause longer than all times
-  arm.exchange();
-  CHECK(sent().effort == std::vector<double>{1, 2});
-  CHECK(arm.read(state) == Status::ok);
-
-  const nanoseconds start = clock.now();
-  publish_time(transport, milliseconds(100'049));
-  CHECK(arm.read(state) == Status::ok);
-  publish_time(transport, milliseconds(100'050));
+  SECTION("a pause of the simulator") {
+    pass(0, 10'000);
+    CHECK(arm.read(state) == Status::ok);
+  }
+  SECTION("a long step of the clock, in which nothing else could come") {
+    pass(700, 1);
+    CHECK(arm.read(state) == Status::ok);
+  }
+  SECTION("a slow simulator") {
+    pass(49, 490);
+    CHECK(arm.read(state) == Status::ok);
+    pass(1, 10);
+    CHECK(arm.read(state) == Status::stale_state);
+  }
+  SECTION("a fast one") {
+    pass(490, 49);
+    CHECK(arm.read(state) == Status::ok);
+    pass(10, 1);
+    CHECK(arm.read(state) == Status::stale_state);
+  }
+  if (arm.read(state) == Status::ok) {
+    CHECK(sent().effort == std::vector<double>{1, 2});
+    CHECK(arm.statistics().missed_deadlines == 0);
+  }
+  pass(100, 100);
   CHECK(arm.read(state) == Status::stale_state);
-  publish_time(transport, milliseconds(100'100));
-  arm.exchange();
   CHECK(sent().effort == std::vector<double>{0, 0});
   CHECK(arm.statistics().missed_deadlines == 1);
-
-  // The simulation begins once more: the loop's time goes on.
-  publish_time(transport, milliseconds(0));
-  CHECK(clock.now() - start == milliseconds(100));
-  publish_time(transport, milliseconds(7));
-  CHECK(clock.now() - start == milliseconds(107));
   publish_states(transport);
   CHECK(arm.read(state) == Status::ok);
+  pass(500, 500);
+  CHECK(arm.read(state) == Status::hardware_fault);
 }
 
-TEST_CASE("times of any messages never run backwards") {
+TEST_CASE("no time passes when the simulator's clock is set") {
   MemoryTransport transport;
-  Arm arm(Q2d(), transport, simulated);
+  HandArm arm(Q2d(), transport, simulated);
   const TopicClock clock = arm.clock();
+  for (const int time : {5'000, 5'001, 0, 7, 10'007, 20'008, 20'009}) {
+    publish_time(transport, milliseconds(time));
+  }
+  // 1, then 7 from the reset on, 10 000 at once, and 1 after a jump of 10 001.
+  CHECK(clock.now() == milliseconds(1 + 7 + 10'000 + 1));
+  CHECK(arm.statistics().clock_jumps == 2);
+
+  // Numbers that are no times.
   nanoseconds last = clock.now();
   for (int k = 0; k < 20; ++k) {
     for (const std::int32_t second : {INT32_MAX, INT32_MIN, 0, -1}) {
@@ -143,6 +177,14 @@ TEST_CASE("times of any messages never run backwards") {
       last = clock.now();
     }
   }
+  // A simulator and a bag in turn.
+  for (int k = 0; k < 10; ++k) {
+    publish_time(transport, milliseconds(100'000 + k));
+    publish_time(transport, milliseconds(5'000 + k));
+  }
+  CHECK(clock.now() == last);
+  publish_time(transport, milliseconds(5'010));
+  CHECK(clock.now() == last + milliseconds(1));
 }
 
 TEST_CASE("a loop makes a cycle for each period of the simulator, and stands still with it") {
@@ -195,14 +237,18 @@ TEST_CASE("a loop makes a cycle for each period of the simulator, and stands sti
   CHECK(report.missed == 8);
 }
 
-TEST_CASE("a transport that fails ends a wait for the simulator in a fault") {
+TEST_CASE("a loop whose transport fails goes on at the host's pace, in a fault") {
   Loop<Arm, PidPlusGravity> loop(
       Arm(std::make_unique<FailingSimulator>(), {.clock_topic = "/clock"}));
   loop.reference().position = {0.1, 0.2};
   TopicClock clock = loop.hardware().clock();
-  const RunReport report = run(loop, clock);
+  Status status = Status::ok;
+  const RunReport report = run(loop, clock, {}, [&, faults = 0](auto&, const auto& now) mutable {
+    status = now.status;
+    return status != Status::hardware_fault || ++faults < 10;
+  });
   CHECK(report.end == RunEnd::declined);
-  CHECK(report.status == Status::hardware_fault);
+  CHECK(status == Status::hardware_fault);
   CHECK(loop.hardware().problem() == "the network is gone");
 }
 

@@ -5,6 +5,7 @@
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_state.hpp"
 #include "articula/core/name.hpp"
+#include "articula/ros2/hardware/topic_time.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
 #include "articula/ros2/node/ros_time.hpp"
 
@@ -21,9 +22,9 @@ namespace articula::ros2 {
 /// The last figures of a robot's joints, and when they came.
 template <int N>
 struct TopicStates {
-  using Time = std::chrono::nanoseconds;
   /// The arrival of figures that have not come.
-  static constexpr Time never = Time::min() / 2;
+  static constexpr TopicTime never{std::chrono::nanoseconds::min() / 2,
+                                   std::chrono::nanoseconds::min() / 2};
 
   /// No joint's figures have come.
   TopicStates() { arrival.fill(never); }
@@ -33,7 +34,7 @@ struct TopicStates {
   }
 
   JointState<N> state{};
-  std::array<Time, static_cast<std::size_t>(N)> arrival;
+  std::array<TopicTime, static_cast<std::size_t>(N)> arrival;
 };
 
 /// What became of a message.
@@ -65,7 +66,7 @@ class JointStateCollector {
   /// Takes a message over.
   /// @param arrival  the present time
   /// Real-time: yes.
-  StatesMessage take(const Message& message, Time arrival) noexcept {
+  StatesMessage take(const Message& message, const TopicTime& arrival) noexcept {
     const std::size_t size = message.name.size();
     if (message.position.size() != size || !fits(message.velocity, size) ||
         !fits(message.effort, size)) {
@@ -86,7 +87,7 @@ class JointStateCollector {
     for (std::size_t j = 0; j < found.size(); ++j) {
       if (found[j] == nullptr) continue;
       const auto i = static_cast<std::size_t>(found[j] - message.position.data());
-      take_joint(j, message, i, arrival, stamp.count() == 0 ? arrival : stamp);
+      take_joint(j, message, i, arrival, stamp.count() == 0 ? arrival.simulated : stamp);
     }
     return StatesMessage::accepted;
   }
@@ -103,7 +104,7 @@ class JointStateCollector {
            (message.effort.empty() || !std::isinf(message.effort[i]));
   }
 
-  void take_joint(std::size_t j, const Message& message, std::size_t i, Time arrival,
+  void take_joint(std::size_t j, const Message& message, std::size_t i, const TopicTime& arrival,
                   Time stamp) noexcept {
     const auto at = static_cast<Eigen::Index>(j);
     JointState<N>& state = states_.state;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -20,49 +21,64 @@ namespace detail {
 class ToldTime {
  public:
   using Time = std::chrono::nanoseconds;
-  /// The time after the last message, if the transport fails.
-  static constexpr Time end_of_time = Time::max() / 4;
+  /// A longer step is no time that passes: the simulation was set to another time, or two programs
+  /// send the topic.
+  static constexpr Time longest_step = std::chrono::seconds(10);
 
   // For the transport's thread. Real-time: no (locks).
 
-  /// Takes a message's time over. A time before the last one is that of a simulation that was reset.
+  /// Takes a message's time over. A step backwards, or a longer one, counts as a jump.
   void take(Time told) {
-    const Time step = is_known() ? std::max(told - told_, Time(0)) : Time(0);
+    const Time step = is_known() ? told - told_ : Time(0);
+    const bool jumps = step < Time(0) || step > longest_step;
+    if (jumps) jumps_.fetch_add(1, std::memory_order_relaxed);
     told_ = told;
-    is_known_.store(true, std::memory_order_release);
-    set(std::min(now() + step, end_of_time));
+    {
+      const std::lock_guard lock(mutex_);
+      is_known_.store(true, std::memory_order_release);
+      if (!jumps) passed_.store(passed_.load() + step, std::memory_order_release);
+    }
+    changed_.notify_all();
   }
   /// The time of the last message.
   [[nodiscard]] Time told() const noexcept { return told_; }
-  /// No message will come any more.
-  void end() { set(end_of_time); }
+  /// No message will come any more: from here on the time is that of this host, so that who waits
+  /// for it comes to know.
+  void end() { ended_.store(host(), std::memory_order_release); }
 
   // For any thread:
 
-  /// The simulated time since the first message, resets left out. Real-time: yes.
-  [[nodiscard]] Time now() const noexcept { return now_.load(std::memory_order_acquire); }
+  /// The simulated time since the first message, jumps left out. Real-time: yes, but for the clock
+  /// after the end.
+  [[nodiscard]] Time now() const noexcept {
+    const Time ended = ended_.load(std::memory_order_acquire);
+    const Time passed = passed_.load(std::memory_order_acquire);
+    return ended == Time(0) ? passed : passed + (host() - ended);
+  }
   /// Whether a message has come. Real-time: yes.
   [[nodiscard]] bool is_known() const noexcept { return is_known_.load(std::memory_order_acquire); }
+  [[nodiscard]] std::uint64_t jumps() const noexcept {
+    return jumps_.load(std::memory_order_relaxed);
+  }
   /// Waits until that time, or until the flag is set. Real-time: no (waits).
   void wait_until(Time due, const StopFlag* stop) {
+    // Nobody wakes up for the flag, nor for the host's time after the end.
+    constexpr Time longest_sleep = std::chrono::milliseconds(5);
     std::unique_lock lock(mutex_);
-    // Nobody wakes up for the flag.
-    while (now() < due && (stop == nullptr || !stop->requested())) {
-      changed_.wait_for(lock, std::chrono::milliseconds(5));
+    for (Time left = due - now(); left > Time(0) && (stop == nullptr || !stop->requested());
+         left = due - now()) {
+      const bool has_ended = ended_.load(std::memory_order_acquire) != Time(0);
+      changed_.wait_for(lock, has_ended ? std::min(left, longest_sleep) : longest_sleep);
     }
   }
 
  private:
-  void set(Time now) {
-    {
-      const std::lock_guard lock(mutex_);
-      now_.store(now, std::memory_order_release);
-    }
-    changed_.notify_all();
-  }
+  static Time host() noexcept { return std::chrono::steady_clock::now().time_since_epoch(); }
 
-  std::atomic<Time> now_{Time(0)};
+  std::atomic<Time> passed_{Time(0)};
+  std::atomic<Time> ended_{Time(0)};  ///< when, by the host's clock; 0: it goes on
   std::atomic<bool> is_known_ = false;
+  std::atomic<std::uint64_t> jumps_ = 0;
   Time told_{};  ///< by the last message
   std::mutex mutex_{};
   std::condition_variable changed_{};

@@ -32,8 +32,8 @@ namespace articula::ros2 {
 /// - A joint that is silent for `silent_after` is a fault, which lasts until `activate`. In a fault and
 ///   at the end the joints get no effort, no velocity, or the position where they are.
 /// - If `write` is not called for `command_deadline`, the transport's thread sends that stop.
-/// - A simulator that does not run in real time needs TopicHardwareOptions::clock_topic. These times
-///   are then its own, and `clock` paces the loop.
+/// - A simulator that does not run in real time needs TopicHardwareOptions::clock_topic. Nothing is
+///   then older than by its time, and `clock` paces the loop.
 /// @tparam R            the robot
 /// @tparam CommandType  EffortCommand, PositionCommand or VelocityCommand
 /// @tparam Clock        of this host; a test may have another one
@@ -185,7 +185,7 @@ class TopicHardware {
   }
   [[nodiscard]] std::chrono::nanoseconds age_of(
       const TopicStates<joint_count>& states) const noexcept {
-    return link_->now() - states.arrival[states.oldest()];
+    return ros2::age(link_->now(), states.arrival[states.oldest()]);
   }
   [[nodiscard]] bool has_time() const noexcept {
     return link_->simulated_time() == nullptr || link_->simulated_time()->is_known();

@@ -75,12 +75,12 @@ class TopicLink {
 
   /// Sends the last command that was written, or a stop if none was written in time.
   void exchange() {
-    const Time now = this->now();
+    const TopicTime now = this->now();
     if (outgoing_.update()) {
       send(outgoing_.value().command);
       follows_ = outgoing_.value().follows;
       written_ = now;
-    } else if (follows_ && now - written_ >= deadline_) {
+    } else if (follows_ && age(now, written_) >= deadline_) {
       send(stop_command<Command, N>(collector_.states().state.position));
       follows_ = false;
       missed_deadlines_.fetch_add(1, std::memory_order_relaxed);
@@ -108,9 +108,10 @@ class TopicLink {
 
   // For any thread:
 
-  /// The simulator's time, or this host's. Real-time: yes, but for the clock.
-  [[nodiscard]] Time now() const noexcept {
-    return simulated_ != nullptr ? simulated_->now() : Time(Clock::now().time_since_epoch());
+  /// The present. Real-time: yes, but for the clock.
+  [[nodiscard]] TopicTime now() const noexcept {
+    const Time host = Clock::now().time_since_epoch();
+    return {host, simulated_ != nullptr ? simulated_->now() : host};
   }
   /// The time of a simulator; null without a topic for it.
   [[nodiscard]] const std::shared_ptr<ToldTime>& simulated_time() const noexcept {
@@ -121,8 +122,12 @@ class TopicLink {
   }
   [[nodiscard]] TopicStatistics statistics() const noexcept {
     const auto value = [](const auto& counter) { return counter.load(std::memory_order_relaxed); };
-    return {value(taken_[0]), value(taken_[1]), value(taken_[2]) + value(undecoded_), value(sent_),
-            value(missed_deadlines_)};
+    return {value(taken_[0]),
+            value(taken_[1]),
+            value(taken_[2]) + value(undecoded_),
+            value(sent_),
+            value(missed_deadlines_),
+            simulated_ != nullptr ? simulated_->jumps() : 0};
   }
   [[nodiscard]] std::string_view joint_name(std::size_t joint) const noexcept {
     return names_[joint].view();
@@ -172,7 +177,7 @@ class TopicLink {
   std::array<Name, static_cast<std::size_t>(N)> names_;
   JointStateCollector<N> collector_;
   std::shared_ptr<ToldTime> simulated_{};
-  Time written_{};        ///< when the last command came from the loop
+  TopicTime written_{};   ///< when the last command came from the loop
   bool follows_ = false;  ///< another one is to come
   LatestValue<TopicStates<N>> incoming_{};
   LatestValue<Outgoing> outgoing_{};
