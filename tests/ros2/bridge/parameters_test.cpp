@@ -4,10 +4,15 @@
 #include "articula/ros2/messages/trajectory_msgs.hpp"
 #include "articula/ros2/messages/type_description_interfaces.hpp"
 
+#include "articula/ros2/node/parameter_server.hpp"
 #include "bridged_arm.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace articula;
@@ -171,6 +176,82 @@ TEST_CASE("a dumped file loads again") {
   set(arm, {number(p, 1000)});
   for (const auto& result : set(arm, dumped)) CHECK(result.successful);
   CHECK(get(arm, p) == 2000);
+}
+
+namespace {
+
+// Keeps numbers and counts the changes under way. It refuses numbers below 0.
+class SlowStore final : public ParameterStore {
+ public:
+  std::vector<NodeParameter> list() override {
+    std::vector<NodeParameter> all;
+    for (const auto& [name, value] : numbers) {
+      all.push_back({.value = to_value(value)});
+      all.back().descriptor.name = name;
+      all.back().descriptor.type = all.back().value.type;
+    }
+    return all;
+  }
+  void set(const NamedValues& values, OnSet on_set) override {
+    REQUIRE(!pending);
+    ++calls;
+    pending = [this, values, on_set] {
+      for (const auto& own : values) {
+        if (own.value.double_value < 0) return on_set(own.name + " is below 0");
+      }
+      for (const auto& own : values) numbers[own.name] = own.value.double_value;
+      on_set({});
+    };
+  }
+  void settle() {
+    while (pending) std::exchange(pending, nullptr)();
+  }
+
+  std::map<std::string, double> numbers{};
+  std::function<void()> pending{};
+  int calls = 0;
+};
+
+}  // namespace
+
+TEST_CASE("any number of parameters is set by one request") {
+  support::MemoryTransport transport;
+  Context context(transport, Distribution::jazzy);
+  const Node own(context, "arm");
+  SlowStore store;
+  std::vector<Parameter> wanted;
+  for (int k = 0; k < 200; ++k) {
+    store.numbers["g" + std::to_string(k)] = 0;
+    wanted.push_back(number("g" + std::to_string(k), k));
+  }
+  const ParameterServer server(own, store);
+  const auto ask = [&] {
+    const auto reply = transport.request(
+        "/arm/set_parameters",
+        support::bytes_of(srv::SetParameters<Jazzy>::Request{.parameters = wanted}));
+    store.settle();
+    srv::SetParameters<Jazzy>::Response response;
+    REQUIRE(decode(*reply, response) == CdrError::none);
+    REQUIRE(response.results.size() == wanted.size());
+    return response.results;
+  };
+  for (const auto& result : ask()) CHECK(result.successful);
+  CHECK(store.calls == 1);
+  CHECK(store.numbers["g199"] == 199);
+
+  // One that is refused does not keep the others from being set, one after the other.
+  for (Parameter& each : wanted) each.value.double_value += 1;
+  wanted[7].value.double_value = -1;
+  wanted[9].name = "ghost";
+  const auto results = ask();
+  for (std::size_t k = 0; k < results.size(); ++k) {
+    CHECK(results[k].successful == (k != 7 && k != 9));
+  }
+  CHECK(results[7].reason == "g7 is below 0");
+  CHECK(results[9].reason.find("not declared") != std::string::npos);
+  CHECK(store.numbers["g199"] == 200);
+  CHECK(store.numbers["g7"] == 7);
+  CHECK(store.calls == 1 + 1 + 199);
 }
 
 TEST_CASE("all nodes have parameters") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // ROS 2's clients move a loop's robot: by trajectories as goals or messages, by references, by commands.
+#include "articula/ros2/bridge/controllers/trajectory_messages.hpp"
 #include "articula/ros2/messages/action_msgs.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/messages/controller_manager_msgs.hpp"
@@ -10,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <vector>
 
 using namespace articula;
 using namespace articula::ros2;
@@ -390,6 +393,7 @@ TEST_CASE("the state of a controller has reference, measurement and error") {
   CHECK(state->error.positions[0] == 0.02 - state->feedback.positions[0]);
   CHECK(state->output.effort.size() == 2);
   CHECK(state->speed_scaling_factor == 1);
+  CHECK(arm.transport.topics["/computed_torque/controller_state"].count == 0);  // it is inactive
 }
 
 TEST_CASE("the reference at a time that has passed is asked for") {
@@ -410,6 +414,73 @@ TEST_CASE("the reference at a time that has passed is asked for") {
   CHECK(half.velocity[0] > 0.3);
   CHECK_FALSE(at(begin - std::chrono::seconds(100)).success);
   CHECK_FALSE(at(arm.now + std::chrono::seconds(1)).success);
+}
+
+TEST_CASE("a goal for a loop that has made no cycle waits for one") {
+  support::MemoryTransport transport;
+  const auto loop = support::bypass_arm();
+  BridgeNodes bridge(loop->port(), transport, {});
+  std::chrono::nanoseconds now{1'700'000'000'000'000'000};
+  const auto run = [&](int milliseconds, int cycles) {
+    for (int k = 0; k < milliseconds; ++k) {
+      loop->cycles(cycles);
+      bridge.update(now += std::chrono::milliseconds(1));
+    }
+  };
+  run(1, 0);
+  const std::string bypass = "/bypass/follow_joint_trajectory/_action/";
+  Send::Request request{.goal = goal_to(0.1, 0.1, 1)};
+  request.goal_id.uuid[0] = 1;
+  const auto reply = transport.request(bypass + "send_goal", support::bytes_of(request));
+  run(300, 0);
+  CHECK(transport.topics[bypass + "feedback"].count == 0);
+  run(300, 1);
+  Send::Response response;
+  REQUIRE(decode(*reply, response) == CdrError::none);
+  CHECK(response.accepted);
+  const auto feedback = transport.last<FeedbackMessage<Follow>>(bypass + "feedback");
+  REQUIRE(feedback);
+  CHECK(feedback->feedback.actual.positions.size() == 2);
+}
+
+TEST_CASE("a controller's joints keep the order of the options") {
+  const std::vector<std::string> joints{elbow_joint, shoulder_joint};
+  ActiveArm arm({.controller_joints = {{"pid_plus_gravity", joints}}});
+  REQUIRE(arm.send(1, goal_to(0.3, -0.2, 1)).accepted);
+  REQUIRE(arm.wait_for(1).status == GoalState::succeeded);
+  arm.run(50);
+  const auto feedback = arm.transport.last<FeedbackMessage<Follow>>(action + "feedback");
+  REQUIRE(feedback);
+  CHECK(feedback->feedback.joint_names == joints);
+  CHECK(feedback->feedback.desired.positions[0] < -0.1);
+  const auto state = arm.transport.last<control_msgs::msg::JointTrajectoryControllerState<Jazzy>>(
+      controller + "controller_state");
+  REQUIRE(state);
+  CHECK(state->joint_names == joints);
+  CHECK(state->reference.positions == std::vector<double>{-0.2, 0.3});
+  const auto asked = arm.call<control_msgs::srv::QueryTrajectoryState<Jazzy>>(
+      controller + "query_state", {.time = to_message<builtin_interfaces::msg::Time>(arm.now)});
+  REQUIRE(asked.success);
+  CHECK(asked.name == joints);
+  CHECK(asked.position == std::vector<double>{-0.2, 0.3});
+  arm.publish(controller + "commands", Numbers{.data = {-0.19, 0.31}});
+  arm.run(5);
+  CHECK(arm.reference() == std::vector<double>{0.31, -0.19});
+
+  CHECK_THROWS_WITH(
+      BridgedArm({.controller_joints = {{"pid_plus_gravity", {"knee"}}}}),
+      "ros2: controller 'pid_plus_gravity' has the joint 'knee', which robot 'q2d' does not have");
+}
+
+TEST_CASE("the error of a continuous joint is less than a half turn") {
+  remote::RobotSheet robot{.joints = {{.name = "wheel", .type = JointType::continuous}, {}}};
+  remote::Cycle cycle;
+  cycle.position = {0.1, 0.1};
+  cycle.reference_position = {2 * std::numbers::pi + 0.2, 2 * std::numbers::pi + 0.2};
+  cycle.velocity = cycle.reference_velocity = cycle.reference_acceleration = {0, 0};
+  const auto error = points_of(cycle, {0, 1}, robot).error.positions;
+  CHECK(std::abs(error[0] - 0.1) < 1e-12);
+  CHECK(std::abs(error[1] - 2 * std::numbers::pi - 0.1) < 1e-12);
 }
 
 TEST_CASE("Rolling's goals give feedback in its layout") {

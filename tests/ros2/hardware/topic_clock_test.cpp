@@ -48,10 +48,10 @@ using Arm = TopicHardware<Q2d>;
 using HandArm = TopicHardware<Q2d, EffortCommand<2>, HandClock>;
 const ros2::TopicHardwareOptions simulated{.set_up_time = 0, .clock_topic = "/clock"};
 
-void publish_states(MemoryTransport& transport) {
+void publish_states(MemoryTransport& transport, double elbow = 0.2) {
   States message;
   message.name = {"shoulder_active_joint", "elbow_active_joint"};
-  message.position = {0.1, 0.2};
+  message.position = {0.1, elbow};
   transport.publish("/robot_joint_states", support::bytes_of(message));
 }
 void publish_time(MemoryTransport& transport, nanoseconds time) {
@@ -115,7 +115,8 @@ TEST_CASE("nothing is older than by the simulator's clock") {
     publish_time(transport, milliseconds(now += simulated_time));
     arm.exchange();
   };
-  pass(0, 0);
+  pass(0, 1000);
+  CHECK(arm.activate() == Status::hardware_fault);  // the states are older than the first time
   publish_states(transport);
   REQUIRE(arm.activate() == Status::ok);
   CHECK(arm.write({JointVector<2>{1, 2}}) == Status::ok);
@@ -163,6 +164,7 @@ TEST_CASE("no time passes when the simulator's clock is set") {
   for (const int time : {5'000, 5'001, 0, 7, 10'007, 20'008, 20'009}) {
     publish_time(transport, milliseconds(time));
   }
+  arm.exchange();
   // 1, then 7 from the reset on, 10 000 at once, and 1 after a jump of 10 001.
   CHECK(clock.now() == milliseconds(1 + 7 + 10'000 + 1));
   CHECK(arm.statistics().clock_jumps == 2);
@@ -173,6 +175,7 @@ TEST_CASE("no time passes when the simulator's clock is set") {
     for (const std::int32_t second : {INT32_MAX, INT32_MIN, 0, -1}) {
       const ros2::rosgraph_msgs::msg::Clock message{{second, UINT32_MAX}};
       transport.publish("/clock", support::bytes_of(message));
+      arm.exchange();
       CHECK(clock.now() >= last);
       last = clock.now();
     }
@@ -181,9 +184,11 @@ TEST_CASE("no time passes when the simulator's clock is set") {
   for (int k = 0; k < 10; ++k) {
     publish_time(transport, milliseconds(100'000 + k));
     publish_time(transport, milliseconds(5'000 + k));
+    arm.exchange();
   }
   CHECK(clock.now() == last);
   publish_time(transport, milliseconds(5'010));
+  arm.exchange();
   CHECK(clock.now() == last + milliseconds(1));
 }
 
@@ -213,13 +218,14 @@ TEST_CASE("a loop makes a cycle for each period of the simulator, and stands sti
   });
   REQUIRE(reaches(0));
   const auto tell = [&](int time) {
-    publish_states(transport);
     publish_time(transport, milliseconds(5000 + time));
+    publish_states(transport, 1e-3 * time);
     loop.hardware().exchange();
   };
   for (int k = 1; k <= 100; ++k) {
     tell(k);
     REQUIRE(reaches(k));
+    REQUIRE(loop.state().position[1] == 1e-3 * k);  // of the same moment
   }
   std::this_thread::sleep_for(milliseconds(100));  // longer than the deadline of a command
   CHECK(cycles == 100);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 namespace articula::ros2 {
@@ -28,20 +29,28 @@ class ToldTime {
   // For the transport's thread. Real-time: no (locks).
 
   /// Takes a message's time over. A step backwards, or a longer one, counts as a jump.
-  void take(Time told) {
-    const Time step = is_known() ? told - told_ : Time(0);
-    const bool jumps = step < Time(0) || step > longest_step;
-    if (jumps) jumps_.fetch_add(1, std::memory_order_relaxed);
+  void take(Time told) noexcept {
+    const Time step = told_ ? told - *told_ : Time(0);
     told_ = told;
+    if (step < Time(0) || step > longest_step) {
+      jumps_.fetch_add(1, std::memory_order_relaxed);
+    } else {
+      waiting_ += step;
+    }
+  }
+  /// Lets the time that was taken pass: the loop then has what else came with it.
+  void pass() {
+    if (!told_ || (is_known() && waiting_ == Time(0))) return;
     {
       const std::lock_guard lock(mutex_);
+      passed_.store(passed_.load() + waiting_, std::memory_order_release);
       is_known_.store(true, std::memory_order_release);
-      if (!jumps) passed_.store(passed_.load() + step, std::memory_order_release);
     }
+    waiting_ = Time(0);
     changed_.notify_all();
   }
   /// The time of the last message.
-  [[nodiscard]] Time told() const noexcept { return told_; }
+  [[nodiscard]] Time told() const noexcept { return told_.value_or(Time(0)); }
   /// No message will come any more: from here on the time is that of this host, so that who waits
   /// for it comes to know.
   void end() { ended_.store(host(), std::memory_order_release); }
@@ -55,7 +64,7 @@ class ToldTime {
     const Time passed = passed_.load(std::memory_order_acquire);
     return ended == Time(0) ? passed : passed + (host() - ended);
   }
-  /// Whether a message has come. Real-time: yes.
+  /// Whether time passes: a message has come. Real-time: yes.
   [[nodiscard]] bool is_known() const noexcept { return is_known_.load(std::memory_order_acquire); }
   [[nodiscard]] std::uint64_t jumps() const noexcept {
     return jumps_.load(std::memory_order_relaxed);
@@ -79,7 +88,8 @@ class ToldTime {
   std::atomic<Time> ended_{Time(0)};  ///< when, by the host's clock; 0: it goes on
   std::atomic<bool> is_known_ = false;
   std::atomic<std::uint64_t> jumps_ = 0;
-  Time told_{};  ///< by the last message
+  std::optional<Time> told_{};  ///< by the last message
+  Time waiting_{0};             ///< taken, and not passed yet
   std::mutex mutex_{};
   std::condition_variable changed_{};
 };

@@ -73,8 +73,10 @@ class TopicLink {
 
   // For the transport's thread:
 
-  /// Sends the last command that was written, or a stop if none was written in time.
+  /// Sends the last command that was written, or a stop if none was written in time. Lets the
+  /// simulator's time pass.
   void exchange() {
+    if (simulated_ != nullptr) simulated_->pass();
     const TopicTime now = this->now();
     if (outgoing_.update()) {
       send(outgoing_.value().command);
@@ -111,7 +113,8 @@ class TopicLink {
   /// The present. Real-time: yes, but for the clock.
   [[nodiscard]] TopicTime now() const noexcept {
     const Time host = Clock::now().time_since_epoch();
-    return {host, simulated_ != nullptr ? simulated_->now() : host};
+    if (simulated_ == nullptr) return {host, host};
+    return {host, simulated_->is_known() ? simulated_->now() : TopicStates<N>::never.simulated};
   }
   /// The time of a simulator; null without a topic for it.
   [[nodiscard]] const std::shared_ptr<ToldTime>& simulated_time() const noexcept {

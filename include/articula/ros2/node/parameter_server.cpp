@@ -191,21 +191,26 @@ void ParameterServer::serve_setting() {
           const messages::SetParametersResult<Jazzy> refusal{false, too_many_text};
           return reply.send({.results = std::vector(count, refusal)});
         }
-        struct Open {
-          services::SetParameters<Jazzy>::Response response{};
-          std::size_t left = 0;
+        const auto open = std::make_shared<OpenSetting>();
+        open->answer = [this, reply](const auto& results) {
+          publish_changes();
+          reply.send({.results = results});
         };
-        const auto open = std::make_shared<Open>();
-        open->response.results.resize(count);
-        open->left = count;
+        open->results.resize(count);
+        const auto all = store_.list();
         for (std::size_t i = 0; i < count; ++i) {
-          set(request.parameters[i], [this, open, i, reply](const std::string& reason) {
-            open->response.results[i] = {reason.empty(), reason};
-            if (--open->left > 0) return;
-            publish_changes();
-            reply.send(open->response);
-          });
+          messages::Parameter<Jazzy> own = request.parameters[i];
+          const std::string reason = check(all, own);
+          open->results[i] = {reason.empty(), reason};
+          if (!reason.empty() || same(find(all, own.name)->value, own.value)) continue;
+          open->wanted.push_back(std::move(own));
+          open->places.push_back(i);
         }
+        if (open->wanted.empty()) return open->answer(open->results);
+        store_.set(open->wanted, [this, open](const std::string& reason) {
+          if (reason.empty()) return open->answer(open->results);
+          set_next(open);
+        });
       },
       quality);
   serve<services::SetParametersAtomically<Jazzy>>(
@@ -249,12 +254,13 @@ std::string ParameterServer::check(const std::vector<NodeParameter>& all,
   return {};
 }
 
-void ParameterServer::set(const messages::Parameter<Jazzy>& wanted, ParameterStore::OnSet on_set) {
-  messages::Parameter<Jazzy> own = wanted;
-  const auto all = store_.list();
-  if (const std::string reason = check(all, own); !reason.empty()) return on_set(reason);
-  if (same(find(all, own.name)->value, own.value)) return on_set({});
-  store_.set({own}, std::move(on_set));
+void ParameterServer::set_next(const std::shared_ptr<OpenSetting>& open) {
+  if (open->next == open->wanted.size()) return open->answer(open->results);
+  const std::size_t own = open->next++;
+  store_.set({open->wanted[own]}, [this, open, own](const std::string& reason) {
+    open->results[open->places[own]] = {reason.empty(), reason};
+    set_next(open);
+  });
 }
 
 void ParameterServer::publish_changes() {

@@ -9,7 +9,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,7 +59,16 @@ class ParameterServer {
   /// The reason why a value cannot be set, or empty. Integers become numbers.
   [[nodiscard]] std::string check(const std::vector<NodeParameter>& all,
                                   rcl_interfaces::msg::Parameter<Jazzy>& wanted) const;
-  void set(const rcl_interfaces::msg::Parameter<Jazzy>& wanted, ParameterStore::OnSet on_set);
+  /// A request to set parameters, of which each one has a result.
+  struct OpenSetting {
+    Results results{};
+    std::function<void(const Results&)> answer{};
+    NamedValues wanted{};               ///< what is to change
+    std::vector<std::size_t> places{};  ///< of it in the results
+    std::size_t next = 0;
+  };
+  /// Sets what is left, one after the other.
+  void set_next(const std::shared_ptr<OpenSetting>& open);
   void publish_changes();
 
   const Node& node_;

@@ -56,13 +56,6 @@ bool any(const Values& values) {
 ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
                                    const BridgedController& controller)
     : core_(core), controller_(controller), state_due_(core.options.controller_state_rate) {
-  const auto& joints = core.port.robot().joints;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    if (std::find(controller.joints.begin(), controller.joints.end(), joints[j].name) !=
-        controller.joints.end()) {
-      joints_.push_back(j);
-    }
-  }
   // The factor is the loop's, so all of its controllers show and set the same one.
   if (core.options.distribution == Distribution::humble) {
     humble_state_.emplace(node, "~/controller_state", quality_of_service::states);
@@ -97,9 +90,10 @@ void ControllerTopics::update() {
       ask(remote::Stop{});
     }
   }
+  if (!core_.watch.is_active(controller_.name)) return;
   if (!core_.watch.has_new_cycle(published_cycle_) || !state_due_.due(core_.context.now)) return;
   published_cycle_ = core_.watch.cycle.number;
-  const CyclePoints points = points_of(core_.watch.cycle, joints_, core_.port.robot().commands);
+  const CyclePoints points = points_of(core_.watch.cycle, controller_.indices, core_.port.robot());
   if (humble_state_) {
     humble_state_->publish(state_of<Humble>(core_.header(), controller_.joints, points, 1));
   } else {
@@ -206,7 +200,7 @@ control_msgs::srv::QueryTrajectoryState<Jazzy>::Response ControllerTopics::query
   const PastReference& past = *std::prev(later);
   response.success = true;
   response.name = controller_.joints;
-  for (const std::size_t j : joints_) {
+  for (const std::size_t j : controller_.indices) {
     response.position.push_back(past.position[j]);
     response.velocity.push_back(past.velocity[j]);
     response.acceleration.push_back(past.acceleration[j]);

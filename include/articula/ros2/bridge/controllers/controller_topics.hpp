@@ -56,7 +56,6 @@ class ControllerTopics {
 
   BridgeCore& core_;
   const BridgedController& controller_;
-  std::vector<std::size_t> joints_{};  ///< indices into the loop's
   std::optional<Publisher<State>> state_{};
   std::optional<Publisher<HumbleState>> humble_state_{};
   Periodic state_due_;

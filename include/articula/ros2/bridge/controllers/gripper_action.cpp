@@ -68,13 +68,11 @@ class GripperAction final : public ControllerAction {
       : core_(core),
         controller_(controller),
         options_(*controller.gripper),
+        joint_(controller.indices.front()),
         server_(node, "~/gripper_cmd", to_duration(core.options.result_lifetime),
                 {.on_goal = [this](const GoalId& id, const Goal& goal) { begin(id, goal); },
                  .on_cancel = [this](const GoalId& id) { return cancel(id); }}),
-        feedback_due_(core.options.feedback_rate) {
-    const auto& joints = core.port.robot().joints;
-    while (joints[joint_].name != options_.joint) ++joint_;
-  }
+        feedback_due_(core.options.feedback_rate) {}
 
   void update() override {
     server_.update();
@@ -127,6 +125,7 @@ class GripperAction final : public ControllerAction {
     return core_.port.robot().joints[joint_];
   }
   [[nodiscard]] GripperState measured() const {
+    if (!core_.watch.has_cycle) return {options_.joint};
     const remote::Cycle& cycle = core_.watch.cycle;
     return {options_.joint, cycle.position[joint_], cycle.velocity[joint_], cycle.effort[joint_]};
   }
@@ -188,6 +187,7 @@ class GripperAction final : public ControllerAction {
 
   bool cancel(const GoalId& id) {
     if (!running_ || running_->id != id || running_->canceling) return false;
+    if (!core_.watch.has_cycle) return false;  // where the joint is, is not known yet
     running_->canceling = true;
     const auto& limits = joint().limits;
     const double place = std::clamp(measured().position, limits.lower, limits.upper);
@@ -224,7 +224,7 @@ class GripperAction final : public ControllerAction {
   BridgeCore& core_;
   const BridgedController& controller_;
   const GripperOptions& options_;
-  std::size_t joint_ = 0;  ///< index into the loop's
+  std::size_t joint_;  ///< index into the loop's
   Server server_;
   Periodic feedback_due_;
   std::optional<Running> running_{};

@@ -44,7 +44,7 @@ class Action final : public ControllerAction {
     }
     if (running_.empty()) return;
     if (!core_.watch.is_active(controller_.name)) return leave();
-    if (feedback_due_.due(core_.context.now)) publish_feedback();
+    if (core_.watch.has_cycle && feedback_due_.due(core_.context.now)) publish_feedback();
   }
 
  private:
@@ -153,15 +153,8 @@ class Action final : public ControllerAction {
   }
 
   void publish_feedback() {
-    const remote::RobotSheet& robot = core_.port.robot();
-    std::vector<std::size_t> joints;
-    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
-      if (std::find(controller_.joints.begin(), controller_.joints.end(), robot.joints[j].name) !=
-          controller_.joints.end()) {
-        joints.push_back(j);
-      }
-    }
-    const CyclePoints points = points_of(core_.watch.cycle, joints, robot.commands);
+    const CyclePoints points =
+        points_of(core_.watch.cycle, controller_.indices, core_.port.robot());
     const auto convert = [](const TrajectoryPointMessage& from) {
       return trajectory_msgs::msg::JointTrajectoryPoint<Layout>{
           from.positions, from.velocities, from.accelerations, from.effort, from.time_from_start};

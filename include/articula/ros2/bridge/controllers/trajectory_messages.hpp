@@ -4,11 +4,14 @@
 
 #include "articula/remote/cycle.hpp"
 #include "articula/remote/request.hpp"
+#include "articula/remote/robot_sheet.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/node/ros_time.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -61,13 +64,16 @@ struct CyclePoints {
 };
 
 /// The points of a cycle for a controller's joints.
-/// @param cycle     the loop's cycle
-/// @param joints    indices of the joints in the vectors of the cycle
-/// @param commands  names of the loop's commands, as RobotSheet::commands
+/// The error of a continuous joint is less than a half turn, as that of a
+/// joint_trajectory_controller.
+/// @param cycle   the loop's cycle
+/// @param joints  indices of the joints in the vectors of the cycle
+/// @param robot   the loop's
 /// Real-time: no (allocates).
 [[nodiscard]] inline CyclePoints points_of(const remote::Cycle& cycle,
                                            const std::vector<std::size_t>& joints,
-                                           const std::vector<std::string>& commands) {
+                                           const remote::RobotSheet& robot) {
+  const std::vector<std::string>& commands = robot.commands;
   CyclePoints points;
   for (const std::size_t j : joints) {
     const double q = cycle.reference_position[j], v = cycle.reference_velocity[j];
@@ -76,7 +82,9 @@ struct CyclePoints {
     points.reference.accelerations.push_back(cycle.reference_acceleration[j]);
     points.measured.positions.push_back(cycle.position[j]);
     points.measured.velocities.push_back(cycle.velocity[j]);
-    points.error.positions.push_back(q - cycle.position[j]);
+    const double error = q - cycle.position[j];
+    const bool turns = robot.joints[j].type == JointType::continuous;
+    points.error.positions.push_back(turns ? std::remainder(error, 2 * std::numbers::pi) : error);
     points.error.velocities.push_back(v - cycle.velocity[j]);
     for (std::size_t k = 0; k < commands.size() && k < cycle.command.size(); ++k) {
       auto* const column = commands[k] == "position"   ? &points.output.positions

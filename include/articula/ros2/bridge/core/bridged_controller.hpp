@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,11 +18,12 @@ namespace articula::ros2 {
 
 /// A controller of a loop as ROS sees it.
 struct BridgedController {
-  std::string name{};                 ///< of the controller
-  std::string node{};                 ///< the same in characters that ROS allows
-  std::string type{};                 ///< as joint_trajectory_controller/JointTrajectoryController
-  std::vector<std::string> joints{};  ///< those that it commands
-  std::string quantity{};             ///< of <controller>/commands
+  std::string name{};                  ///< of the controller
+  std::string node{};                  ///< the same in characters that ROS allows
+  std::string type{};                  ///< as joint_trajectory_controller/JointTrajectoryController
+  std::vector<std::string> joints{};   ///< those that it commands
+  std::vector<std::size_t> indices{};  ///< of these joints in the robot
+  std::string quantity{};              ///< of <controller>/commands
   TrajectoryConstraints constraints{};
   std::optional<GripperOptions> gripper{};  ///< with its joint, if the type is a gripper's
 };
@@ -35,6 +37,24 @@ struct BridgedController {
   if (text.empty() || std::isdigit(static_cast<unsigned char>(text.front())) != 0)
     text = "_" + text;
   return text;
+}
+
+/// The indices of joints in a robot, in their order.
+/// @throws std::invalid_argument if the robot has no such joint
+/// Real-time: no (allocates).
+[[nodiscard]] inline std::vector<std::size_t> indices_of(const remote::RobotSheet& robot,
+                                                         const BridgedController& own) {
+  std::vector<std::size_t> indices;
+  for (const std::string& name : own.joints) {
+    const auto found = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                    [&](const auto& joint) { return joint.name == name; });
+    if (found == robot.joints.end()) {
+      articula::detail::refuse({"ros2: controller '", own.name, "' has the joint '", name,
+                                "', which robot '", robot.name, "' does not have"});
+    }
+    indices.push_back(static_cast<std::size_t>(found - robot.joints.begin()));
+  }
+  return indices;
 }
 
 /// The options of a gripper's controller, with its joint.
@@ -56,7 +76,7 @@ struct BridgedController {
 
 /// The controllers of a port, with the joints that the options name. Otherwise one with gains commands
 /// the joints of its gains, and others command all. A gripper's commands one.
-/// @throws std::invalid_argument as gripper_of
+/// @throws std::invalid_argument as gripper_of and indices_of
 /// Real-time: no (allocates).
 [[nodiscard]] inline std::vector<BridgedController> bridged_controllers(
     remote::Port& port, const BridgeOptions& options) {
@@ -88,6 +108,7 @@ struct BridgedController {
       own.gripper = gripper_of(own, options);
       own.joints = {own.gripper->joint};
     }
+    own.indices = indices_of(port.robot(), own);
     own.constraints.joints.resize(own.joints.size());
     all.push_back(std::move(own));
   }
