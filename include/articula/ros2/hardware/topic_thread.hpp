@@ -18,7 +18,7 @@
 namespace articula::ros2::detail {
 
 /// Polls a transport and calls a function after each poll, at least every millisecond or so, and
-/// once more at its end. An exception ends it early, and another function is called.
+/// once more at its end. An exception ends it early; then it calls another function, if there is one.
 class TopicThread {
  public:
   /// @throws std::invalid_argument if the transport is null
@@ -31,10 +31,10 @@ class TopicThread {
 
   [[nodiscard]] Transport& transport() noexcept { return *transport_; }
   /// Begins to poll.
-  void start(std::function<void()> exchange, std::function<void()> failed) {
+  void start(std::function<void()> exchange, std::function<void()> failed = {}) {
     thread_ = std::thread([this, exchange = std::move(exchange), failed = std::move(failed)] {
       run(exchange);
-      if (!error().empty()) failed();
+      if (failed && !error().empty()) failed();
     });
   }
   /// Ends the thread, but not the transport.
