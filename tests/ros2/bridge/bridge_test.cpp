@@ -8,6 +8,7 @@
 #include "articula/ros2/messages/rosgraph_msgs.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
 #include "articula/ros2/messages/type_description_interfaces.hpp"
+#include "articula/ros2/node/ros_time.hpp"
 
 #include "bridged_arm.hpp"
 
@@ -258,6 +259,36 @@ TEST_CASE("with the loop's time, stamps and the clock agree") {
   CHECK(states->header.stamp.nanosec == clock->clock.nanosec);
   BridgedArm other;
   CHECK_FALSE(other.transport.topics.contains("/clock"));
+}
+
+TEST_CASE("with another simulator's time, stamps follow its clock") {
+  BridgedArm arm({.use_sim_time = true, .clock_topic = "/clock"});
+  const auto stamp = [&] {
+    const auto states = arm.transport.last<sensor_msgs::msg::JointState<Jazzy>>("/joint_states");
+    REQUIRE(states);
+    return from_message(states->header.stamp);
+  };
+  std::chrono::milliseconds told{0};
+  const auto pass = [&](int milliseconds) {
+    for (int k = 0; k < milliseconds; ++k) {
+      told += std::chrono::milliseconds(1);
+      arm.publish("/clock",
+                  rosgraph_msgs::msg::Clock{to_message<builtin_interfaces::msg::Time>(told)});
+      arm.run(1);
+    }
+  };
+  told = std::chrono::seconds(100);
+  pass(50);
+  CHECK(told - stamp() < std::chrono::milliseconds(15));
+  const auto count = arm.transport.topics["/joint_states"].count;
+  arm.run(50);  // the other simulator is paused
+  CHECK(arm.transport.topics["/joint_states"].count == count);
+  told = std::chrono::seconds(0);  // it was reset
+  pass(50);
+  CHECK(told - stamp() < std::chrono::milliseconds(15));
+  CHECK(arm.transport.topics["/clock"].count == 0);  // the bridge sends none of its own
+  CHECK_THROWS_WITH(BridgedArm({.clock_topic = "/clock"}),
+                    "ros2: clock_topic '/clock' needs use_sim_time");
 }
 
 TEST_CASE("two bridges share a transport by their namespaces, and one may end before it") {

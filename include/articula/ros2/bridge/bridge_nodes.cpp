@@ -8,7 +8,10 @@
 #include "articula/ros2/bridge/core/bridge_core.hpp"
 #include "articula/ros2/bridge/manager_services.hpp"
 #include "articula/ros2/bridge/robot_topics.hpp"
+#include "articula/ros2/node/ros_time.hpp"
+#include "articula/ros2/node/subscription.hpp"
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -50,7 +53,7 @@ struct BridgeNodes::Parts {
   Parts(remote::Port& port, Transport& transport, const BridgeOptions& options)
       : core(port, transport, options), robot(core), manager(make_manager_services(core)) {
     const auto sim_time = read_only("use_sim_time", to_value(options.use_sim_time),
-                                    "Whether stamps have the time of the loop.");
+                                    "Whether stamps have a simulator's time.");
     std::vector<NodeParameter> all{sim_time};
     for (const BridgedController& own : core.controllers) {
       all.push_back(read_only(own.name + ".type", to_value(own.type), "Type of the controller."));
@@ -65,6 +68,11 @@ struct BridgeNodes::Parts {
                                              "What the names of frames begin with."),
                                    read_only("robot_description", to_value(port.robot().urdf),
                                              "The robot as a URDF document.")}));
+    if (!options.clock_topic.empty()) {
+      subscribe<rosgraph_msgs::msg::Clock>(
+          core.manager, options.clock_topic, quality_of_service::sensor_data,
+          [this](const auto& message) { told = from_message(message.clock); });
+    }
     for (BridgedController& own : core.controllers) {
       controllers.push_back(std::make_unique<ControllerNode>(core, own));
     }
@@ -82,6 +90,7 @@ struct BridgeNodes::Parts {
   }
 
   BridgeCore core;
+  std::chrono::nanoseconds told{0};  ///< by the topic of the options
   RobotTopics robot;
   std::unique_ptr<ManagerServices> manager;
   std::vector<std::unique_ptr<FixedNode>> fixed{};
@@ -95,8 +104,11 @@ BridgeNodes::~BridgeNodes() = default;
 void BridgeNodes::update(std::chrono::nanoseconds now) {
   BridgeCore& core = parts_->core;
   core.context.wall = now;
-  core.watch.update(now, core.options.use_sim_time);
-  core.context.now = core.options.use_sim_time ? to_duration(core.watch.cycle.time) : now;
+  const bool is_told = !core.options.clock_topic.empty();
+  const bool has_loops_time = core.options.use_sim_time && !is_told;
+  const std::chrono::nanoseconds clock = is_told ? parts_->told : now;
+  core.watch.update(clock, has_loops_time);
+  core.context.now = has_loops_time ? to_duration(core.watch.cycle.time) : clock;
   core.loop_operator.update(now);
   parts_->log_events();
   parts_->robot.update();

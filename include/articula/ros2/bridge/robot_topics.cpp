@@ -37,7 +37,7 @@ RobotTopics::RobotTopics(BridgeCore& core)
       tf_static_(state_publisher_, "/tf_static", quality_of_service::tf_static),
       description_(state_publisher_, "robot_description", quality_of_service::robot_description),
       states_due_(core.options.state_rate) {
-  if (core.options.use_sim_time) {
+  if (core.options.use_sim_time && core.options.clock_topic.empty()) {
     clock_.emplace(core.manager, "/clock", quality_of_service::clock);
   }
   const remote::RobotSheet& robot = core.port.robot();

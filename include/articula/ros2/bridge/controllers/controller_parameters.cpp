@@ -26,7 +26,7 @@ ControllerParameters::ControllerParameters(BridgeCore& core, BridgedController& 
                 to_value(static_cast<std::int64_t>(std::lround(1 / core.port.robot().period))),
                 "Cycles of the loop in a second."),
       read_only("use_sim_time", to_value(core.options.use_sim_time),
-                "Whether stamps have the time of the loop.")};
+                "Whether stamps have a simulator's time.")};
   if (controller.gripper) {
     fixed_.push_back(read_only("joint", to_value(controller.gripper->joint), "The joint."));
     fixed_.push_back(read_only("allow_stalling", to_value(controller.gripper->allow_stalling),

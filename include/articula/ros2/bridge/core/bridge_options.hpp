@@ -33,6 +33,9 @@ struct BridgeOptions {
   double result_lifetime = 10;        ///< of a goal after its end [s]
   /// Stamps have the loop's time, which is published as /clock: for nodes with use_sim_time.
   bool use_sim_time = false;
+  /// With use_sim_time: stamps have the time of this topic, as /clock of another simulator. It is then
+  /// not published.
+  std::string clock_topic{};
   /// The types that clients see. MoveIt and rqt choose by them what they offer.
   std::string controller_type = "joint_trajectory_controller/JointTrajectoryController";
   std::map<std::string, std::string> controller_types{};  ///< of single controllers, by name
@@ -69,6 +72,11 @@ inline void validate(const BridgeOptions& options) {
   if (!options.gain_prefix.empty() && options.gain_prefix.back() != '.') {
     articula::detail::refuse(
         {"ros2: gain_prefix '", options.gain_prefix, "' does not end with a dot: add one"});
+  }
+  const std::string& clock = options.clock_topic;
+  if (!clock.empty() && (!options.use_sim_time || clock.size() < 2 || clock.front() != '/')) {
+    articula::detail::refuse({"ros2: clock_topic '", clock, "' needs ",
+                              options.use_sim_time ? "a full name, as /clock" : "use_sim_time"});
   }
   for (const auto& [controller, gripper] : options.grippers) validate(controller, gripper);
   for (const auto& [controller, quantity] : options.command_quantities) {

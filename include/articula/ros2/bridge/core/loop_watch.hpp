@@ -32,9 +32,9 @@ class LoopWatch {
   LoopWatch(remote::Port& port, remote::Session& session) : port_(port), session_(session) {}
 
   /// Reads what is new.
-  /// @param now           of ROS
-  /// @param use_sim_time  ROS has the loop's time
-  void update(std::chrono::nanoseconds now, bool use_sim_time) {
+  /// @param now             of ROS
+  /// @param has_loops_time  ROS has the loop's time
+  void update(std::chrono::nanoseconds now, bool has_loops_time) {
     situation = port_.situation();
     const std::size_t known = references.size();
     while (session_.next(cycle)) {
@@ -43,7 +43,7 @@ class LoopWatch {
                             cycle.reference_position, cycle.reference_velocity,
                             cycle.reference_acceleration});
     }
-    if (!use_sim_time && references.size() > known) {
+    if (!has_loops_time && references.size() > known) {
       const auto shift = now - references.back().time;
       for (std::size_t i = known; i < references.size(); ++i) references[i].time += shift;
     }
