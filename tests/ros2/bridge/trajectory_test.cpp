@@ -285,7 +285,7 @@ TEST_CASE("a goal ends with its controller, with the loop, and with another clie
   switching.strictness = Switching::strict;
   REQUIRE(arm.call<Switching>("/controller_manager/switch_controller", switching).ok);
   auto response = arm.wait_for(1);
-  CHECK(response.status == GoalState::canceled);
+  CHECK(response.status == GoalState::aborted);
   CHECK(response.result.error_string == "Current goal cancelled during deactivate transition.");
   std::swap(switching.activate_controllers, switching.deactivate_controllers);
   REQUIRE(arm.call<Switching>("/controller_manager/switch_controller", switching).ok);
@@ -304,7 +304,7 @@ TEST_CASE("a goal ends with its controller, with the loop, and with another clie
                  "/controller_manager/set_hardware_component_state", hardware)
               .ok);
   response = arm.wait_for(3);
-  CHECK(response.status == GoalState::canceled);
+  CHECK(response.status == GoalState::aborted);
   CHECK(response.result.error_string == "Current goal cancelled during deactivate transition.");
 }
 
