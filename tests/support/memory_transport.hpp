@@ -34,7 +34,7 @@ Bytes bytes_of(const M& message) {
 }
 
 /// Topics and services without a network. Everything is delivered at once.
-class MemoryTransport final : public articula::ros2::Transport {
+class MemoryTransport : public articula::ros2::Transport {
  public:
   struct Topic {
     articula::ros2::TopicEndpoint endpoint{};

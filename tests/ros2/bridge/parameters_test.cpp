@@ -214,7 +214,7 @@ class SlowStore final : public ParameterStore {
 
 }  // namespace
 
-TEST_CASE("any number of parameters is set by one request") {
+TEST_CASE("hundreds of parameters are set by one request to the loop") {
   support::MemoryTransport transport;
   Context context(transport, Distribution::jazzy);
   const Node own(context, "arm");

@@ -10,6 +10,7 @@
 #include <articula/ros2/hardware/topic_hardware.hpp>
 
 #include "catch.hpp"
+#include "hand_clock.hpp"
 #include "memory_transport.hpp"
 
 #include <atomic>
@@ -24,6 +25,7 @@
 using namespace articula;
 using ros2::TopicClock;
 using ros2::TopicHardware;
+using support::HandClock;
 using support::MemoryTransport;
 using States = ros2::sensor_msgs::msg::JointState<ros2::Jazzy>;
 using std::chrono::milliseconds;
@@ -32,17 +34,6 @@ using std::chrono::nanoseconds;
 static_assert(LoopClock<TopicClock>);
 
 namespace {
-
-// This host's clock, which stands still unless a test moves it.
-struct HandClock {
-  using duration = nanoseconds;
-  using rep = duration::rep;
-  using period = duration::period;
-  using time_point = std::chrono::time_point<HandClock>;
-  [[maybe_unused]] static constexpr bool is_steady = true;
-  static time_point now() noexcept { return time_point(time); }
-  static inline duration time{1'000'000'000};
-};
 
 using Arm = TopicHardware<Q2d>;
 using HandArm = TopicHardware<Q2d, EffortCommand<2>, HandClock>;
@@ -72,24 +63,16 @@ struct CountingClock {
 };
 
 // A simulator that runs a millisecond in each poll until it fails.
-class FailingSimulator final : public ros2::Transport {
+class FailingSimulator final : public MemoryTransport {
  public:
-  std::unique_ptr<ros2::SampleWriter> advertise(const ros2::TopicEndpoint& topic) override {
-    return memory_.advertise(topic);
-  }
-  void subscribe(const ros2::TopicEndpoint& topic, OnSample on_sample) override {
-    memory_.subscribe(topic, std::move(on_sample));
-  }
-  void serve(const ros2::ServiceEndpoint&, OnRequest) override {}
   void poll(std::chrono::milliseconds longest) override {
     std::this_thread::sleep_for(longest);
-    publish_time(memory_, milliseconds(++polls_));
-    publish_states(memory_);
+    publish_time(*this, milliseconds(++polls_));
+    publish_states(*this);
     if (polls_ == 300) throw std::runtime_error("the network is gone");
   }
 
  private:
-  MemoryTransport memory_{};
   int polls_ = 0;
 };
 

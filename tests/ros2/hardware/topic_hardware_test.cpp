@@ -8,6 +8,7 @@
 #include <articula/sim/simulator.hpp>
 
 #include "catch.hpp"
+#include "hand_clock.hpp"
 #include "memory_transport.hpp"
 
 #include <chrono>
@@ -24,22 +25,12 @@
 using namespace articula;
 using ros2::TopicHardware;
 using ros2::TopicHardwareOptions;
+using support::HandClock;
 using support::MemoryTransport;
 using States = ros2::sensor_msgs::msg::JointState<ros2::Jazzy>;
 using std::chrono::milliseconds;
 
 namespace {
-
-// A clock that stands still unless a test moves it.
-struct HandClock {
-  using duration = std::chrono::nanoseconds;
-  using rep = duration::rep;
-  using period = duration::period;
-  using time_point = std::chrono::time_point<HandClock>;
-  [[maybe_unused]] static constexpr bool is_steady = true;
-  static time_point now() noexcept { return time_point(time); }
-  static inline duration time{1'000'000'000};
-};
 
 using Efforts = TopicHardware<Q2d, EffortCommand<2>, HandClock>;
 using Positions = TopicHardware<Q2d, PositionCommand<2>, HandClock>;
@@ -338,23 +329,16 @@ TEST_CASE("options that make no sense are refused by name") {
 namespace {
 
 // A transport at whose other end positions are the velocities that were sent.
-class ObedientJoints final : public ros2::Transport {
+class ObedientJoints final : public MemoryTransport {
  public:
   explicit ObedientJoints(std::vector<double>& last) : last_(last) {}
-  std::unique_ptr<ros2::SampleWriter> advertise(const ros2::TopicEndpoint& topic) override {
-    return memory_.advertise(topic);
-  }
-  void subscribe(const ros2::TopicEndpoint& topic, OnSample on_sample) override {
-    memory_.subscribe(topic, std::move(on_sample));
-  }
-  void serve(const ros2::ServiceEndpoint&, OnRequest) override {}
   void poll(std::chrono::milliseconds longest) override {
     std::this_thread::sleep_for(longest);
     note_command();
     States message;
     message.name = {shoulder, elbow};
     message.position = last_;
-    memory_.publish(states_topic, support::bytes_of(message));
+    publish(states_topic, support::bytes_of(message));
     if (++polls_ == limit) throw std::runtime_error("the network is gone");
   }
   ~ObedientJoints() override { note_command(); }
@@ -363,10 +347,9 @@ class ObedientJoints final : public ros2::Transport {
 
  private:
   void note_command() {
-    if (const auto command = memory_.last<States>(commands_topic)) last_ = command->velocity;
+    if (const auto command = last<States>(commands_topic)) last_ = command->velocity;
   }
 
-  MemoryTransport memory_{};
   std::vector<double>& last_;
   int polls_ = 0;
 };

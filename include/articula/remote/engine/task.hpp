@@ -123,7 +123,7 @@ struct Task {
   std::atomic<bool> claimed = false;
   // Filled in by the loop:
   TaskEnd end = TaskEnd::open;
-  std::uint64_t cycle = 0;  ///< the first one in which it has effect
+  std::uint64_t cycle = 0;  ///< the first one after the loop began it
   Status status = Status::ok;
   TrajectoryOutcome outcome = TrajectoryOutcome::idle;
   TrajectoryRefusal refusal{};

@@ -114,7 +114,7 @@ class TopicClock {
   TopicClock(std::shared_ptr<detail::ToldTime> time, const StopFlag* stop) noexcept
       : time_(std::move(time)), stop_(stop) {}
 
-  /// The simulator's time. Real-time: yes.
+  /// The simulator's time. Real-time: yes, but for the clock after the transport's end.
   [[nodiscard]] Time now() const noexcept { return time_->now(); }
   /// Waits until the simulator's time is `due`, or the stop is requested. Real-time: no (waits).
   Time wait_until(Time due) const noexcept {

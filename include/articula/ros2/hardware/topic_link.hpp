@@ -45,7 +45,7 @@ template <Robot R>
 
 /// States in and commands out, each by one wait-free exchange.
 /// @tparam Command  effort, position or velocity
-/// @tparam Clock    for ages and deadlines, if there is no topic with a clock
+/// @tparam Clock    of this host
 template <Robot R, class Command, class Clock>
 class TopicLink {
  public:

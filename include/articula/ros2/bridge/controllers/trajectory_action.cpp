@@ -145,7 +145,7 @@ class Action final : public ControllerAction {
           {Type::invalid_goal, "Current goal cancelled due to new incoming action."});
     }
     if (own.left || core_.port.situation().mode == LoopMode::inactive) {
-      // A goal that its client did not cancel cannot become canceled: ros2_controllers, #1517.
+      // As ros2_controllers has it since its pull request 1517.
       return server_.end(
           id, Status::aborted,
           {Type::invalid_goal, "Current goal cancelled during deactivate transition."});
