@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "plot.hpp"
+#include "support/plot.hpp"
 
 using namespace articula;
 

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "plot.hpp"
+#include "support/plot.hpp"
 
 using namespace articula;
 

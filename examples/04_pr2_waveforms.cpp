@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "beside.hpp"
-#include "plot.hpp"
+#include "support/plot.hpp"
 
 using namespace articula;
 

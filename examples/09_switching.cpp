@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "plot.hpp"
+#include "support/plot.hpp"
 
 using namespace articula;
 

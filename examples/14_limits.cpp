@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "plot.hpp"
+#include "support/plot.hpp"
 
 using namespace articula;
 

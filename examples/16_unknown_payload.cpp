@@ -8,7 +8,7 @@
 #include <articula/sweep/search_gains.hpp>
 #include <articula/sweep/sweep.hpp>
 
-#include "plot.hpp"
+#include "support/plot.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -10,7 +10,7 @@
 #include <articula/sweep/sweep.hpp>
 #include <articula/tuning/equivalent_inertia.hpp>
 
-#include "plot.hpp"
+#include "support/plot.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "kdl_robot.hpp"
 #include "peer.hpp"
+#include "peers/kdl_robot.hpp"
 
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfdsolver_recursive_newton_euler.hpp>

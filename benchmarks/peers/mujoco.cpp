@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mujoco.hpp"
+#include "peers/mujoco.hpp"
 #include "peer.hpp"
 
 #include <algorithm>

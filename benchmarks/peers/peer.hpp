@@ -2,7 +2,7 @@
 /// @file The same work, done by another library.
 #pragma once
 
-#include "blueprint.hpp"
+#include "robots/blueprint.hpp"
 
 #include <articula/model/model.hpp>
 

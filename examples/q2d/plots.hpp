@@ -2,7 +2,7 @@
 /// @file The figure of an experiment: position and effort of both joints under all controllers.
 #pragma once
 
-#include "../plot.hpp"
+#include "../support/plot.hpp"
 #include "options.hpp"
 
 namespace articula::examples {

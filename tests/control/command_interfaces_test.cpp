@@ -19,11 +19,11 @@
 #include <string_view>
 
 #include "catch.hpp"
-#include "fake_hardware.hpp"
+#include "hardware/fake_hardware.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
-#include "random_robots.hpp"
-#include "test_robots.hpp"
+#include "robots/random_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using support::TiltedQ2d;

@@ -10,7 +10,7 @@
 
 #include "catch.hpp"
 #include "random.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 

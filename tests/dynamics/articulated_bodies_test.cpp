@@ -5,7 +5,7 @@
 #include "articula/robots/q2d.hpp"
 #include "articula/robots/ur10.hpp"
 #include "catch.hpp"
-#include "random_robots.hpp"
+#include "robots/random_robots.hpp"
 
 #include <array>
 #include <cstddef>

@@ -5,8 +5,8 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "random_robots.hpp"
-#include "test_robots.hpp"
+#include "robots/random_robots.hpp"
+#include "robots/test_robots.hpp"
 
 #include <initializer_list>
 

@@ -6,8 +6,8 @@
 #include "articula/robots/q2d.hpp"
 #include "articula/robots/ur10.hpp"
 #include "catch.hpp"
-#include "oddity.hpp"
-#include "random_mechanism.hpp"
+#include "robots/oddity.hpp"
+#include "robots/random_mechanism.hpp"
 
 #include <vector>
 

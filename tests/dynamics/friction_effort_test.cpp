@@ -2,7 +2,7 @@
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 #include <articula/dynamics/friction_effort.hpp>
 

@@ -2,12 +2,12 @@
 #include <articula/dynamics/jacobian.hpp>
 #include <articula/robots/q2d.hpp>
 
-#include "any_robot.hpp"
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "random_robots.hpp"
+#include "robots/any_robot.hpp"
+#include "robots/random_robots.hpp"
+#include "robots/test_robots.hpp"
 #include "slope.hpp"
-#include "test_robots.hpp"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/dynamics/moving_joints.hpp"
 
-#include "blueprint.hpp"
 #include "catch.hpp"
+#include "robots/blueprint.hpp"
 
 using namespace articula;
 

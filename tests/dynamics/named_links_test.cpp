@@ -8,9 +8,9 @@
 #include <articula/robots/ur10.hpp>
 
 #include "catch.hpp"
-#include "oddity.hpp"
 #include "random.hpp"
-#include "random_robots.hpp"
+#include "robots/oddity.hpp"
+#include "robots/random_robots.hpp"
 
 #include <utility>
 

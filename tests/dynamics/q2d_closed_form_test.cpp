@@ -3,9 +3,9 @@
 #include "catch.hpp"
 #include "eigen.hpp"
 #include "random.hpp"
+#include "robots/test_robots.hpp"
+#include "robots/two_link_arm.hpp"
 #include "slope.hpp"
-#include "test_robots.hpp"
-#include "two_link_arm.hpp"
 
 #include <articula/dynamics/dynamics.hpp>
 #include <articula/robots/q2d.hpp>

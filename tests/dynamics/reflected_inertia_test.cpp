@@ -5,7 +5,7 @@
 #include "articula/hardware/transmission/four_bar_transmission.hpp"
 #include "articula/robots/q2d.hpp"
 #include "catch.hpp"
-#include "random_robots.hpp"
+#include "robots/random_robots.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file Described robots that look like none of the ready ones: what the compiler makes of them
 /// does the same as the algorithms' own texts.
 #include "catch.hpp"
-#include "random_mechanism.hpp"
+#include "robots/random_mechanism.hpp"
 
 #include <articula/dynamics/dynamics.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that a fuzzer makes up, for both ends of the bus.
-#include "any_frames.hpp"
+#include "hardware/any_frames.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,8 @@
 # check_rooms.sh ROOT
 #
 # The table of rooms in docs/design.md lists every folder of C++ files. A file includes only headers of
-# its own room and of rooms above it in the table. No room has more than 18 files (.hpp and .cpp).
+# its own room and of rooms above it in the table. No room has more than 18 files (.hpp and .cpp), nor
+# has a folder of the tests, benchmarks, examples or programs.
 set -eu
 
 cd "$1"
@@ -29,6 +30,11 @@ for folder in $(find . -name '*.[hc]pp' -exec dirname {} + | sort -u | sed 's|^\
     *" $folder "*) ;;
     *) echo "docs/design.md: the table lacks the room $folder"; failed=1 ;;
   esac
+done
+cd ../..
+for folder in $(find tests benchmarks examples cmake -name '*.[hc]pp' -exec dirname {} + | sort -u); do
+  count=$(find "$folder" -maxdepth 1 -name '*.[hc]pp' | wc -l)
+  [ "$count" -le 18 ] || { echo "$folder: $count files, 18 are allowed"; failed=1; }
 done
 echo "$(echo "$rooms" | wc -l) rooms checked"
 [ "$failed" -eq 0 ]

@@ -4,7 +4,7 @@
 // multiplications and additions, compilers fuse other ones in packs. The rounding then differs by
 // some 1e-16 in each cycle, which the closed loops keep from growing: 1e-9 in two seconds.
 #include "catch.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 #include <articula/articula.hpp>
 #include <articula/robots/panda.hpp>

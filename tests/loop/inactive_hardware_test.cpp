@@ -13,8 +13,8 @@
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
-#include "fake_can_bus.hpp"
-#include "test_robots.hpp"
+#include "hardware/fake_can_bus.hpp"
+#include "robots/test_robots.hpp"
 
 #include <memory>
 #include <utility>

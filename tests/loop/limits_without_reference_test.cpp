@@ -8,8 +8,8 @@
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
+#include "robots/test_robots.hpp"
 #include "test_controllers.hpp"
-#include "test_robots.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
-#include "fake_hardware.hpp"
+#include "hardware/fake_hardware.hpp"
 #include "numbers.hpp"
+#include "robots/test_robots.hpp"
 #include "test_controllers.hpp"
-#include "test_robots.hpp"
 
 using namespace articula;
 using support::FakeHardware;

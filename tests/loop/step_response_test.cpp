@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "catch.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using support::TiltedQ2d;

@@ -2,8 +2,8 @@
 #include "catch.hpp"
 #include "eigen.hpp"
 #include "numbers.hpp"
-#include "random_robots.hpp"
-#include "textbook_robot.hpp"
+#include "robots/random_robots.hpp"
+#include "robots/textbook_robot.hpp"
 
 #include <articula/dynamics/forward_kinematics.hpp>
 #include <articula/model/robot.hpp>

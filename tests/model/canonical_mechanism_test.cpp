@@ -10,7 +10,7 @@
 #include "articula/robots/q2d.hpp"
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "random_mechanism.hpp"
+#include "robots/random_mechanism.hpp"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "blueprint.hpp"
 #include "catch.hpp"
 #include "eigen.hpp"
-#include "faulty_robots.hpp"
 #include "numbers.hpp"
-#include "random_robots.hpp"
+#include "robots/blueprint.hpp"
+#include "robots/faulty_robots.hpp"
+#include "robots/random_robots.hpp"
 
 #include <set>
 #include <string>

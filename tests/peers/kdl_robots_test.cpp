@@ -2,8 +2,8 @@
 // A ready robot, ARTICULA_ROBOT, in the Orocos Kinematics and Dynamics Library. KDL reads the
 // description as its author wrote it; what becomes of it here (welding, axes on z, couplings,
 // canonical form, straight-line programs) has no part in its results.
-#include "agreement.hpp"
-#include "kdl_robot.hpp"
+#include "peers/agreement.hpp"
+#include "peers/kdl_robot.hpp"
 
 #include ARTICULA_ROBOT_HEADER
 

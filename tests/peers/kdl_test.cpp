@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same robots in the Orocos Kinematics and Dynamics Library, which was written by others.
-#include "kdl.hpp"
+#include "peers/kdl.hpp"
 #include "catch.hpp"
 #include "eigen.hpp"
-#include "random_robots.hpp"
+#include "robots/random_robots.hpp"
 
 #include <articula/dynamics/dynamics.hpp>
 #include <articula/robots/q2d.hpp>

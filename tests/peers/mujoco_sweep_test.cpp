@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of a sweep beside MuJoCo with the bodies of these runs.
 #include "catch.hpp"
-#include "mujoco.hpp"
+#include "peers/mujoco.hpp"
 
 #include <articula/control/computed_torque.hpp>
 #include <articula/robots/ur10.hpp>

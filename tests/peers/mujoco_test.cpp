@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ready robots in MuJoCo, as models; kdl_robots_test.cpp shows that robots known at compile
 // time have the same dynamics.
-#include "mujoco.hpp"
-#include "agreement.hpp"
-#include "blueprint.hpp"
+#include "peers/mujoco.hpp"
+#include "peers/agreement.hpp"
+#include "robots/blueprint.hpp"
 
 #include <articula/robots/gripper_arm.hpp>
 #include <articula/robots/panda.hpp>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is true of every robot, tried on random ones: trees of revolute, continuous, prismatic,
 // fixed and mimic joints.
-#include "random_robots.hpp"
-#include "any_robot.hpp"
+#include "robots/random_robots.hpp"
 #include "catch.hpp"
 #include "eigen.hpp"
 #include "numbers.hpp"
+#include "robots/any_robot.hpp"
+#include "robots/textbook_robot.hpp"
 #include "slope.hpp"
-#include "textbook_robot.hpp"
 
 #include <Eigen/Eigenvalues>
 

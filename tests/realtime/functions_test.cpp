@@ -8,7 +8,7 @@
 
 #include "allocation_guard.hpp"
 #include "catch.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using articula::testing::heap_calls_in;

@@ -20,7 +20,7 @@
 #include "allocation_guard.hpp"
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using articula::testing::heap_calls_in;

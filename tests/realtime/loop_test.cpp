@@ -5,10 +5,10 @@
 
 #include "allocation_guard.hpp"
 #include "catch.hpp"
-#include "fake_hardware.hpp"
+#include "hardware/fake_hardware.hpp"
 #include "numbers.hpp"
+#include "robots/test_robots.hpp"
 #include "test_controllers.hpp"
-#include "test_robots.hpp"
 
 using namespace articula;
 using articula::testing::heap_calls_in;

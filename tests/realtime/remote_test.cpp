@@ -2,7 +2,7 @@
 // The loop's side of a Remote does not touch the heap, whatever it is asked.
 #include "allocation_guard.hpp"
 #include "catch.hpp"
-#include "remote_arm.hpp"
+#include "remote/remote_arm.hpp"
 
 using namespace articula;
 using namespace articula::remote;

@@ -10,8 +10,8 @@
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
+#include "robots/test_robots.hpp"
 #include "test_controllers.hpp"
-#include "test_robots.hpp"
 
 using namespace articula;
 using articula::testing::heap_calls_in;

@@ -5,7 +5,7 @@
 
 #include "allocation_guard.hpp"
 #include "catch.hpp"
-#include "memory_transport.hpp"
+#include "remote/memory_transport.hpp"
 
 #include <string>
 

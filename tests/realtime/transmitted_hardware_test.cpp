@@ -9,9 +9,9 @@
 #include <articula/hardware/transmission/transmitted_hardware.hpp>
 
 #include "allocation_guard.hpp"
-#include "blueprint.hpp"
 #include "catch.hpp"
 #include "numbers.hpp"
+#include "robots/blueprint.hpp"
 
 using namespace articula;
 using articula::testing::heap_calls_in;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "record.hpp"
+#include "remote/record.hpp"
 #include "scratch_file.hpp"
 
 using namespace articula;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "record.hpp"
+#include "remote/record.hpp"
 
 using namespace articula;
 

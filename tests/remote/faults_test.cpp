@@ -7,7 +7,7 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "remote_arm.hpp"
+#include "remote/remote_arm.hpp"
 
 using namespace articula;
 using namespace articula::remote;

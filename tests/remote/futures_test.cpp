@@ -2,7 +2,7 @@
 #include <articula/control/switching/switch.hpp>
 
 #include "catch.hpp"
-#include "remote_arm.hpp"
+#include "remote/remote_arm.hpp"
 
 #include <algorithm>
 #include <atomic>

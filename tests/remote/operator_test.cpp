@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "catch.hpp"
-#include "remote_arm.hpp"
+#include "remote/remote_arm.hpp"
 
 using namespace articula;
 using namespace articula::remote;

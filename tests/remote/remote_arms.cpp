@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops that most tests of Remote use. They take long to compile.
-#include "remote_arm.hpp"
+#include "remote/remote_arm.hpp"
 
 template class articula::remote::Remote<
     articula::SupervisedLoop<articula::Q2dSim, articula::PidPlusGravity>>;

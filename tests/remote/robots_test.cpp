@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "remote_arm.hpp"
-#include "test_robots.hpp"
+#include "remote/remote_arm.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using namespace articula::remote;

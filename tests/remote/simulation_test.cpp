@@ -7,11 +7,11 @@
 #include <string>
 
 #include "catch.hpp"
-#include "energy.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
-#include "remote_arm.hpp"
-#include "test_robots.hpp"
+#include "remote/remote_arm.hpp"
+#include "robots/energy.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using namespace articula::remote;

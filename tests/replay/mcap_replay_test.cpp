@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "record.hpp"
 #include "recorded_runs.hpp"
+#include "remote/record.hpp"
 #include "scratch_file.hpp"
 
 using namespace articula;

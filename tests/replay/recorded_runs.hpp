@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "hostile_hardware.hpp"
+#include "hardware/hostile_hardware.hpp"
 #include "random.hpp"
 
 namespace support {

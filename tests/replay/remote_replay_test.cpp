@@ -8,7 +8,7 @@
 
 #include "catch.hpp"
 #include "recorded_runs.hpp"
-#include "remote_arm.hpp"
+#include "remote/remote_arm.hpp"
 
 using namespace articula;
 using namespace articula::remote;

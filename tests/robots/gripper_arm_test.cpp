@@ -3,8 +3,8 @@
 
 #include <articula/dynamics/dynamics.hpp>
 
-#include "blueprint.hpp"
 #include "catch.hpp"
+#include "robots/blueprint.hpp"
 
 using namespace articula;
 using Eigen::Vector3d;

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "catch.hpp"
-#include "two_link_arm.hpp"
+#include "robots/two_link_arm.hpp"
 
 using namespace articula;
 

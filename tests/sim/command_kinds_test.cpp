@@ -5,9 +5,9 @@
 #include <articula/sim/simulator.hpp>
 
 #include "catch.hpp"
-#include "energy.hpp"
 #include "numbers.hpp"
-#include "test_robots.hpp"
+#include "robots/energy.hpp"
+#include "robots/test_robots.hpp"
 
 #include <cmath>
 

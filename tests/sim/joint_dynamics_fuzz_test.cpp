@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "energy.hpp"
-#include "random_robots.hpp"
+#include "robots/energy.hpp"
+#include "robots/random_robots.hpp"
 
 using namespace articula;
 

@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "catch.hpp"
-#include "energy.hpp"
-#include "test_robots.hpp"
+#include "robots/energy.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using support::unearned_energy;

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "catch.hpp"
-#include "energy.hpp"
-#include "test_robots.hpp"
+#include "robots/energy.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 

@@ -4,10 +4,10 @@
 #include <articula/sim/simulator.hpp>
 
 #include "catch.hpp"
-#include "energy.hpp"
 #include "numbers.hpp"
-#include "random_robots.hpp"
-#include "test_robots.hpp"
+#include "robots/energy.hpp"
+#include "robots/random_robots.hpp"
+#include "robots/test_robots.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The concepts: the least that satisfies each, and what does not. Compiling is passing.
-#include "faulty_robots.hpp"
+#include "robots/faulty_robots.hpp"
 
 #include <articula/control/laws/control_law.hpp>
 #include <articula/core/controller.hpp>

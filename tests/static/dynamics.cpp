@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The algorithms run in the compiler. Compiling is passing.
-#include "faulty_robots.hpp"
+#include "robots/faulty_robots.hpp"
 
 #include <articula/dynamics/dynamics.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot with the fault that the macro BROKEN_RULE names. Without fault it compiles.
-#include "faulty_robots.hpp"
+#include "robots/faulty_robots.hpp"
 
 #include <articula/model/robot.hpp>
 

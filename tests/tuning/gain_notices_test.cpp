@@ -7,8 +7,8 @@
 #include <articula/tuning/gain_notices.hpp>
 
 #include "catch.hpp"
+#include "robots/test_robots.hpp"
 #include "test_controllers.hpp"
-#include "test_robots.hpp"
 
 #include <algorithm>
 #include <array>

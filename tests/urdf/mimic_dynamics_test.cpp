@@ -6,8 +6,8 @@
 #include <articula/urdf/urdf.hpp>
 
 #include "catch.hpp"
-#include "energy.hpp"
 #include "random.hpp"
+#include "robots/energy.hpp"
 
 using namespace articula;
 

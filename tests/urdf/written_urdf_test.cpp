@@ -13,7 +13,7 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
-#include "random_robots.hpp"
+#include "robots/random_robots.hpp"
 
 #include <string>
 #include <type_traits>

@@ -11,7 +11,7 @@
 
 #include "catch.hpp"
 #include "drives_process.hpp"
-#include "one_period_late.hpp"
+#include "hardware/one_period_late.hpp"
 #include "protocols.hpp"
 #include "raw_peer.hpp"
 

@@ -2,9 +2,9 @@
 /// @file What a loop from files is made of.
 #pragma once
 
-#include "../controllers_file.hpp"
-#include "../joint_groups.hpp"
-#include "../program.hpp"
+#include "files/controllers_file.hpp"
+#include "files/joint_groups.hpp"
+#include "program.hpp"
 
 #include <articula/urdf/description.hpp>
 

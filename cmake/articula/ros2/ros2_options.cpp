@@ -2,7 +2,7 @@
 /// @file Loops of the program in ROS 2. Without Fast DDS they are refused.
 #include "ros2_options.hpp"
 
-#include "../within.hpp"
+#include "files/within.hpp"
 
 #ifdef ARTICULA_PROGRAM_HAS_ROS2
 #include <articula/ros2/bridge/bridge.hpp>

@@ -2,8 +2,8 @@
 /// @file Loops of the program in ROS 2.
 #pragma once
 
-#include "../controllers_file.hpp"
-#include "../program.hpp"
+#include "files/controllers_file.hpp"
+#include "program.hpp"
 
 #include <functional>
 #include <memory>

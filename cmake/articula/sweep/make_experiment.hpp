@@ -2,7 +2,7 @@
 /// @file The closed loop of a sweep from a file. Compiled once for each number of joints.
 #pragma once
 
-#include "../loops/listed_controllers.hpp"
+#include "loops/listed_controllers.hpp"
 #include "sweep_plan.hpp"
 
 #include <articula/config/load_pid_gains.hpp>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file sweep: many closed loops that a file describes, in threads or in the processes of mpirun.
-#include "../program.hpp"
-#include "../table.hpp"
-#include "../within.hpp"
+#include "files/within.hpp"
+#include "program.hpp"
 #include "sweep_plan.hpp"
+#include "table.hpp"
 
 #include <articula/loop/realtime/stop_on_signal.hpp>
 #include <articula/sweep/jobs/resumable_sweep.hpp>

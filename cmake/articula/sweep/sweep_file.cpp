@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Reads the YAML of a sweep. docs/sweeps.md lists its keys.
-#include "../program.hpp"
-#include "../robot_file.hpp"
+#include "files/robot_file.hpp"
+#include "program.hpp"
 #include "sweep_plan.hpp"
 
 #include <articula/config/read/read_signal.hpp>

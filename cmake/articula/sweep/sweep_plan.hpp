@@ -2,8 +2,8 @@
 /// @file What a sweep from a file is made of.
 #pragma once
 
-#include "../controllers_file.hpp"
-#include "../program.hpp"
+#include "files/controllers_file.hpp"
+#include "program.hpp"
 
 #include <articula/config/yaml/source.hpp>
 #include <articula/reference/joint_signals.hpp>

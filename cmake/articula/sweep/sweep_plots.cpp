@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Plots of a sweep's rows by gnuplot: histograms, scatter plots, and maps of two parameters.
-#include "../program.hpp"
+#include "program.hpp"
 #include "sweep_plan.hpp"
 
 #include <articula/text/numbers.hpp>

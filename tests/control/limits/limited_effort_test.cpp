@@ -15,8 +15,8 @@
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
-#include "random_robots.hpp"
-#include "test_robots.hpp"
+#include "robots/random_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using support::infinity;

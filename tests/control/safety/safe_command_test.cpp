@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/control/safety/safe_command.hpp>
 
-#include "blueprint.hpp"
 #include "catch.hpp"
 #include "numbers.hpp"
+#include "robots/blueprint.hpp"
 
 using namespace articula;
 

@@ -20,11 +20,11 @@
 
 #include "by_hand.hpp"
 #include "catch.hpp"
-#include "fake_hardware.hpp"
+#include "hardware/fake_hardware.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
-#include "random_robots.hpp"
-#include "test_robots.hpp"
+#include "robots/random_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using Catch::Matchers::Contains;

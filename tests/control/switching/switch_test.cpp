@@ -19,10 +19,10 @@
 
 #include "by_hand.hpp"
 #include "catch.hpp"
-#include "fake_hardware.hpp"
+#include "hardware/fake_hardware.hpp"
 #include "numbers.hpp"
+#include "robots/test_robots.hpp"
 #include "test_controllers.hpp"
-#include "test_robots.hpp"
 
 using namespace articula;
 using Catch::Matchers::Contains;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every decoder is total: whatever is on the bus gives a value or an error, and no state that is
 // not finite. tests/fuzz does the same with frames that a fuzzer makes up.
-#include "any_frames.hpp"
+#include "hardware/any_frames.hpp"
 
 #include "catch.hpp"
 #include "random.hpp"

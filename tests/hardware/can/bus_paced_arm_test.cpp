@@ -10,8 +10,8 @@
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
-#include "fake_can_bus.hpp"
-#include "one_period_late.hpp"
+#include "hardware/fake_can_bus.hpp"
+#include "hardware/one_period_late.hpp"
 #include "random.hpp"
 
 #include <chrono>

@@ -8,7 +8,7 @@
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
-#include "fake_can_bus.hpp"
+#include "hardware/fake_can_bus.hpp"
 
 #include <array>
 

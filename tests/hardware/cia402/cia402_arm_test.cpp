@@ -7,9 +7,9 @@
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
-#include "fake_can_bus.hpp"
+#include "hardware/fake_can_bus.hpp"
+#include "hardware/one_period_late.hpp"
 #include "numbers.hpp"
-#include "one_period_late.hpp"
 #include "random.hpp"
 
 #include <deque>

@@ -10,7 +10,7 @@
 #include <articula/robots/q2d.hpp>
 
 #include "catch.hpp"
-#include "fake_can_bus.hpp"
+#include "hardware/fake_can_bus.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
 

@@ -14,10 +14,10 @@
 #include <functional>
 
 #include "catch.hpp"
-#include "fake_hardware.hpp"
+#include "hardware/fake_hardware.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using Catch::Matchers::Contains;

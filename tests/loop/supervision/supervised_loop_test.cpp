@@ -11,8 +11,8 @@
 
 #include "catch.hpp"
 #include "numbers.hpp"
+#include "robots/test_robots.hpp"
 #include "test_controllers.hpp"
-#include "test_robots.hpp"
 
 using namespace articula;
 using support::TiltedQ2d, support::not_a_number;

@@ -15,7 +15,7 @@
 #include "catch.hpp"
 #include "numbers.hpp"
 #include "random.hpp"
-#include "test_robots.hpp"
+#include "robots/test_robots.hpp"
 
 using namespace articula;
 using Catch::Matchers::Contains;

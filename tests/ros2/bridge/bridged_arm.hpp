@@ -6,7 +6,7 @@
 #include "articula/ros2/bridge/bridge_nodes.hpp"
 
 #include "catch.hpp"
-#include "memory_transport.hpp"
+#include "remote/memory_transport.hpp"
 
 #include <memory>
 #include <string>

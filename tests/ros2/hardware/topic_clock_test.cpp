@@ -11,7 +11,7 @@
 
 #include "catch.hpp"
 #include "hand_clock.hpp"
-#include "memory_transport.hpp"
+#include "remote/memory_transport.hpp"
 
 #include <atomic>
 #include <chrono>

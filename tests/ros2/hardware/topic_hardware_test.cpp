@@ -9,7 +9,7 @@
 
 #include "catch.hpp"
 #include "hand_clock.hpp"
-#include "memory_transport.hpp"
+#include "remote/memory_transport.hpp"
 
 #include <chrono>
 #include <cmath>
