@@ -47,6 +47,7 @@ const std::vector<Request> requests{
     SetReference{{{shoulder, 0.1}}, {{shoulder, 0.1}}, {{elbow, 1}}},
     PlayTrajectory{{{elbow}, {{.time_from_start = 0.5, .positions = {0.5}}}}},
     PlaySignals{{{shoulder, StepSignal{0.2, 0.1}}}, 0.2},
+    Stop{{elbow}},
     Stop{},
     SwitchControllers{.start = {"computed_torque"}, .replace = true},
     SetParameters{{{"pid_plus_gravity." + shoulder + ".p", 1000}}},

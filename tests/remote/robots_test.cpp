@@ -137,6 +137,24 @@ TEST_CASE("mimic joints, prismatic ones among them") {
   CHECK(sheet.commands == std::vector<std::string>{"position"});
   const SheetJoint& last = sheet.joints.back();
   check_go(arm, last.name, (last.limits.lower + last.limits.upper) / 2);
+
+  // Four of its joints may have a trajectory each, and one trajectory may replace several.
+  const auto play = [&](const std::vector<std::size_t>& joints) {
+    PlayTrajectory own;
+    for (const std::size_t j : joints) {
+      own.trajectory.joint_names.push_back(sheet.joints[j].name);
+    }
+    own.trajectory.points = {
+        {.time_from_start = 1, .positions = std::vector<double>(joints.size(), 0.1)}};
+    return own;
+  };
+  for (std::size_t j = 0; j < 4; ++j) arm.session->ask(play({j}));
+  arm.cycles(10);
+  const Answer fifth = arm.ask(play({4}));
+  CHECK(fifth.verdict == support::Verdict::refused);
+  CHECK(fifth.text == "trajectory: invalid goal: trajectories at once 5 are more than 4");
+  CHECK(arm.ask(play({4, 2, 1, 0}), 2000).verdict == support::Verdict::done);
+  CHECK(arm.loop.reference().position[3] == 0.1);
 }
 
 TEST_CASE("velocity commands and springs in drives") {

@@ -53,7 +53,8 @@ class InFlight {
     // What makes the robot rest is done for an operator who is lost by then, too.
     const bool is_stop = std::holds_alternative<task::Stop>(handed_over->wish);
     if (is_stop) rings_.stop.store(last_, std::memory_order_release);
-    if (!is_stop && !std::holds_alternative<task::Deactivate>(handed_over->wish)) {
+    if (!is_stop && !std::holds_alternative<task::Deactivate>(handed_over->wish) &&
+        !std::holds_alternative<task::StopJoints<joint_count<R>>>(handed_over->wish)) {
       handed_over->sign = rings_.watch.last_sign();
     }
     pending_.push_back({std::move(task), client, request, Clock::now(), std::move(changes)});

@@ -9,9 +9,11 @@
 #include "articula/remote/request.hpp"
 #include "articula/remote/request_check.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -74,24 +76,26 @@ class MotionTaskMaker {
   }
 
   [[nodiscard]] Wish make(const PlayTrajectory& play, const Reference& present) const {
-    auto trajectory =
-        std::make_unique<const Trajectory<R, trajectory_capacity>>(arrange<trajectory_capacity>(
-            robot_, play.trajectory,
-            {.allow_partial_joints = true, .allow_integration = true, .from = present}));
-    const auto points = trajectory->points();
-    for (std::size_t k = 1; k < points.size(); ++k) {
-      const Vector anything = Vector::Zero();  // all extremes are of interest
-      const auto peaks = segment_peaks(points[k - 1], points[k],
-                                       {.lowest = anything,
-                                        .highest = anything,
-                                        .velocity = anything,
-                                        .acceleration = anything});
-      for (int j = 0; j < joint_count; ++j) {
-        check_.check_size("trajectory between its points", "velocity", j, peaks.velocity[j],
-                          check_.limits_of(j).velocity * (1 + 1e-9));  // rounding
+    task::Follow<R> wish{.trajectory = nullptr, .delay = play.delay};
+    Excess excess = excess_at_points(play.trajectory);
+    if (!(excess.factor <= most_excess)) excess = {};  // refused by `arrange`
+    wish.trajectory = arranged(slower(play.trajectory, excess.factor), present);
+    const Excess between = excess_between_points(*wish.trajectory);
+    if (between.factor > 1 + 1e-9) {  // rounding
+      excess = {between.joint, excess.factor * between.factor};
+      if (excess.factor > most_excess) {
+        const double limit = check_.limits_of(excess.joint).velocity;
+        check_.check_size("trajectory between its points", "velocity", excess.joint,
+                          between.factor * limit, limit);
       }
+      wish.trajectory = arranged(slower(play.trajectory, excess.factor), present);
     }
-    task::Follow<R> wish{.trajectory = std::move(trajectory), .delay = play.delay};
+    if (excess.factor > 1 + 1e-6) {
+      wish.note = articula::detail::message_of(
+          {"the trajectory takes ", excess.factor, " times as long, since joint '",
+           check_.name_of(excess.joint), "' would exceed its velocity limit, ",
+           check_.limits_of(excess.joint).velocity});
+    }
     put_tolerances(play.path_tolerances, wish.tolerances.path_position,
                    wish.tolerances.path_velocity);
     put_tolerances(play.goal_tolerances, wish.tolerances.goal_position,
@@ -116,8 +120,10 @@ class MotionTaskMaker {
     }
     JointSignals<R> sum(robot_, signals, {.position = present.position, .effort = present.effort});
     Vector velocity = Vector::Zero(), effort = Vector::Zero(), begin = Vector::Zero();
+    JointArray<bool, joint_count> joints{};
     for (const JointSignal& own : signals) {
       const int joint = joint_index(robot_, own.joint);
+      joints[joint] = true;
       const SignalValue peak = std::visit([](const auto& s) { return s.peak(); }, own.signal);
       (own.target == SignalTarget::effort ? effort : velocity)[joint] +=
           own.target == SignalTarget::effort ? peak.value : peak.rate;
@@ -136,10 +142,87 @@ class MotionTaskMaker {
       }
       check_.check_size("signals", "effort", j, effort[j], check_.limits_of(j).effort);
     }
-    return task::Play<R>{sum, play.duration};
+    return task::Play<R>{joints, sum, play.duration};
+  }
+
+  [[nodiscard]] Wish make(const Stop& stop, const Reference&) const {
+    if (stop.joints.empty()) return task::Stop{};
+    task::StopJoints<joint_count> wish;
+    for (const std::string& joint : stop.joints) {
+      wish.joints[joint_index(robot_, RequestCheck<R>::checked_name(joint))] = true;
+    }
+    return wish;
   }
 
  private:
+  using Path = Trajectory<R, trajectory_capacity>;
+
+  /// A plan that uses all of a velocity limit exceeds it by rounding, or by a percent or so between its
+  /// points, where the planner has not looked. Up to this factor it is followed more slowly.
+  static constexpr double most_excess = 1.05;
+
+  [[nodiscard]] std::unique_ptr<const Path> arranged(const NamedTrajectory& named,
+                                                     const Reference& present) const {
+    return std::make_unique<const Path>(arrange<trajectory_capacity>(
+        robot_, named, {.allow_partial_joints = true, .allow_integration = true, .from = present}));
+  }
+
+  /// The joint that exceeds its velocity limit most, and the ratio of velocity and limit, >= 1.
+  struct Excess {
+    int joint = 0;
+    double factor = 1;
+  };
+  /// Of velocities at points, and of mean velocities from one point to the next.
+  [[nodiscard]] Excess excess_at_points(const NamedTrajectory& trajectory) const {
+    Excess most;
+    for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
+      for (int j = 0; j < joint_count; ++j) {
+        if (trajectory.joint_names[k] != check_.name_of(j)) continue;
+        const auto include = [&](double velocity) {
+          const double factor = std::abs(velocity) / check_.limits_of(j).velocity;
+          if (factor > most.factor) most = {j, factor};
+        };
+        const NamedTrajectoryPoint* before = nullptr;
+        for (const NamedTrajectoryPoint& point : trajectory.points) {
+          if (k < point.velocities.size()) include(point.velocities[k]);
+          if (before && k < std::min(point.positions.size(), before->positions.size())) {
+            include((point.positions[k] - before->positions[k]) /
+                    (point.time_from_start - before->time_from_start));
+          }
+          before = &point;
+        }
+      }
+    }
+    return most;
+  }
+  [[nodiscard]] Excess excess_between_points(const Path& trajectory) const {
+    Excess most;
+    const auto points = trajectory.points();
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const Vector anything = Vector::Zero();  // all extremes are of interest
+      const auto peaks = segment_peaks(points[k - 1], points[k],
+                                       {.lowest = anything,
+                                        .highest = anything,
+                                        .velocity = anything,
+                                        .acceleration = anything});
+      for (int j = 0; j < joint_count; ++j) {
+        const double factor = peaks.velocity[j] / check_.limits_of(j).velocity;
+        if (factor > most.factor) most = {j, factor};
+      }
+    }
+    return most;
+  }
+
+  /// The same path in a longer time.
+  [[nodiscard]] static NamedTrajectory slower(NamedTrajectory trajectory, double factor) {
+    for (NamedTrajectoryPoint& point : trajectory.points) {
+      point.time_from_start *= factor;
+      for (double& velocity : point.velocities) velocity /= factor;
+      for (double& acceleration : point.accelerations) acceleration /= factor * factor;
+    }
+    return trajectory;
+  }
+
   void put_tolerances(const std::vector<NamedTolerance>& named, Vector& position,
                       Vector& velocity) const {
     for (const NamedTolerance& own : named) {

@@ -66,11 +66,14 @@ class Outside {
   [[nodiscard]] Situation situation() {
     const std::lock_guard lock(mutex_);
     pump();
-    const LoopCondition& now = published_.condition();
+    const LoopCondition<joint_count>& now = published_.condition();
+    std::vector<std::string> motions;
+    for (const MotionKind motion : now.motions) motions.emplace_back(to_string(motion));
     return {.mode = now.mode,
             .fault = published_.fault(),
             .advice = std::string(advice_on(published_.fault())),
             .motion = std::string(to_string(now.motion)),
+            .joint_motions = std::move(motions),
             .operator_name = clients_.operator_name(),
             .controllers = published_.controllers(),
             .paused = now.paused,
@@ -228,6 +231,9 @@ class Outside {
   void hand_over(std::uint64_t client, std::uint64_t number, const Request& request) {
     Changes changes;
     typename Task<R>::Wish wish = maker_.make(request, published_.reference());
+    if (const auto* follow = std::get_if<task::Follow<R>>(&wish); follow && !follow->note.empty()) {
+      tell(Event::Level::info, clients_.of(client).name + ": " + follow->note);
+    }
     if (const auto* set = std::get_if<SetParameters>(&request)) {
       std::vector<GainSetting> settings;
       for (const ParameterValue& own : set->values) settings.push_back({own.name, own.value});

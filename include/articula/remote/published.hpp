@@ -42,7 +42,7 @@ class Published {
 
   /// Takes over what is new, and tells the clients of events.
   void collect(Clients& clients) {
-    for (ConditionChange change; rings_.changes.pop(change);) note(change, clients);
+    for (ConditionChange<joint_count> change; rings_.changes.pop(change);) note(change, clients);
     for (Record record; rings_.records.pop(record);) note(record, clients);
     if constexpr (switched) {
       while (const auto event = side_.switches().event()) {
@@ -56,7 +56,7 @@ class Published {
 
   /// Of the last cycle [s].
   [[nodiscard]] double time() const { return last_.cycle.time; }
-  [[nodiscard]] const LoopCondition& condition() const { return condition_; }
+  [[nodiscard]] const LoopCondition<joint_count>& condition() const { return condition_; }
   /// The last cycle; before the first one all zeros.
   [[nodiscard]] const auto& last_cycle() const { return last_.cycle; }
   /// The last fault of a supervised loop. A plain loop has no mode that shows what is wrong: the
@@ -151,8 +151,8 @@ class Published {
     return text;
   }
 
-  void note(const ConditionChange& change, Clients& clients) {
-    const LoopCondition& now = change.condition;
+  void note(const ConditionChange<joint_count>& change, Clients& clients) {
+    const LoopCondition<joint_count>& now = change.condition;
     if (now.mode == LoopMode::fault && condition_.mode != LoopMode::fault) {
       clients.tell({change.time, Event::Level::error, "fault: " + in_words(now.fault)});
     } else if (now.mode != condition_.mode) {
@@ -182,7 +182,7 @@ class Published {
   std::deque<LoopChange> changes_{};
   Record last_{};
   Reference reference_;
-  LoopCondition condition_{};
+  LoopCondition<joint_count> condition_{};
   DurationHistogram latency_{};
   DurationHistogram execution_{};
 };

@@ -36,15 +36,19 @@ struct Deactivate {};
 /// Acknowledges the fault of a supervised loop, which then is inactive.
 struct AcknowledgeFault {};
 
-/// Moves the reference of some joints along a jerk-limited profile. The others rest, or go on to
-/// where an earlier request of this kind sends them. Its answer comes when the motion has begun.
+// A request for motion moves the joints that it names. Others go on with what they do: the arm follows
+// a trajectory while a request opens the gripper. A trajectory, and signals, end as a whole: if another
+// request takes one of their joints, their other joints stop.
+
+/// Moves the reference of some joints along a jerk-limited profile. Joints that are still on their way
+/// by a request of this kind arrive together with them. Its answer comes when the motion has begun.
 struct Go {
   std::vector<JointValue> positions{};  ///< [rad or m]
   double speed = 1;                     ///< share of the velocity limits, 0.01 .. 1
 };
 
-/// Sets the reference of some joints at once, for references that another program computes. The
-/// others stay as they are, or stop if they move. Velocities and efforts that are not set are 0.
+/// Sets the reference of some joints at once, for references that another program computes.
+/// Velocities and efforts that are not set are 0.
 struct SetReference {
   std::vector<JointValue> positions{};   ///< [rad or m]
   std::vector<JointValue> velocities{};  ///< [rad/s or m/s]
@@ -58,7 +62,8 @@ struct NamedTolerance {
   double velocity = 0;  ///< [rad/s or m/s]
 };
 
-/// Follows a trajectory from the present reference. Its answer comes when the trajectory has ended.
+/// Follows a trajectory from the present reference. Its answer comes when the trajectory has ended. Up
+/// to four trajectories can be followed at once, each by joints of its own.
 struct PlayTrajectory {
   NamedTrajectory trajectory{};
   std::vector<NamedTolerance> path_tolerances{};  ///< before the end
@@ -78,14 +83,17 @@ struct SetTrajectorySpeed {
 };
 
 /// Adds signals to the present reference for a time. Then the reference moves back to where it was.
-/// The answer comes when the signals have ended.
+/// The answer comes when the signals have ended. One request of this kind replaces the other.
 struct PlaySignals {
   std::vector<NamedSignal> signals{};
   double duration = 0;  ///< [s]
 };
 
-/// Ends the present motion of the reference by the fastest stop within the limits.
-struct Stop {};
+/// Ends motions of the reference by the fastest stop within the limits.
+struct Stop {
+  std::vector<std::string>
+      joints{};  ///< that stop; empty: all, also those of requests on their way
+};
 
 /// Starts and stops controllers.
 struct SwitchControllers {

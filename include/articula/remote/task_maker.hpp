@@ -70,8 +70,6 @@ class TaskMaker {
     return task::SetTrajectorySpeed{wanted.factor};
   }
 
-  [[nodiscard]] Wish make_wish(const Stop&) const { return task::Stop{}; }
-
   [[nodiscard]] Wish make_wish(const SwitchControllers& wanted) const {
     using C = typename LoopType::ControllerType;
     if constexpr (articula::detail::switch_size<C> == 0) {

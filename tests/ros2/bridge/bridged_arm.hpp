@@ -26,6 +26,9 @@ class AnyLoop {
 
 /// A supervised Q2D with the controllers pid_plus_gravity and computed_torque.
 std::unique_ptr<AnyLoop> switched_arm();
+/// A supervised Q2D with the controllers upper/pid_plus_gravity of the shoulder, and
+/// lower/pid_plus_gravity of the elbow.
+std::unique_ptr<AnyLoop> grouped_arm();
 /// A Q2D whose one controller passes efforts on.
 std::unique_ptr<AnyLoop> bypass_arm();
 

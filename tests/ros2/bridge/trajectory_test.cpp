@@ -36,7 +36,9 @@ const std::string controller = "/pid_plus_gravity/",
 /// An active arm.
 struct ActiveArm : BridgedArm {
   using BridgedArm::BridgedArm;
-  explicit ActiveArm(const BridgeOptions& options = {}) : BridgedArm(options) {
+  explicit ActiveArm(const BridgeOptions& options = {},
+                     std::unique_ptr<support::AnyLoop> own_loop = support::switched_arm())
+      : BridgedArm(options, std::move(own_loop)) {
     REQUIRE(ask(remote::Activate{}).verdict == remote::Verdict::done);
   }
 
@@ -48,18 +50,20 @@ struct ActiveArm : BridgedArm {
     }
     return cycle.reference_position;
   }
-  Send::Response send(std::uint8_t id, const Follow::Goal& goal) {
+  Send::Response send(std::uint8_t id, const Follow::Goal& goal, const std::string& to = action) {
     Send::Request request{.goal = goal};
     request.goal_id.uuid[0] = id;
-    return call<Send>(action + "send_goal", request);
+    return call<Send>(to + "send_goal", request);
   }
   /// Asks for a result, which may come later.
-  std::shared_ptr<support::Bytes> result(std::uint8_t id) {
+  std::shared_ptr<support::Bytes> result(std::uint8_t id, const std::string& from = action) {
     Get::Request request;
     request.goal_id.uuid[0] = id;
-    return transport.request(action + "get_result", support::bytes_of(request));
+    return transport.request(from + "get_result", support::bytes_of(request));
   }
-  Get::Response wait_for(std::uint8_t id) { return reply_to<Get>(result(id), 5000); }
+  Get::Response wait_for(std::uint8_t id, const std::string& from = action) {
+    return reply_to<Get>(result(id, from), 5000);
+  }
   std::int8_t status(std::uint8_t id) {
     const auto all = transport.last<action_msgs::msg::GoalStatusArray<Jazzy>>(action + "status");
     REQUIRE(all);
@@ -273,6 +277,32 @@ TEST_CASE("a new goal replaces the last one") {
   CHECK(old.result.error_string == "Current goal cancelled due to new incoming action.");
   CHECK(arm.wait_for(3).status == GoalState::succeeded);
   CHECK(arm.reference() == std::vector<double>{0.5, 0});
+}
+
+TEST_CASE("goals of two controllers run at once, and a canceled one leaves the other alone") {
+  ActiveArm arm({}, support::grouped_arm());
+  const auto goal_of = [](const std::string& joint, double position, std::int32_t seconds) {
+    Follow::Goal goal;
+    goal.trajectory.joint_names = {joint};
+    goal.trajectory.points = {{.positions = {position}, .time_from_start = {seconds, 0}}};
+    return goal;
+  };
+  const std::string upper = "/upper_pid_plus_gravity/follow_joint_trajectory/_action/",
+                    lower = "/lower_pid_plus_gravity/follow_joint_trajectory/_action/";
+  REQUIRE(arm.send(1, goal_of(shoulder_joint, 0.5, 2), upper).accepted);
+  arm.run(300);
+  REQUIRE(arm.send(2, goal_of(elbow_joint, -0.5, 1), lower).accepted);
+  const auto second = arm.wait_for(2, lower);
+  CHECK(second.status == GoalState::succeeded);
+  REQUIRE(arm.send(3, goal_of(elbow_joint, 0.5, 1), lower).accepted);
+  arm.run(200);
+  CHECK(arm.call<Cancel>(lower + "cancel_goal").goals_canceling.size() == 1);
+  CHECK(arm.wait_for(3, lower).status == GoalState::canceled);
+  CHECK(arm.loop->port().situation().joint_motions[0] == "trajectory");
+  const auto first = arm.wait_for(1, upper);
+  CHECK(first.status == GoalState::succeeded);
+  CHECK(arm.reference()[0] == 0.5);
+  CHECK(arm.reference()[1] < 0);
 }
 
 TEST_CASE("a goal ends with its controller, with the loop, and with another client's motion") {
@@ -550,4 +580,17 @@ TEST_CASE("a joint is commanded by a number") {
   CHECK(arm.reference() == std::vector<double>{0, 0.02});
   arm.publish("/computed_torque/" + elbow_joint + "/command", std_msgs::msg::Float64{0.02});
   CHECK(arm.logged("command: controller 'computed_torque' is not active"));
+}
+
+TEST_CASE("the velocity of a joint ends, whatever other joints are told") {
+  ActiveArm arm({.command_quantities = {{"pid_plus_gravity", "velocity"}}});
+  arm.publish(controller + shoulder_joint + "/command", std_msgs::msg::Float64{0.1});
+  arm.run(100);
+  CHECK(arm.loop->port().situation().joint_motions[0] == "set");
+  for (int k = 0; k < 8; ++k) {
+    arm.publish(controller + elbow_joint + "/command", std_msgs::msg::Float64{0});
+    arm.run(200);
+  }
+  CHECK(arm.loop->port().situation().joint_motions[0] == "rest");
+  CHECK(arm.logged("no reference has followed one with a velocity: the joints stop"));
 }

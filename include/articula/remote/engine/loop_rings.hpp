@@ -33,7 +33,7 @@ struct LoopRings {
 
   // Written by the loop:
   EventRing<Record, most_records> records{};
-  EventRing<ConditionChange, 64> changes{};
+  EventRing<ConditionChange<joint_count<R>>, 64> changes{};
   /// Changes of the controller that are made, each before the record of the cycle in which it has
   /// effect first, and before it has ended.
   EventRing<Task<R>*, most_tasks> changed{};

@@ -153,7 +153,9 @@ class LoopSide {
     if constexpr (requires { modes_.begin(own, wish); }) {
       modes_.begin(own, wish);
     } else if constexpr (requires { motions_.begin(own, wish); }) {
-      const bool stops = std::same_as<std::remove_cvref_t<decltype(wish)>, task::Stop>;
+      using Own = std::remove_cvref_t<decltype(wish)>;
+      constexpr bool stops =
+          std::same_as<Own, task::Stop> || std::same_as<Own, task::StopJoints<joint_count>>;
       if (!stops && own.number < stopped_) return returns_.finish(own, TaskEnd::replaced);
       motions_.begin(own, wish);
     } else if constexpr (requires { simulation_.begin(own, wish); }) {
@@ -189,12 +191,13 @@ class LoopSide {
   /// Hands over what has changed, and then the tasks that have ended, so that who has an answer sees
   /// its effect.
   void tell() noexcept {
-    const LoopCondition now{modes_.mode(),
-                            modes_.fault(),
-                            motions_.kind(),
-                            simulation_.pace().paused(),
-                            simulation_.pace().speed(),
-                            motions_.trajectory_speed()};
+    const LoopCondition<joint_count> now{modes_.mode(),
+                                         modes_.fault(),
+                                         motions_.kind(),
+                                         motions_.kinds(),
+                                         simulation_.pace().paused(),
+                                         simulation_.pace().speed(),
+                                         motions_.trajectory_speed()};
     if (!told_ || !(now == condition_)) {
       condition_ = now;
       told_ = rings_.changes.push({loop_.time(), now});
@@ -217,7 +220,7 @@ class LoopSide {
   std::uint64_t cycles_ = 0;
   std::uint64_t overruns_ = 0;
   bool unpublished_ = false;
-  LoopCondition condition_{};
+  LoopCondition<joint_count> condition_{};
   bool told_ = false;
 };
 

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "articula/remote/engine/mode_control.hpp"
-#include "articula/remote/engine/reference_source.hpp"
 #include "articula/remote/engine/task_returns.hpp"
+#include "articula/remote/motion/reference_source.hpp"
 
+#include <array>
 #include <utility>
-#include <variant>
 
 namespace articula::remote {
 
@@ -29,6 +29,12 @@ class MotionControl {
         source_(loop.hardware().robot(), limits, tolerances) {}
 
   [[nodiscard]] MotionKind kind() const noexcept { return source_.kind(); }
+  /// What each joint does.
+  [[nodiscard]] JointArray<MotionKind, joint_count> kinds() const noexcept {
+    JointArray<MotionKind, joint_count> kinds{};
+    for (int j = 0; j < joint_count; ++j) kinds[j] = source_.kind(j);
+    return kinds;
+  }
   /// As asked for.
   [[nodiscard]] double trajectory_speed() const noexcept { return source_.trajectory_speed(); }
 
@@ -45,60 +51,65 @@ class MotionControl {
     }
   }
 
-  /// Looks at the motion after a cycle.
+  /// Looks at the motions after a cycle.
   void note_cycle() noexcept {
     if (!modes_.active()) return leave_active();
-    const TrajectoryOutcome outcome = source_.check(loop_.state());
-    if (waiting_ == nullptr) return;
-    if (std::holds_alternative<task::Follow<R>>(waiting_->wish)) {
-      if (outcome == TrajectoryOutcome::active) return;
-      waiting_->outcome = outcome;
-      waiting_->refusal = source_.refusal();
+    source_.check(loop_.state());
+    if (!source_.leads(Source::signals)) {
+      returns_.give_back(waiting(Source::signals), TaskEnd::done);
+    }
+    for (int source = Source::first_follower; source < Source::source_count; ++source) {
+      Task<R>*& own = waiting(source);
+      if (own == nullptr) continue;
+      const TrajectoryOutcome outcome = source_.outcome(source);
+      if (outcome == TrajectoryOutcome::active) continue;
+      own->outcome = outcome;
+      own->refusal = source_.refusal(source);
       const bool good = outcome == TrajectoryOutcome::successful;
-      returns_.give_back(waiting_, good ? TaskEnd::done : TaskEnd::failed);
-    } else if (source_.kind() != MotionKind::signals) {
-      returns_.give_back(waiting_, TaskEnd::done);
+      returns_.give_back(own, good ? TaskEnd::done : TaskEnd::failed);
     }
   }
 
   /// The loop is not active: its reference is its own.
   void leave_active() noexcept {
     source_.rest();
-    returns_.give_back(waiting_, TaskEnd::loop_left_active);
+    for (Task<R>*& own : waiting_) returns_.give_back(own, TaskEnd::loop_left_active);
   }
 
-  /// Ends the motion by a stop.
+  /// Ends all motions by a stop.
   void stop() noexcept {
-    returns_.give_back(waiting_, TaskEnd::replaced);
-    if (source_.kind() != MotionKind::rest) source_.stop(reference());
+    Joints all;
+    all.fill(true);
+    stop(all);
   }
-  /// Ends the motion at once, since the robot is put elsewhere.
+  /// Ends all motions at once, since the robot is put elsewhere.
   void abandon() noexcept {
-    returns_.give_back(waiting_, TaskEnd::replaced);
     source_.rest();
+    give_back_replaced();
   }
 
   void begin(Task<R>& own, task::Go<joint_count>& wish) noexcept {
     if (!can_begin(own)) return;
     source_.go(reference(), wish.target, wish.speed);
-    replace(own, TaskEnd::done);
+    finish(own);
   }
   void begin(Task<R>& own, task::Set<joint_count>& wish) noexcept {
     if (!can_begin(own)) return;
     source_.set(reference(), wish.setting);
-    replace(own, TaskEnd::done);
+    finish(own);
   }
   void begin(Task<R>& own, task::Follow<R>& wish) noexcept {
     if (!can_begin(own)) return;
-    own.outcome = source_.follow(reference(), *wish.trajectory, wish.tolerances, wish.delay);
-    own.refusal = source_.refusal();
+    const auto begun = source_.follow(reference(), *wish.trajectory, wish.tolerances, wish.delay);
+    own.outcome = begun.outcome;
+    own.refusal = begun.refusal;
     if (own.outcome != TrajectoryOutcome::active) return returns_.finish(own, TaskEnd::refused);
-    replace(own, TaskEnd::open);
+    await(own, begun.source);
   }
   void begin(Task<R>& own, task::Play<R>& wish) noexcept {
     if (!can_begin(own)) return;
-    source_.play(reference(), wish.signals, wish.duration);
-    replace(own, TaskEnd::open);
+    source_.play(reference(), wish.joints, wish.signals, wish.duration);
+    await(own, Source::signals);
   }
   void begin(Task<R>& own, task::SetTrajectorySpeed& wish) noexcept {
     source_.set_trajectory_speed(wish.factor);
@@ -108,9 +119,15 @@ class MotionControl {
     stop();
     returns_.finish(own, TaskEnd::done);
   }
+  void begin(Task<R>& own, task::StopJoints<joint_count>& wish) noexcept {
+    stop(wish.joints);
+    returns_.finish(own, TaskEnd::done);
+  }
 
  private:
   using Reference = JointReference<joint_count>;
+  using Source = ReferenceSource<R>;
+  using Joints = typename Source::Joints;
 
   [[nodiscard]] const Reference& reference() const noexcept {
     return std::as_const(loop_).reference();
@@ -125,22 +142,38 @@ class MotionControl {
     return false;
   }
 
-  /// A task has begun a motion.
-  /// @param end  of the task; open if it ends with the motion
-  void replace(Task<R>& own, TaskEnd end) noexcept {
-    returns_.give_back(waiting_, TaskEnd::replaced);
-    if (end == TaskEnd::open) {
-      waiting_ = &own;
-    } else {
-      returns_.finish(own, end);
+  void stop(const Joints& joints) noexcept {
+    source_.stop(reference(), joints);
+    give_back_replaced();
+  }
+
+  /// The task that ends with the motion from a source.
+  [[nodiscard]] Task<R>*& waiting(int source) noexcept {
+    return waiting_[static_cast<std::size_t>(source)];
+  }
+  /// Ends the tasks whose motion has ended, since others have taken their joints.
+  void give_back_replaced() noexcept {
+    for (int source = 0; source < Source::source_count; ++source) {
+      if (!source_.leads(source)) returns_.give_back(waiting(source), TaskEnd::replaced);
     }
+  }
+  /// A task has begun a motion, and ends with it.
+  void await(Task<R>& own, int source) noexcept {
+    returns_.give_back(waiting(source), TaskEnd::replaced);
+    give_back_replaced();
+    waiting(source) = &own;
+  }
+  /// A task has begun a motion, and ends now.
+  void finish(Task<R>& own) noexcept {
+    give_back_replaced();
+    returns_.finish(own, TaskEnd::done);
   }
 
   LoopType& loop_;
   TaskReturns<R>& returns_;
   const ModeControl<LoopType>& modes_;
-  ReferenceSource<R> source_;
-  Task<R>* waiting_ = nullptr;  ///< ends with the motion
+  Source source_;
+  std::array<Task<R>*, Source::source_count> waiting_{};  ///< end with their motion, by source
 };
 
 }  // namespace articula::remote

@@ -2,9 +2,10 @@
 /// @file The record that a remote loop publishes in each cycle.
 #pragma once
 
+#include "articula/core/joint_array.hpp"
 #include "articula/loop/supervision/loop_mode.hpp"
 #include "articula/recording/cycle_record.hpp"
-#include "articula/remote/engine/motion_kind.hpp"
+#include "articula/remote/motion/motion_kind.hpp"
 
 #include <cstdint>
 
@@ -20,10 +21,13 @@ struct RemoteRecord {
 };
 
 /// The state of a loop that changes seldom.
+/// @tparam N  number of joints
+template <int N>
 struct LoopCondition {
   LoopMode mode = LoopMode::active;
-  Status fault = Status::ok;  ///< the last one
-  MotionKind motion = MotionKind::rest;
+  Status fault = Status::ok;             ///< the last one
+  MotionKind motion = MotionKind::rest;  ///< that was begun last
+  JointArray<MotionKind, N> motions{};   ///< of each joint
   bool paused = false;
   double speed = 1;
   double trajectory_speed = 1;
@@ -32,9 +36,10 @@ struct LoopCondition {
 };
 
 /// A new state, and its time.
+template <int N>
 struct ConditionChange {
   double time = 0;  ///< of the loop [s]
-  LoopCondition condition{};
+  LoopCondition<N> condition{};
 };
 
 }  // namespace articula::remote

@@ -6,14 +6,15 @@
 #include "articula/core/status.hpp"
 #include "articula/dynamics/forward_kinematics.hpp"
 #include "articula/recording/loop_change.hpp"
-#include "articula/remote/engine/reference_source.hpp"
 #include "articula/remote/gains/gain_change.hpp"
+#include "articula/remote/motion/reference_source.hpp"
 
 #include <atomic>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -42,13 +43,19 @@ struct Follow {
       .stopped_velocity =
           JointVector<articula::joint_count<R>>::Zero()};  ///< as `overridden` reads them
   std::optional<double> delay{};                           ///< [s]
+  std::string note{};  ///< what the log shall say of it; empty: nothing
 };
 template <Robot R>
 struct Play {
+  JointArray<bool, articula::joint_count<R>> joints;  ///< that have signals
   JointSignals<R> signals;
   double duration = 0;  ///< [s]
 };
-struct Stop {};
+struct Stop {};  ///< of all joints; it overtakes other tasks
+template <int N>
+struct StopJoints {
+  JointArray<bool, N> joints{};
+};
 struct Switch {
   SwitchRequest request{};
   SwitchOutcome outcome{};  ///< filled in by the loop
@@ -105,11 +112,11 @@ enum class TaskEnd : unsigned char {
 template <Robot R>
 struct Task {
   static constexpr int joint_count = articula::joint_count<R>;
-  using Wish =
-      std::variant<task::Activate, task::Deactivate, task::Acknowledge, task::Go<joint_count>,
-                   task::Set<joint_count>, task::Follow<R>, task::Play<R>, task::Stop, task::Switch,
-                   task::SetGains, task::Pause, task::Step, task::SetSpeed,
-                   task::Place<joint_count>, task::Pull, task::SetTrajectorySpeed>;
+  using Wish = std::variant<task::Activate, task::Deactivate, task::Acknowledge,
+                            task::Go<joint_count>, task::Set<joint_count>, task::Follow<R>,
+                            task::Play<R>, task::Stop, task::Switch, task::SetGains, task::Pause,
+                            task::Step, task::SetSpeed, task::Place<joint_count>, task::Pull,
+                            task::SetTrajectorySpeed, task::StopJoints<joint_count>>;
 
   explicit Task(Wish own_wish) : wish(std::move(own_wish)) {}
 

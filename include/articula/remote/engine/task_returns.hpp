@@ -36,8 +36,8 @@ class TaskReturns {
   }
 
  private:
-  // One begins in a period; of modes, motions and single steps one each is waited for.
-  std::array<Task<R>*, 8> ending_{};
+  // One begins in a period. One each is waited for of modes, single steps and sources of reference.
+  std::array<Task<R>*, ReferenceSource<R>::source_count + 3> ending_{};
   std::size_t count_ = 0;
 };
 

@@ -47,15 +47,14 @@ std::vector<remote::JointValue> named(const std::vector<std::string>& joints,
   return all;
 }
 
-bool any(const Values& values) {
-  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
-}
-
 }  // namespace
 
 ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
                                    const BridgedController& controller)
-    : core_(core), controller_(controller), state_due_(core.options.controller_state_rate) {
+    : core_(core),
+      controller_(controller),
+      state_due_(core.options.controller_state_rate),
+      moving_since_(controller.joints.size()) {
   // The factor is the loop's, so all of its controllers show and set the same one.
   if (core.options.distribution == Distribution::humble) {
     humble_state_.emplace(node, "~/controller_state", quality_of_service::states);
@@ -81,15 +80,7 @@ ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
 }
 
 void ControllerTopics::update() {
-  if (moving_since_) moving_since_ = std::min(*moving_since_, core_.context.now);
-  if (moving_since_ &&
-      core_.context.now - *moving_since_ > to_duration(core_.options.controls_time)) {
-    moving_since_.reset();
-    if (core_.watch.situation.motion == "set") {  // nobody has asked for another motion since
-      refuse("no reference has followed one with a velocity: the joints stop");
-      ask(remote::Stop{});
-    }
-  }
+  stop_old_motions();
   if (!core_.watch.is_active(controller_.name)) return;
   if (!core_.watch.has_new_cycle(published_cycle_) || !state_due_.due(core_.context.now)) return;
   published_cycle_ = core_.watch.cycle.number;
@@ -124,8 +115,7 @@ void ControllerTopics::take(const TrajectoryPointMessage& message) {
   }
   set({.positions = named(controller_.joints, message.positions),
        .velocities = named(controller_.joints, message.velocities),
-       .efforts = named(controller_.joints, message.effort)},
-      any(message.velocities));
+       .efforts = named(controller_.joints, message.effort)});
 }
 
 void ControllerTopics::take(const TrajectoryMessage& message) {
@@ -148,22 +138,45 @@ void ControllerTopics::take(const control_msgs::msg::SpeedScalingFactor& message
 
 void ControllerTopics::set(std::vector<remote::JointValue> values) {
   const bool is_velocity = controller_.quantity == "velocity";
-  const bool moves = is_velocity && std::any_of(values.begin(), values.end(),
-                                                [](const auto& own) { return own.value != 0; });
   remote::SetReference reference;
   auto& column = is_velocity                          ? reference.velocities
                  : controller_.quantity == "position" ? reference.positions
                                                       : reference.efforts;
   column = std::move(values);
-  set(reference, moves);
+  set(reference);
 }
 
-void ControllerTopics::set(const remote::SetReference& reference, bool moves) {
+void ControllerTopics::set(const remote::SetReference& reference) {
   const std::chrono::nanoseconds asked = core_.context.now;
-  core_.loop_operator.ask(reference, [this, moves, asked](const remote::Answer& answer) {
+  core_.loop_operator.ask(reference, [this, reference, asked](const remote::Answer& answer) {
     if (answer.verdict != remote::Verdict::done) return refuse(answer.text);
-    moving_since_ = moves ? std::optional(asked) : std::nullopt;
+    for (std::size_t k = 0; k < controller_.joints.size(); ++k) {
+      const auto names_it = [&](const auto& own) { return own.joint == controller_.joints[k]; };
+      const bool is_named = std::ranges::any_of(reference.positions, names_it) ||
+                            std::ranges::any_of(reference.efforts, names_it);
+      const auto velocity = std::ranges::find_if(reference.velocities, names_it);
+      const bool has_velocity = velocity != reference.velocities.end();
+      if (is_named || has_velocity) moving_since_[k].reset();
+      if (has_velocity && velocity->value != 0) moving_since_[k] = asked;
+    }
   });
+}
+
+void ControllerTopics::stop_old_motions() {
+  remote::Stop stop;
+  for (std::size_t k = 0; k < controller_.joints.size(); ++k) {
+    auto& since = moving_since_[k];
+    if (!since) continue;
+    since = std::min(*since, core_.context.now);
+    if (core_.context.now - *since <= to_duration(core_.options.controls_time)) continue;
+    since.reset();
+    // Otherwise somebody has asked for another motion since.
+    if (core_.watch.situation.joint_motions[controller_.indices[k]] != "set") continue;
+    stop.joints.push_back(controller_.joints[k]);
+  }
+  if (stop.joints.empty()) return;
+  refuse("no reference has followed one with a velocity: the joints stop");
+  ask(stop);
 }
 
 void ControllerTopics::ask(const remote::Request& request) {

@@ -47,7 +47,8 @@ class ControllerTopics {
   void take(const TrajectoryMessage& message);
   void take(const control_msgs::msg::SpeedScalingFactor& message);
   void set(std::vector<remote::JointValue> values);
-  void set(const remote::SetReference& reference, bool moves);
+  void set(const remote::SetReference& reference);
+  void stop_old_motions();
   void ask(const remote::Request& request);
   void refuse(const std::string& reason);
   [[nodiscard]] bool is_active(const char* topic);
@@ -60,7 +61,8 @@ class ControllerTopics {
   std::optional<Publisher<HumbleState>> humble_state_{};
   Periodic state_due_;
   std::optional<std::uint64_t> published_cycle_{};
-  std::optional<std::chrono::nanoseconds> moving_since_{};  ///< of a reference with a velocity
+  /// By joint of the controller: when it got a reference with a velocity.
+  std::vector<std::optional<std::chrono::nanoseconds>> moving_since_;
 };
 
 }  // namespace articula::ros2

@@ -80,7 +80,7 @@ class GripperAction final : public ControllerAction {
     const LoopWatch& watch = core_.watch;
     if (!watch.is_active(controller_.name)) {
       if (watch.situation.mode == LoopMode::active) {
-        core_.loop_operator.ask(remote::Stop{}, [](const remote::Answer&) {});
+        core_.loop_operator.ask(remote::Stop{{options_.joint}}, [](const remote::Answer&) {});
       }
       return end(Status::canceled);
     }
@@ -201,7 +201,7 @@ class GripperAction final : public ControllerAction {
   /// Whether the reference is on its way elsewhere: another client has moved it. Cycles come later
   /// than the situation, so it must last.
   [[nodiscard]] bool is_replaced() {
-    const std::string& motion = core_.watch.situation.motion;
+    const std::string& motion = core_.watch.situation.joint_motions[joint_];
     const double reference = core_.watch.cycle.reference_position[joint_];
     const bool arrived = std::abs(reference - running_->position) < 1e-9;
     if (motion == "go" || (motion == "rest" && arrived)) {

@@ -94,7 +94,7 @@ class Action final : public ControllerAction {
     const auto found = running_.find(id);
     if (found == running_.end()) return false;
     found->second.canceling = true;
-    core_.loop_operator.ask(remote::Stop{}, [](const remote::Answer&) {});
+    core_.loop_operator.ask(remote::Stop{controller_.joints}, [](const remote::Answer&) {});
     return true;
   }
 
@@ -102,7 +102,7 @@ class Action final : public ControllerAction {
   void leave() {
     for (auto& [id, own] : running_) {
       if (std::exchange(own.left, true) || core_.watch.situation.mode != LoopMode::active) continue;
-      core_.loop_operator.ask(remote::Stop{}, [](const remote::Answer&) {});
+      core_.loop_operator.ask(remote::Stop{controller_.joints}, [](const remote::Answer&) {});
     }
   }
 

@@ -18,6 +18,7 @@ constexpr std::array reference_members{Member{"positions", number_by_name},
                                        Member{"efforts", number_by_name}};
 constexpr std::array switch_members{Member{"start", texts}, Member{"stop", texts},
                                     Member{"best_effort", boolean}, Member{"replace", boolean}};
+constexpr std::array stop_members{Member{"joints", texts}};
 constexpr std::array parameter_members{Member{"values", number_by_name, true}};
 constexpr std::array pause_members{Member{"paused", boolean, true}};
 constexpr std::array step_members{Member{"cycles", integer}};
@@ -89,7 +90,10 @@ const std::array table{
     Service{"/set_reference", reference_members, set_reference},
     Service{"/play_trajectory", trajectory_members, read_trajectory},
     Service{"/play_signals", play_signals_members, read_signals},
-    Service{"/stop", none, plain<remote::Stop>},
+    Service{"/stop", stop_members,
+            [](const Json& call) -> Asked {
+              return remote::Request(remote::Stop{texts_of(call, "joints")});
+            }},
     Service{"/switch_controllers", switch_members, switch_controllers},
     Service{"/set_parameters", parameter_members, set_parameters},
     Service{"/pause", pause_members,

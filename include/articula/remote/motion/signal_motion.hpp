@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Signals around a reference, for a time.
+#pragma once
+
+#include "articula/reference/joint_signals.hpp"
+#include "articula/reference/stop_and_return.hpp"
+
+namespace articula::remote {
+
+/// Signals around a reference. Joints that move stop first. In the loop's thread. Real-time: yes, all
+/// functions but the constructor.
+template <Robot R>
+class SignalMotion {
+ public:
+  static constexpr int joint_count = articula::joint_count<R>;
+  using Reference = JointReference<joint_count>;
+
+  /// @param limits  of the stop, as validate() accepts them
+  SignalMotion(const R& robot, const MotionLimits<joint_count>& limits) noexcept
+      : stop_(robot, JointVector<joint_count>::Zero(), limits) {}
+
+  /// Begins with the stop.
+  /// @param from      the present reference
+  /// @param signals   valid until they have ended
+  /// @param duration  of the signals [s]
+  void begin(const Reference& from, JointSignals<R>& signals, double duration) noexcept {
+    stop_.begin(from);
+    signals_ = &signals;
+    signals_->set_around({.position = from.position, .effort = from.effort});
+    duration_ = duration;
+    played_ = 0;
+  }
+
+  /// Moves on by a period [s].
+  /// @param[out] reference  at its end; unchanged if the signals have ended
+  /// @return                whether they go on
+  [[nodiscard]] bool advance(double period, Reference& reference) noexcept {
+    if (stop_.moves()) {
+      reference = stop_.advance(period);
+      signals_->set_around(reference);
+      return true;
+    }
+    played_ += period;
+    if (played_ >= duration_) return false;
+    reference = signals_->sample(played_);
+    return true;
+  }
+
+  /// Where the joints were before the signals [rad or m], N x 1. After `begin`.
+  [[nodiscard]] const JointVector<joint_count>& centre() const noexcept {
+    return signals_->around().position;
+  }
+
+ private:
+  StopAndReturn<R> stop_;
+  JointSignals<R>* signals_ = nullptr;
+  double duration_ = 0;
+  double played_ = 0;  ///< since the end of the stop [s]
+};
+
+}  // namespace articula::remote

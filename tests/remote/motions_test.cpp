@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each joint follows a motion of its own.
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "catch.hpp"
+#include "random.hpp"
+#include "remote/remote_arm.hpp"
+
+using namespace articula;
+using namespace articula::remote;
+using Catch::Matchers::Contains;
+using support::elbow;
+using support::shoulder;
+using support::SupervisedArm;
+
+namespace {
+
+PlayTrajectory to(const std::string& joint, double position, double duration = 1) {
+  return {{{joint}, {{.time_from_start = duration, .positions = {position}}}}};
+}
+
+bool done(const Answer& answer) { return answer.verdict == support::Verdict::done; }
+
+/// An active arm, and its answers by the number of their request.
+struct Arm : SupervisedArm {
+  Arm() { REQUIRE(done(ask(Activate{}))); }
+
+  const JointReference<2>& reference() { return std::as_const(loop).reference(); }
+  std::vector<std::string> motions() { return remote.situation().joint_motions; }
+  std::optional<Answer> answer_to(std::uint64_t number) {
+    while (const auto answer = session->answer()) answers.push_back(*answer);
+    for (const Answer& answer : answers) {
+      if (answer.request == number) return answer;
+    }
+    return std::nullopt;
+  }
+  /// As RemoteArm's, without losing answers to other requests.
+  Answer ask(const Request& request, int most_cycles = 100) {
+    const auto number = session->ask(request);
+    for (int k = 0; k <= most_cycles; ++k) {
+      if (const auto answer = answer_to(number)) return *answer;
+      cycles(1);
+    }
+    return {number, support::Verdict::timed_out, "the test has waited long enough"};
+  }
+  std::vector<Answer> answers{};
+};
+
+using Motions = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("two trajectories of different joints are followed at once, each to its end") {
+  Arm arm;
+  const auto first = arm.session->ask(to(shoulder, 0.5, 1));
+  arm.cycles(300);
+  const auto second = arm.session->ask(to(elbow, -0.5, 0.5));
+  arm.cycles(300);
+  CHECK(arm.motions() == Motions{"trajectory", "trajectory"});
+  CHECK_FALSE(arm.answer_to(first));
+  arm.cycles(250);
+  CHECK(done(arm.answer_to(second).value()));
+  CHECK_FALSE(arm.answer_to(first));
+  CHECK(arm.motions() == Motions{"trajectory", "rest"});
+  arm.cycles(300);
+  CHECK(done(arm.answer_to(first).value()));
+  CHECK(arm.reference().position == JointVector<2>(0.5, -0.5));
+  CHECK(arm.remote.situation().motion == "rest");
+}
+
+TEST_CASE("each joint moves as if the other one did nothing") {
+  // The same trajectory of the shoulder, alone and while the elbow is moved in every way.
+  Arm alone, beside;
+  const PlayTrajectory play = to(shoulder, 0.8, 2);
+  alone.session->ask(play);
+  beside.session->ask(play);
+  const Request others[] = {Go{{{elbow, 0.7}}}, Stop{{elbow}}, to(elbow, -0.3, 0.4),
+                            SetReference{{{elbow, -0.2}}},
+                            PlaySignals{{{elbow, SineSignal{0.05, 2}}}, 0.3}};
+  for (const Request& other : others) {
+    CHECK(beside.answer_to(beside.session->ask(other)) == std::nullopt);
+    for (int k = 0; k < 390; ++k) {
+      alone.cycles(1);
+      beside.cycles(1);
+      REQUIRE(alone.reference().position[0] == beside.reference().position[0]);
+      REQUIRE(alone.reference().velocity[0] == beside.reference().velocity[0]);
+      REQUIRE(alone.reference().acceleration[0] == beside.reference().acceleration[0]);
+    }
+  }
+  CHECK(alone.remote.situation().motion == "trajectory");
+  alone.cycles(100);
+  beside.cycles(100);
+  CHECK(alone.reference().position[0] == 0.8);
+  CHECK(beside.reference().position[0] == 0.8);
+}
+
+TEST_CASE("a motion that takes a joint of a trajectory ends it, and its other joint stops") {
+  Arm arm;
+  const auto both = arm.session->ask(
+      PlayTrajectory{{{shoulder, elbow}, {{.time_from_start = 1, .positions = {0.6, 0.6}}}}});
+  arm.cycles(400);
+  REQUIRE(arm.reference().velocity[0] > 0.3);
+  CHECK(done(arm.ask(Go{{{elbow, 0}}})));
+  CHECK(arm.answer_to(both).value().verdict == support::Verdict::failed);
+  CHECK(arm.motions() == Motions{"stop", "go"});
+  arm.cycles(3000);
+  CHECK(arm.reference().velocity == JointVector<2>(0, 0));
+  CHECK(arm.reference().position[0] < 0.6);
+  CHECK(arm.reference().position[1] == 0);
+}
+
+TEST_CASE("a trajectory replaces two others without a jump") {
+  Arm arm;
+  const auto first = arm.session->ask(to(shoulder, 0.5)), second = arm.session->ask(to(elbow, 0.5));
+  arm.cycles(400);
+  const auto third = arm.session->ask(
+      PlayTrajectory{{{elbow, shoulder}, {{.time_from_start = 2, .positions = {-0.2, -0.4}}}}});
+  JointReference<2> before = arm.reference();
+  for (int k = 0; k < 2100; ++k) {
+    arm.cycles(1);
+    const JointVector<2> step = arm.reference().position - before.position;
+    REQUIRE(step.cwiseAbs().maxCoeff() <
+            3e-3);  // of 1 ms, at most the velocity limit of 2.27 rad/s
+    before = arm.reference();
+  }
+  CHECK(arm.answer_to(first).value().verdict == support::Verdict::failed);
+  CHECK(arm.answer_to(second).value().verdict == support::Verdict::failed);
+  CHECK(done(arm.answer_to(third).value()));
+  CHECK(arm.reference().position == JointVector<2>(-0.4, -0.2));
+}
+
+TEST_CASE("a trajectory that is refused leaves those that it would replace alone") {
+  Arm arm;
+  const auto first = arm.session->ask(to(shoulder, 0.5)), second = arm.session->ask(to(elbow, 0.5));
+  arm.cycles(400);
+  const Answer refused = arm.ask(
+      PlayTrajectory{{{elbow, shoulder}, {{.time_from_start = 1e-3, .positions = {-0.2, -0.4}}}}});
+  CHECK(refused.verdict == support::Verdict::refused);
+  arm.cycles(700);
+  CHECK(done(arm.answer_to(first).value()));
+  CHECK(done(arm.answer_to(second).value()));
+  CHECK(arm.reference().position == JointVector<2>(0.5, 0.5));
+}
+
+TEST_CASE("a trajectory of the same joints follows the last one until its time has come") {
+  Arm arm;
+  const auto first = arm.session->ask(to(shoulder, 0.5));
+  arm.cycles(10);
+  PlayTrajectory later = to(shoulder, 0, 1);
+  later.delay = 0.5;
+  const auto second = arm.session->ask(later);
+  arm.cycles(300);
+  CHECK(arm.answer_to(first).value().verdict == support::Verdict::failed);
+  CHECK(arm.reference().velocity[0] > 0.3);
+  arm.cycles(1500);
+  CHECK(done(arm.answer_to(second).value()));
+  CHECK(arm.reference().position == JointVector<2>(0, 0));
+}
+
+TEST_CASE("a stop of one joint leaves the other one, and names must be known") {
+  Arm arm;
+  const auto first = arm.session->ask(to(shoulder, 0.5)), second = arm.session->ask(to(elbow, 0.5));
+  arm.cycles(300);
+  CHECK(done(arm.ask(Stop{{elbow}})));
+  CHECK(arm.answer_to(second).value().verdict == support::Verdict::failed);
+  CHECK(arm.motions() == Motions{"trajectory", "stop"});
+  arm.cycles(1000);
+  CHECK(done(arm.answer_to(first).value()));
+  CHECK(arm.reference().position[1] < 0.5);
+  const Answer unknown = arm.ask(Stop{{"knee"}});
+  CHECK(unknown.verdict == support::Verdict::refused);
+  CHECK_THAT(unknown.text, Contains("knee"));
+}
+
+TEST_CASE("a joint far from its trajectory ends this one alone") {
+  Arm arm;
+  PlayTrajectory strict = to(elbow, 0.9, 1);
+  strict.path_tolerances = {{elbow, 1e-4, -1}};  // [rad]; a PID controller lags by more
+  const auto first = arm.session->ask(to(shoulder, 0.5)), second = arm.session->ask(strict);
+  arm.cycles(100);
+  arm.cycles(200);
+  CHECK(arm.answer_to(second).value().outcome == TrajectoryOutcome::path_tolerance_violated);
+  CHECK_FALSE(arm.answer_to(first));
+  arm.cycles(1000);
+  CHECK(done(arm.answer_to(first).value()));
+  CHECK(arm.reference().position[0] == 0.5);
+}
+
+TEST_CASE("signals of other joints end the signals before, which go back") {
+  Arm arm;
+  const auto first = arm.session->ask(PlaySignals{{{shoulder, StepSignal{0.1, 0}}}, 5});
+  arm.cycles(100);
+  CHECK(arm.reference().position[0] == 0.1);
+  const auto second = arm.session->ask(PlaySignals{{{elbow, StepSignal{0.1, 0}}}, 0.5});
+  arm.cycles(100);
+  CHECK(arm.answer_to(first).value().verdict == support::Verdict::failed);
+  CHECK(arm.reference().position == JointVector<2>(0.1, 0.1));
+  arm.cycles(2000);
+  CHECK(done(arm.answer_to(second).value()));
+  CHECK(arm.reference().position == JointVector<2>(0.1, 0));
+}
+
+TEST_CASE("a plan at the velocity limit is followed a little more slowly, and the log says so") {
+  Arm arm;
+  // Quintics between points of equal velocity that are a little farther apart than that velocity
+  // takes them: in the middle, they are faster by 15/8 of the mean excess.
+  const double limit = 2.27, excess = 0.01, step = 0.1;
+  PlayTrajectory play;
+  play.trajectory.joint_names = {shoulder};
+  const double distance = limit * step * (1 + excess * 8 / 15);
+  double position = -0.4;
+  play.trajectory.points.push_back({1, {position}, {0}, {0}});
+  play.trajectory.points.push_back({1.5, {position + 0.5 * limit / 2}, {limit}, {0}});
+  position += 0.5 * limit / 2;
+  play.trajectory.points.push_back({1.6, {position += distance}, {limit}, {0}});
+  play.trajectory.points.push_back({2.1, {position += 0.5 * limit / 2}, {0}, {0}});
+  SECTION("which is still within the limit") {
+    while (arm.session->event()) {
+    }
+    const auto number = arm.session->ask(play);
+    double highest = 0;
+    for (int k = 0; k < 2300; ++k) {
+      arm.cycles(1);
+      highest = std::max(highest, arm.reference().velocity[0]);
+    }
+    CHECK(done(arm.answer_to(number).value()));
+    CHECK(highest <= limit * (1 + 1e-9));
+    CHECK(highest > limit * 0.99);
+    CHECK(arm.reference().position[0] == position);
+    bool told = false;
+    while (const auto event = arm.session->event()) {
+      INFO(event->text);
+      told = told || event->text.find("velocity limit, 2.27") != std::string::npos;
+    }
+    CHECK(told);
+  }
+  SECTION("but not one that exceeds it by rounding at a point only") {
+    for (auto& point : play.trajectory.points) {
+      point.time_from_start *= 1.02;
+      for (double& velocity : point.velocities) velocity = velocity > 0 ? limit + 1e-13 : 0;
+    }
+    CHECK(arm.ask(play, 3000).verdict != support::Verdict::refused);
+  }
+  SECTION("and refused if it exceeds it by more than planners do") {
+    for (auto& point : play.trajectory.points) point.time_from_start *= 0.94;
+    CHECK_THAT(arm.ask(play).text, Contains("its limit is 2.27"));
+  }
+}
