@@ -60,8 +60,8 @@ CLI::App* add_command(CLI::App& parent, Program& program, const std::string& nam
 
 /// The types of options and arguments whose names a shell completes from the running loop. An option
 /// gets its type by CLI::Option::type_name.
-inline const std::vector<std::string> named_values{"CONTROLLER", "GAIN", "GAIN=VALUE",
-                                                   "JOINT=VALUE", "LINK"};
+inline const std::vector<std::string> named_values{"CONTROLLER", "GAIN",        "GAIN=VALUE",
+                                                   "JOINT",      "JOINT=VALUE", "LINK"};
 
 void add_state_commands(CLI::App& app, Program& program);
 void add_control_commands(CLI::App& app, Program& program);

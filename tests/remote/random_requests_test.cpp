@@ -32,8 +32,8 @@ double number(Random& random, double size) {
 
 PlayTrajectory trajectory(Random& random) {
   PlayTrajectory play;
-  play.trajectory.joint_names = {shoulder};
-  if (random.one_in(2)) play.trajectory.joint_names.push_back(elbow);
+  play.trajectory.joint_names = {joint(random)};
+  if (random.one_in(2)) play.trajectory.joint_names = {shoulder, elbow};
   double time = 0;
   for (int k = random.integer(0, 3); k >= 0; --k) {
     time += random.number(0.05, 1.5);
@@ -62,7 +62,7 @@ Request smooth_request(Random& random) {
     case 6:
       return trajectory(random);
     case 7:
-      return Stop{};
+      return random.one_in(2) ? Stop{} : Stop{{joint(random)}};
     case 8: {
       const std::string name = "pid_plus_gravity." + joint(random);
       return SetParameters{{{name + ".p", number(random, 2000)}, {name + ".d", number(random, 5)}}};
@@ -75,6 +75,7 @@ Request smooth_request(Random& random) {
     case 11:
       return Pull{"tool_link", {}, {number(random, 5), number(random, 5), 0}};
     case 12:
+      if (random.one_in(2)) return SetTrajectorySpeed{random.number(-0.1, 1.1)};
       return Step{random.integer(-1, 5)};
     case 13:
       return Pause{random.one_in(3)};

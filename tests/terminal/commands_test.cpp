@@ -180,6 +180,7 @@ TEST_CASE("bash completes the names of the running loop") {
   CHECK(offered({"switch", "--start", "bypass", "--stop", ""}) ==
         Words{"pid_plus_gravity", "bypass"});
   CHECK(offered({"go", ""}) == joints);
+  CHECK(offered({"stop", "el"}) == Words{std::string(elbow)});
   CHECK(offered({"go", "--wait", "--speed", "0.5", "el"}) == Words{joints[1]});
   CHECK(offered({"go", joints[0], "=", "0.1", "el"}) == Words{joints[1]});
   CHECK(offered({"go", "--speed", "el"}) == Words{""});
@@ -278,6 +279,14 @@ TEST_CASE("the loop is deactivated, activated and stopped") {
   const RunningArm arm;
   REQUIRE(eventually([&] { return mode(arm) == "active"; }));
   done(arm.ask({"stop"}));
+  // At this speed, the motion takes more than 20 s.
+  done(arm.ask(
+      {"go", "--speed", "0.01", std::string(shoulder) + "=0.5", std::string(elbow) + "=0.5"}));
+  done(arm.ask({"stop", std::string(elbow)}));
+  const auto motions = arm.remote().situation().joint_motions;
+  CHECK(motions.at(0) == "go");
+  CHECK(motions.at(1) != "go");
+  check_refused(arm.ask({"stop", "knee"}), {"knee"});
   done(arm.ask({"deactivate"}));
   CHECK(eventually([&] { return mode(arm) == "inactive"; }));
   check_refused(arm.ask({"go", std::string(elbow) + "=0.1"}), {"active"});

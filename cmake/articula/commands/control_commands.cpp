@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,7 +31,15 @@ void add_control_commands(CLI::App& app, Program& program) {
   add_plain_command(app, program, "activate", "Activates the loop: the joints are controlled.",
                     "/activate");
   add_plain_command(app, program, "deactivate", "Deactivates the loop.", "/deactivate");
-  add_plain_command(app, program, "stop", "Stops the motion as fast as the limits allow.", "/stop");
+
+  const auto stopped = std::make_shared<std::vector<std::string>>();
+  add_command(app, program, "stop", "Stops joints as fast as the limits allow.",
+              [&program, stopped] {
+                Connection connection(program);
+                program.print(connection.operate("/stop", {{"joints", *stopped}}), "done");
+              })
+      ->add_option("joints", *stopped, "those that stop; without them, all")
+      ->type_name("JOINT");
 
   CLI::App* fault = app.add_subcommand("fault", "Faults of the loop.")->require_subcommand(1);
   fault->fallthrough();

@@ -79,6 +79,10 @@ void add_ros2_options(CLI::App& command, Ros2Options& options) {
   command.add_option("--namespace", options.name_space, "of its nodes and topics, as /left")
       ->needs(wanted);
   command
+      .add_option("--frame-prefix", options.frame_prefix,
+                  "before the names of its frames in /tf, as left/")
+      ->needs(wanted);
+  command
       .add_option("--interface", options.interfaces,
                   "an IPv4 address of this host for ROS 2, in place of loopback")
       ->check(CLI::ValidIPV4)
@@ -93,6 +97,7 @@ Attach ros2_bridge(const Ros2Options& options, const ControllersPlan& plan) {
   ros2::BridgeOptions bridge{.distribution = distribution_of(options),
                              .dds = dds_of(options),
                              .name_space = options.name_space,
+                             .frame_prefix = options.frame_prefix,
                              .operates = options.operates,
                              .use_sim_time = options.use_sim_time};
   for (const PlannedController& controller : plan.controllers) {

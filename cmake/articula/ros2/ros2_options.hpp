@@ -22,6 +22,7 @@ struct Ros2Options {
   unsigned domain = 0;
   std::string distribution = "jazzy";
   std::string name_space{};
+  std::string frame_prefix{};                        ///< before the names of frames, as left/
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< IPv4 addresses of this host
   bool use_sim_time = false;                         ///< stamps have the loop's time
   bool operates = true;                              ///< ROS may move the robot

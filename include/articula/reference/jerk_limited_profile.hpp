@@ -70,9 +70,9 @@ class JerkLimitedProfile {
       const JointVector<joint_count>& effort = JointVector<joint_count>::Zero()) noexcept {
     JerkLimitedProfile profile;
     profile.effort_ = effort;
-    profile.lower_ = from.cwiseMin(to);
-    profile.upper_ = from.cwiseMax(to);
     for (int j = 0; j < joint_count; ++j) {
+      profile.lower_[j] = std::min(from[j], to[j]);
+      profile.upper_[j] = std::max(from[j], to[j]);
       profile.motions_[j] =
           rest_to_rest(from[j], to[j], limits.velocity[j], limits.acceleration[j], limits.jerk[j]);
       profile.duration_ = std::max(profile.duration_, profile.motions_[j].duration());

@@ -6,6 +6,7 @@
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 
+#include <algorithm>
 #include <numbers>
 #include <string_view>
 
@@ -16,6 +17,24 @@ template <int N>
 struct JointRange {
   JointVector<N> lower, upper;  ///< limits of the position [rad or m], N x 1
   JointVector<N> turn;          ///< 2 pi for continuous joints, 0 for others [rad], N x 1
+
+  /// The range with a position outside it, if it is outside, and a margin on both sides [rad or m].
+  /// Real-time: yes. O(N).
+  [[nodiscard]] JointRange extended_to(const JointVector<N>& position,
+                                       double margin = 0) const noexcept {
+    JointRange range = *this;
+    for (int j = 0; j < N; ++j) {
+      range.lower[j] = std::min(lower[j], position[j]) - margin;
+      range.upper[j] = std::max(upper[j], position[j]) + margin;
+    }
+    return range;
+  }
+  /// The position within the range that is next to another one [rad or m], N x 1.
+  /// Real-time: yes. O(N).
+  [[nodiscard]] JointVector<N> clamp(const JointVector<N>& position) const noexcept {
+    return for_each_joint<N>(
+        [&](int j) noexcept { return std::min(std::max(position[j], lower[j]), upper[j]); });
+  }
 };
 
 /// The range in a robot's description. Real-time: yes.

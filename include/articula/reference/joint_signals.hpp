@@ -57,8 +57,11 @@ class JointSignals {
     if (signals.size() > entries_.size()) {
       detail::refuse({"signals: ", signals.size(), " are more than the capacity, ", Capacity});
     }
-    JointReference<joint_count> peak{around.position.cwiseAbs(), around.velocity.cwiseAbs(),
-                                     around.acceleration.cwiseAbs(), around.effort.cwiseAbs()};
+    const auto sizes_of = [](const JointVector<joint_count>& x) {
+      return for_each_joint<joint_count>([&](int j) noexcept { return std::abs(x[j]); });
+    };
+    JointReference<joint_count> peak{sizes_of(around.position), sizes_of(around.velocity),
+                                     sizes_of(around.acceleration), sizes_of(around.effort)};
     for (const JointSignal& s : signals) {
       const auto fault = std::visit([](const auto& signal) { return signal.fault(); }, s.signal);
       if (!fault.empty()) {

@@ -41,6 +41,12 @@ class SpeedOverride {
     target_ = is_finite(speed) ? std::clamp(speed, 0.0, highest_) : 0.0;
   }
 
+  /// Takes the requested speed at once: for a motion that has not begun. Real-time: yes.
+  void settle() noexcept {
+    speed_ = target_;
+    slope_ = 0;
+  }
+
   /// Moves on by a period.
   /// @param period  [s]; ignored unless finite and positive
   /// Real-time: yes.
@@ -64,8 +70,11 @@ class SpeedOverride {
   /// Converts a reference from the motion's own time to real time. Real-time: yes.
   template <int N>
   [[nodiscard]] JointReference<N> apply(JointReference<N> reference) const noexcept {
-    reference.acceleration = speed_ * speed_ * reference.acceleration + slope_ * reference.velocity;
-    reference.velocity *= speed_;
+    for (int j = 0; j < N; ++j) {
+      double &v = reference.velocity[j], &a = reference.acceleration[j];
+      a = speed_ * speed_ * a + slope_ * v;
+      v *= speed_;
+    }
     return reference;
   }
 
@@ -73,13 +82,10 @@ class SpeedOverride {
   /// acceleration become 0. Real-time: yes.
   template <int N>
   [[nodiscard]] JointReference<N> unapply(JointReference<N> reference) const noexcept {
-    if (speed_ > 0) {
-      reference.velocity /= speed_;
-      reference.acceleration =
-          (reference.acceleration - slope_ * reference.velocity) / (speed_ * speed_);
-    } else {
-      reference.velocity.setZero();
-      reference.acceleration.setZero();
+    for (int j = 0; j < N; ++j) {
+      double &v = reference.velocity[j], &a = reference.acceleration[j];
+      v = speed_ > 0 ? v / speed_ : 0;
+      a = speed_ > 0 ? (a - slope_ * v) / (speed_ * speed_) : 0;
     }
     return reference;
   }

@@ -51,8 +51,7 @@ class StopAndReturn {
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(target_[j])) wanted[j] = target_[j];
     }
-    const Position target = wanted.cwiseMax(range_.lower.cwiseMin(from.position))
-                                .cwiseMin(range_.upper.cwiseMax(from.position));
+    const Position target = range_.extended_to(from.position).clamp(wanted);
     back_.reset();
     if (target != end) back_ = target;
   }

@@ -86,7 +86,7 @@ class MotionTaskMaker {
       if (excess.factor > most_excess) {
         const double limit = check_.limits_of(excess.joint).velocity;
         check_.check_size("trajectory between its points", "velocity", excess.joint,
-                          between.factor * limit, limit);
+                          excess.factor * limit, limit);
       }
       wish.trajectory = arranged(slower(play.trajectory, excess.factor), present);
     }
@@ -215,6 +215,8 @@ class MotionTaskMaker {
 
   /// The same path in a longer time.
   [[nodiscard]] static NamedTrajectory slower(NamedTrajectory trajectory, double factor) {
+    if (factor == 1) return trajectory;
+    factor *= 1 + 1e-15;  // v / (v / limit) may be above the limit by rounding
     for (NamedTrajectoryPoint& point : trajectory.points) {
       point.time_from_start *= factor;
       for (double& velocity : point.velocities) velocity /= factor;

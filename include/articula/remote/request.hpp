@@ -41,7 +41,8 @@ struct AcknowledgeFault {};
 // request takes one of their joints, their other joints stop.
 
 /// Moves the reference of some joints along a jerk-limited profile. Joints that are still on their way
-/// by a request of this kind arrive together with them. Its answer comes when the motion has begun.
+/// by a request of this kind arrive together with them, at the new speed. Its answer comes when the
+/// motion has begun.
 struct Go {
   std::vector<JointValue> positions{};  ///< [rad or m]
   double speed = 1;                     ///< share of the velocity limits, 0.01 .. 1
@@ -70,9 +71,9 @@ struct PlayTrajectory {
   std::vector<NamedTolerance> goal_tolerances{};  ///< at the end
   double goal_time =
       0;  ///< time to arrive after the last point [s]; 0: as configured, -1: unlimited
-  /// When it begins, after the request has come to the loop [s]. Until then the present motion goes on
-  /// if it is a trajectory, otherwise it stops. Negative: the points before are skipped. Without it,
-  /// the trajectory begins at once.
+  /// When it begins, after the request has come to the loop [s]. Until then a trajectory of the same
+  /// joints goes on; any other motion of theirs stops. Negative: the points before are skipped. Without
+  /// it, the trajectory begins at once.
   std::optional<double> delay{};
 };
 

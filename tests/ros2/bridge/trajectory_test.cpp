@@ -279,6 +279,24 @@ TEST_CASE("a new goal replaces the last one") {
   CHECK(arm.reference() == std::vector<double>{0.5, 0});
 }
 
+TEST_CASE("a new goal of a controller ends the one before, also if it is for other joints") {
+  ActiveArm arm;
+  Follow::Goal shoulder, elbow;
+  shoulder.trajectory.joint_names = {shoulder_joint};
+  shoulder.trajectory.points = {{.positions = {1}, .time_from_start = {2, 0}}};
+  elbow.trajectory.joint_names = {elbow_joint};
+  elbow.trajectory.points = {{.positions = {0.5}, .time_from_start = {1, 0}}};
+  REQUIRE(arm.send(1, shoulder).accepted);
+  arm.run(500);
+  REQUIRE(arm.send(2, elbow).accepted);
+  const auto old = arm.wait_for(1);
+  CHECK(old.status == GoalState::canceled);
+  CHECK(old.result.error_string == "Current goal cancelled due to new incoming action.");
+  CHECK(arm.wait_for(2).status == GoalState::succeeded);
+  CHECK(arm.reference()[0] < 1);
+  CHECK(arm.reference()[1] == 0.5);
+}
+
 TEST_CASE("goals of two controllers run at once, and a canceled one leaves the other alone") {
   ActiveArm arm({}, support::grouped_arm());
   const auto goal_of = [](const std::string& joint, double position, std::int32_t seconds) {

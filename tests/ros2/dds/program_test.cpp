@@ -6,6 +6,7 @@
 #include "articula/ros2/messages/rosgraph_msgs.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
 #include "articula/ros2/messages/std_msgs.hpp"
+#include "articula/ros2/messages/tf2_msgs.hpp"
 #include "articula/ros2/names.hpp"
 
 #include "catch.hpp"
@@ -26,6 +27,7 @@ using namespace articula::ros2;
 using namespace articula::ros2::test;
 using States = sensor_msgs::msg::JointState<Jazzy>;
 using Clock = rosgraph_msgs::msg::Clock;
+using Frames = tf2_msgs::msg::TFMessage<Jazzy>;
 using Numbers = std_msgs::msg::Float64MultiArray<Jazzy>;
 
 namespace {
@@ -73,10 +75,15 @@ std::optional<M> newest(FastDdsPeer& peer, std::size_t reader) {
 TEST_CASE("articula run offers its loop to ROS 2, below a namespace") {
   FastDdsPeer peer(domain());
   const auto reader = peer.make_reader(topic_name("/left/joint_states"), dds_type_name<States>());
-  Program program({"run", "ROBOT", CONTROLLERS, "--namespace", "/left"});
+  const auto frames = peer.make_reader(topic_name("/tf"), dds_type_name<Frames>());
+  Program program({"run", "ROBOT", CONTROLLERS, "--namespace", "/left", "--frame-prefix", "left/"});
   const auto states = newest<States>(peer, reader);
   REQUIRE(states);
   CHECK(states->name == std::vector<std::string>{"shoulder_active_joint", "elbow_active_joint"});
+  const auto placed = newest<Frames>(peer, frames);
+  REQUIRE(placed);
+  REQUIRE(!placed->transforms.empty());
+  CHECK(placed->transforms[0].child_frame_id.starts_with("left/"));
   CHECK(program.end().exit_code == 0);
 }
 

@@ -81,7 +81,10 @@ template <int Capacity = 32, Robot R>
 
   std::vector<TrajectoryPoint<n>> points;
   double time = 0;
-  const JointReference<n> from = options.from.value_or(JointReference<n>{});
+  JointReference<n> from = options.from.value_or(JointReference<n>{});
+  for (int j = 0; j < n; ++j) {
+    if (!column[j]) from.velocity[j] = from.acceleration[j] = 0;  // in the points, it rests
+  }
   JointReference<n> last = from;
   for (std::size_t k = 0; k < named.points.size(); ++k) {
     const NamedTrajectoryPoint& source = named.points[k];
@@ -114,10 +117,15 @@ template <int Capacity = 32, Robot R>
         detail::refuse_goal({"point 1 has no positions; set ArrangeOptions::from"});
       }
       const double half = (source.time_from_start - time) / 2;
+      const auto integral = [&](const JointVector<n>& from_value, const JointVector<n>& rate_before,
+                                const JointVector<n>& rate) {
+        return for_each_joint<n>(
+            [&](int j) noexcept { return from_value[j] + half * (rate_before[j] + rate[j]); });
+      };
       if (!point.velocity) {
-        point.velocity = last.velocity + half * (last.acceleration + *point.acceleration);
+        point.velocity = integral(last.velocity, last.acceleration, *point.acceleration);
       }
-      point.position = last.position + half * (last.velocity + *point.velocity);
+      point.position = integral(last.position, last.velocity, *point.velocity);
     }
     time = source.time_from_start;
     last = at_point(point);

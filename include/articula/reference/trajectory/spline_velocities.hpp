@@ -29,8 +29,8 @@ void set_spline_velocities(std::span<TrajectoryPoint<N>> points) {
   const auto width = [&](std::size_t k) {
     return points[k + 1].time_from_start - points[k].time_from_start;
   };
-  const auto slope = [&](std::size_t k) -> Vector {
-    return (points[k + 1].position - points[k].position) / width(k);
+  const auto slope = [&](std::size_t k, int j) {
+    return (points[k + 1].position[j] - points[k].position[j]) / width(k);
   };
   // After elimination, v_k = rest_k - factor_k v_(k+1).
   std::vector<double> factor(points.size());
@@ -43,17 +43,20 @@ void set_spline_velocities(std::span<TrajectoryPoint<N>> points) {
       rest[k] = points[k].velocity.value_or(Vector::Zero());
     } else if (k == 0) {
       factor[0] = 0.5;
-      rest[0] = 1.5 * slope(0);
+      rest[0] = for_each_joint<N>([&](int j) noexcept { return 1.5 * slope(0, j); });
     } else {
       const double before = 1 / width(k - 1), after = 1 / width(k);
       const double pivot = 2 * (before + after) - before * factor[k - 1];
       factor[k] = after / pivot;
-      rest[k] = (3 * (before * slope(k - 1) + after * slope(k)) - before * rest[k - 1]) / pivot;
+      rest[k] = for_each_joint<N>([&](int j) noexcept {
+        const double slopes = before * slope(k - 1, j) + after * slope(k, j);
+        return (3 * slopes - before * rest[k - 1][j]) / pivot;
+      });
     }
   }
   Vector next = Vector::Zero();
   for (std::size_t k = last + 1; k-- > 0;) {
-    next = rest[k] - factor[k] * next;
+    for (int j = 0; j < N; ++j) next[j] = rest[k][j] - factor[k] * next[j];
     if (!points[k].velocity) points[k].velocity = next;
   }
 }

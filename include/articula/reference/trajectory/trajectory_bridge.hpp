@@ -7,6 +7,7 @@
 #include "articula/reference/trajectory/trajectory.hpp"
 #include "articula/reference/trajectory/trajectory_outcome.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -68,15 +69,15 @@ template <Robot R, int Capacity, int N = joint_count<R>>
       if (range.turn[j] == 0) continue;
       const double apart = present.position[j] - points[k].position[j];
       bridge.shift[j] = range.turn[j] * std::round(apart / range.turn[j]);
+      bridge.to.position[j] += bridge.shift[j];
     }
-    bridge.to.position += bridge.shift;
     if (trajectory.interpolation() == Interpolation::none) return bridge;
 
     const double period = points[k].time_from_start - time;
-    const JointVector<N> distance = (bridge.to.position - present.position).cwiseAbs();
-    if (!within("before the last point the mean velocity", distance / period, limits.velocity)) {
-      continue;
-    }
+    const JointVector<N> mean = for_each_joint<N>([&](int j) noexcept {
+      return std::abs(bridge.to.position[j] - present.position[j]) / period;
+    });
+    if (!within("before the last point the mean velocity", mean, limits.velocity)) continue;
 
     if (moves) {
       const JointReference<N> onward =
@@ -86,14 +87,14 @@ template <Robot R, int Capacity, int N = joint_count<R>>
     }
     const auto highest = [](const JointVector<N>& a, const JointVector<N>& b,
                             const JointVector<N>& limit) {
-      return JointVector<N>(a.cwiseAbs().cwiseMax(b.cwiseAbs()).cwiseMax(limit));
+      return for_each_joint<N>(
+          [&](int j) noexcept { return std::max({std::abs(a[j]), std::abs(b[j]), limit[j]}); });
     };
     const JointReference<N> end = at_point(bridge.to);
     constexpr double rounding = 1e-9;  // [rad or m]
+    const JointRange<N> allowed = range.extended_to(present.position, rounding);
     const SegmentPeaks<N> most{
-        range.lower.cwiseMin(present.position).array() - rounding,
-        range.upper.cwiseMax(present.position).array() + rounding,
-        highest(present.velocity, end.velocity, limits.velocity),
+        allowed.lower, allowed.upper, highest(present.velocity, end.velocity, limits.velocity),
         highest(present.acceleration, end.acceleration, limits.acceleration)};
     const auto peaks = segment_peaks(bridge.from, bridge.to, most);
     if (within("before the last point the highest velocity", peaks.velocity, most.velocity) &&

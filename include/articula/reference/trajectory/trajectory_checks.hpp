@@ -91,10 +91,11 @@ void check_segment(const R& robot, const TrajectoryPoint<N>& a, const Trajectory
     refuse_segment({"the segment from the point before overflows"});
   }
   constexpr double rounding = 1e-9;  // [rad or m]
-  const JointRange<N> range = joint_range(robot);
-  const auto unlimited = JointVector<N>::Constant(std::numeric_limits<double>::infinity());
-  const SegmentPeaks<N> limits{range.lower.array() - rounding, range.upper.array() + rounding,
-                               unlimited, unlimited};
+  const JointRange<N> range = joint_range(robot),
+                      limited = range.extended_to(range.lower, rounding);
+  const JointVector<N> unlimited =
+      JointVector<N>::Constant(std::numeric_limits<double>::infinity());
+  const SegmentPeaks<N> limits{limited.lower, limited.upper, unlimited, unlimited};
   const SegmentPeaks<N> peaks = segment_peaks(a, b, limits);
   for (int j = 0; j < N; ++j) {
     const bool below = peaks.lowest[j] < limits.lowest[j];

@@ -118,7 +118,7 @@ class TrajectoryFollower {
   }
 
   /// Goes on from the reference of another source: drops what was followed, and begins the fastest
-  /// stop. A trajectory that is started then begins from there, without a jump.
+  /// stop. A trajectory that is started then begins from there, without a jump, at the requested speed.
   /// @param reference  finite
   /// @param time       of that reference, on the clock of sample() [s]
   /// Real-time: yes. O(N).
@@ -182,6 +182,7 @@ class TrajectoryFollower {
     if (motion_.moves()) {
       if (watched_ && (!within_tolerance(error, tolerances_.path_position) ||
                        !within_tolerance(velocity_error, tolerances_.path_velocity))) {
+        refusal_ = {};  // of another trajectory
         abort(TrajectoryOutcome::path_tolerance_violated, reference().position - error);
       }
     } else if (!waiting_) {
@@ -189,6 +190,7 @@ class TrajectoryFollower {
           within_tolerance(velocity_error, tolerances_.stopped_velocity)) {
         outcome_ = TrajectoryOutcome::successful;
       } else if (tolerances_.goal_time > 0 && motion_.time_at_rest() > tolerances_.goal_time) {
+        refusal_ = {};
         abort(TrajectoryOutcome::goal_tolerance_violated, reference().position - error);
       }
     }

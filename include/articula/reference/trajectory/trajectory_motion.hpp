@@ -93,8 +93,10 @@ class TrajectoryMotion {
     if (rest_.moves()) begin_rest(reference_, tracks_.follows());
   }
 
-  /// Goes on from the reference of another source, by the fastest stop. Real-time: yes. O(N).
+  /// Goes on from the reference of another source, by the fastest stop. What begins then has the
+  /// requested speed. Real-time: yes. O(N).
   void take_over(const Reference& reference) noexcept {
+    speed_.settle();
     reference_ = reference;
     stop(StopAndReturn<R>::unknown());
   }
@@ -110,8 +112,7 @@ class TrajectoryMotion {
   /// Moves on by a period [s], >= 0. Real-time: yes. O(N log Capacity).
   void advance(double period) noexcept {
     speed_.advance(period);
-    const Position lowest = range_.lower.cwiseMin(reference_.position);
-    const Position highest = range_.upper.cwiseMax(reference_.position);
+    const JointRange<joint_count> allowed = range_.extended_to(reference_.position);
     for (double end = tracks_.first_end(); end <= speed_.time(); end = tracks_.first_end()) {
       const double speed = speed_.speed();
       const double after = speed > 0 ? std::min(period, (speed_.time() - end) / speed) : 0;
@@ -124,7 +125,7 @@ class TrajectoryMotion {
     if (!tracks_.all()) reference_ = rest_.reference();
     if (tracks_.any()) {
       tracks_.sample(speed_.time(), own_);
-      own_.position = own_.position.cwiseMax(lowest).cwiseMin(highest);  // rounding
+      own_.position = allowed.clamp(own_.position);  // rounding
       copy_joints(speed_.apply(own_), reference_, tracks_.follows());
     }
     if (rest_.moves()) arrival_ = speed_.time();

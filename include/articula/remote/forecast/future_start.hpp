@@ -9,6 +9,7 @@
 #include "articula/loop/command_history.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/recording/cycle_record.hpp"
+#include "articula/reference/joint_range.hpp"
 #include "articula/remote/forecast/futures_question.hpp"
 
 #include <algorithm>
@@ -94,8 +95,8 @@ template <int N>
     if (share == 0) {  // as it is, to the last bit
       references.push_back(from);
     } else {
-      const auto between = [share](const auto& a, const auto& b) {
-        return JointVector<N>(a + share * (b - a));
+      const auto between = [share](const JointVector<N>& a, const JointVector<N>& b) {
+        return for_each_joint<N>([&](int j) noexcept { return a[j] + share * (b[j] - a[j]); });
       };
       references.push_back({.position = between(from.position, to.position),
                             .velocity = between(from.velocity, to.velocity),
@@ -160,12 +161,10 @@ template <Robot R, class Command>
   }
   if (!question.references.empty()) start.references = detail::references_of<n>(question, period);
   if (question.steps.empty()) return start;
-  JointVector<n> lowest = start.reference_at(0).position, highest = lowest;
-  for (const auto& reference : start.references) {
-    lowest = lowest.cwiseMin(reference.position);
-    highest = highest.cwiseMax(reference.position);
-  }
-  const JointVector<n> offsets = detail::offsets_of(robot, question.steps, lowest, highest);
+  const JointVector<n> first = start.reference_at(0).position;
+  JointRange<n> used{first, first, JointVector<n>::Zero()};
+  for (const auto& reference : start.references) used = used.extended_to(reference.position);
+  const JointVector<n> offsets = detail::offsets_of(robot, question.steps, used.lower, used.upper);
   start.reference.position += offsets;
   for (auto& reference : start.references) reference.position += offsets;
   return start;

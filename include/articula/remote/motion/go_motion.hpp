@@ -32,6 +32,7 @@ class GoMotion {
   GoMotion(const R& robot, const Limits& limits) noexcept
       : limits_(limits),
         range_(joint_range(robot)),
+        allowed_(range_),
         stop_(robot, Vector::Zero(), limits),
         profile_(JerkLimitedProfile<R>::move(Vector::Zero(), Vector::Zero(), limits)) {}
 
@@ -43,8 +44,7 @@ class GoMotion {
   /// Real-time: yes. O(N), O(N^2) in mid-motion.
   void begin(const Reference& from, const Vector& target, double speed) noexcept {
     const Limits limits{speed * limits_.velocity, limits_.acceleration, limits_.jerk};
-    lowest_ = range_.lower.cwiseMin(from.position);
-    highest_ = range_.upper.cwiseMax(from.position);
+    allowed_ = range_.extended_to(from.position);
     const auto stopping = JerkLimitedProfile<R>::stop(from, limits_, range_.lower, range_.upper);
     target_ = stopping.sample(stopping.duration()).position;
     for (int j = 0; j < joint_count; ++j) {
@@ -60,7 +60,7 @@ class GoMotion {
     if constexpr (joint_count <= most_blended) {
       blend_ = StateToStateProfile<R>::plan(from, {.position = target_, .effort = from.effort},
                                             both_ways(limits));
-      if (blend_ && keeps_range(from)) return;
+      if (blend_ && keeps_range(from) && keeps_velocity(from)) return;
       blend_.reset();
     }
     stop_.begin(from);
@@ -88,7 +88,7 @@ class GoMotion {
       return profile_.sample(time_);
     }
     Reference reference = blend_->sample(time_);
-    reference.position = reference.position.cwiseMax(lowest_).cwiseMin(highest_);  // rounding
+    reference.position = allowed_.clamp(reference.position);  // rounding
     return reference;
   }
 
@@ -101,6 +101,17 @@ class GoMotion {
   [[nodiscard]] const Vector& target() const noexcept { return target_; }
 
  private:
+  /// Whether no joint exceeds its velocity limit while its acceleration fades. Trajectories may have
+  /// accelerated harder. A stop then drops the acceleration.
+  [[nodiscard]] bool keeps_velocity(const Reference& from) const noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      const double v = from.velocity[j], a = from.acceleration[j];
+      const double peak = std::abs(v) + a * a / (2 * limits_.jerk[j]);
+      if (v * a > 0 && peak > limits_.velocity[j] * (1 + 1e-9)) return false;  // rounding
+    }
+    return true;
+  }
+
   /// Whether the motion in between stays within the joints' limits.
   [[nodiscard]] bool keeps_range(const Reference& from) const noexcept {
     constexpr double rounding = 1e-9;  // [rad or m]
@@ -116,12 +127,12 @@ class GoMotion {
 
   Limits limits_;
   JointRange<joint_count> range_;
+  JointRange<joint_count> allowed_;  ///< by the limits and the beginning
   StopAndReturn<R> stop_;
   JerkLimitedProfile<R> profile_;
   std::optional<StateToStateProfile<R>> blend_{};
   std::optional<Limits> pending_{};  ///< of the profile after the stop
   Vector target_ = Vector::Zero();
-  Vector lowest_ = Vector::Zero(), highest_ = Vector::Zero();
   double time_ = 0;
 };
 

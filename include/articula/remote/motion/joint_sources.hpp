@@ -33,14 +33,6 @@ class JointSources {
     }
     return false;
   }
-  /// Whether all of some joints do.
-  [[nodiscard]] bool leads_all(int source, const Joints& some) const noexcept {
-    const Joints joints = joints_of(source);
-    for (int j = 0; j < N; ++j) {
-      if (some[j] && !joints[j]) return false;
-    }
-    return true;
-  }
   /// The joints that follow a source.
   [[nodiscard]] Joints joints_of(int source) const noexcept {
     Joints joints{};

@@ -5,6 +5,7 @@
 #include "articula/remote/motion/go_motion.hpp"
 #include "articula/remote/motion/joint_setting.hpp"
 #include "articula/remote/motion/joint_sources.hpp"
+#include "articula/remote/motion/joint_stops.hpp"
 #include "articula/remote/motion/motion_kind.hpp"
 #include "articula/remote/motion/signal_motion.hpp"
 #include "articula/remote/motion/trajectory_followers.hpp"
@@ -43,7 +44,7 @@ class ReferenceSource {
                   const Tolerances& tolerances)
       : followers_(robot, limits, tolerances),
         go_(robot, limits),
-        stop_(robot, Vector::Zero(), limits),
+        stops_(robot, limits),
         signals_(robot, limits) {
     validate(robot, both_ways(limits));
   }
@@ -66,11 +67,10 @@ class ReferenceSource {
   /// Ends all motions at once: for loops that set their reference themselves.
   void rest() noexcept { sources_ = {}; }
 
-  /// Ends the motions of some joints by the fastest stop.
+  /// Ends the motions of some joints, each by its fastest stop.
   void stop(const Reference& from, Joints joints) noexcept {
     for (int j = 0; j < joint_count; ++j) joints[j] = joints[j] && sources_.of(j) != none;
-    take(joints, from, none);
-    halt(joints, from);
+    begin(stopping, joints, from);
   }
 
   /// Begins a motion to positions, see GoMotion.
@@ -81,13 +81,13 @@ class ReferenceSource {
       if (!is_finite(target[j]) && sources_.of(j) == profile) target[j] = go_.target()[j];
       joints[j] = is_finite(target[j]);
     }
-    take(joints, from, profile);
-    go_.begin(with_motion_of(joints, from), target, speed);
+    const Reference here = begin(profile, joints, from);
+    go_.begin(with_motion_of(joints, here), target, speed);
   }
 
   /// Sets the reference of some joints.
   void set(const Reference& from, const JointSetting<joint_count>& own) noexcept {
-    take(own.joints, from, setting);
+    begin(setting, own.joints, from);
     for (int j = 0; j < joint_count; ++j) {
       if (!own.joints[j]) continue;
       const double position = own.positions[j] ? own.values.position[j] : from.position[j];
@@ -119,10 +119,12 @@ class ReferenceSource {
                .rule = "are more than",
                .limit = Followers::most}};
     }
-    if (!leads(source)) followers_.take_over(follower, with_motion_of(joints, from), time_);
+    if (!leads(source)) {
+      followers_.take_over(follower, with_motion_of(joints, without_signals(from)), time_);
+    }
     const double start = delay ? time_ + *delay : Followers::Follower::now;
     const auto outcome = followers_.start(follower, trajectory, tolerances, start);
-    if (outcome == TrajectoryOutcome::active) take(joints, from, source);
+    if (outcome == TrajectoryOutcome::active) begin(source, joints, from);
     return {outcome, followers_.refusal(follower), source};
   }
   /// How fast trajectories are followed, see SpeedOverride.
@@ -147,9 +149,9 @@ class ReferenceSource {
   /// @param duration  [s]
   void play(const Reference& from, const Joints& joints, JointSignals<R>& own,
             double duration) noexcept {
-    stop(from, sources_.joints_of(signals));
-    take(joints, from, signals);
-    signals_.begin(with_motion_of(joints, from), own, duration);
+    const Reference here = begin(stopping, sources_.joints_of(signals), from);
+    begin(signals, joints, here);
+    signals_.begin(with_motion_of(joints, here), own, duration);
   }
 
   /// The reference one period later.
@@ -172,12 +174,16 @@ class ReferenceSource {
       if (signals_.advance(period, own)) {
         sources_.copy(signals, own, reference);
       } else {
-        halt(sources_.joints_of(signals), present, signals_.centre());
+        const Joints ended = sources_.joints_of(signals);
+        stops_.begin(ended, without_signals(present), signals_.around().position);
+        sources_.give(ended, stopping);
       }
     }
     if (leads(stopping)) {
-      sources_.copy(stopping, stop_.advance(period), reference);
-      if (!stop_.moves()) let_rest(stopping);
+      Joints resting = sources_.joints_of(stopping);
+      stops_.advance(resting, period, reference);
+      for (int j = 0; j < joint_count; ++j) resting[j] &= !stops_.moves(j);
+      sources_.give(resting, none);
     }
     for (int source = first_follower; source < source_count; ++source) {
       if (!leads(source)) continue;
@@ -202,13 +208,13 @@ class ReferenceSource {
     return source < first_follower ? kinds[source] : MotionKind::trajectory;
   }
 
-  /// The follower for a trajectory of some joints: that of all of them, if there is one, so that its
-  /// present trajectory goes on until the new one begins. Otherwise one that has no joint.
+  /// The follower for a trajectory of some joints: that of just these joints, if there is one, so that
+  /// its present trajectory goes on until the new one begins. Otherwise one that has no joint.
   /// @return none if there would be more trajectories at once than are possible
   [[nodiscard]] int source_for(const Joints& joints) const noexcept {
     int unused = none, others = 0;
     for (int source = first_follower; source < source_count; ++source) {
-      if (sources_.leads_all(source, joints)) return source;
+      if (sources_.joints_of(source) == joints) return source;
       if (!leads(source)) {
         unused = source;
       } else if (!sources_.leads(source, joints)) {
@@ -220,31 +226,29 @@ class ReferenceSource {
 
   /// Gives joints to a source. Trajectories and signals of which it gets a joint end: their other
   /// joints stop.
-  void take(const Joints& joints, const Reference& from, int by) noexcept {
-    Joints left{};
-    for (int source = signals; source < source_count; ++source) {
-      if (source == by || !sources_.leads(source, joints)) continue;
-      for (int j = 0; j < joint_count; ++j) left[j] |= sources_.of(j) == source && !joints[j];
+  /// @return from, without signals
+  Reference begin(int source, const Joints& joints, const Reference& from) noexcept {
+    const Reference here = without_signals(from);
+    Joints stop{};
+    for (int other = signals; other < source_count; ++other) {
+      if (other == source || !sources_.leads(other, joints)) continue;
+      for (int j = 0; j < joint_count; ++j) stop[j] |= sources_.of(j) == other && !joints[j];
     }
-    sources_.give(joints, by);
-    halt(left, from);
-    latest_ = by;
+    for (int j = 0; j < joint_count; ++j) stop[j] |= source == stopping && joints[j];
+    stops_.begin(stop, here);
+    sources_.give(stop, stopping);
+    sources_.give(joints, source);
+    if (std::find(joints.begin(), joints.end(), true) != joints.end()) latest_ = source;
+    return here;
   }
 
-  /// Lets joints stop, and then go to a position. Those that stop already go on.
-  /// @param back  [rad or m], N x 1; see StopAndReturn::begin
-  void halt(const Joints& joints, const Reference& from,
-            const Vector& back = StopAndReturn<R>::unknown()) noexcept {
-    if (std::find(joints.begin(), joints.end(), true) == joints.end()) return;
-    Vector target = StopAndReturn<R>::unknown();
+  /// A reference without the efforts that signals have added to it. What they have added to positions
+  /// stays, since a joint cannot jump.
+  [[nodiscard]] Reference without_signals(Reference from) const noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      if (sources_.of(j) == stopping) target[j] = stop_.target()[j];
-      if (joints[j]) target[j] = back[j];
+      if (sources_.of(j) == signals) from.effort[j] = signals_.around().effort[j];
     }
-    sources_.give(joints, stopping);
-    const Joints all = sources_.joints_of(stopping);
-    stop_.begin(with_motion_of(all, from), target);
-    latest_ = stopping;
+    return from;
   }
 
   /// A reference in which only some joints move.
@@ -263,7 +267,7 @@ class ReferenceSource {
   Followers followers_;
   GoMotion<R> go_;
   Reference set_{};
-  StopAndReturn<R> stop_;
+  JointStops<R> stops_;
   SignalMotion<R> signals_;
   double trajectory_speed_ = 1;  ///< as asked for
 };

@@ -46,10 +46,8 @@ class SignalMotion {
     return true;
   }
 
-  /// Where the joints were before the signals [rad or m], N x 1. After `begin`.
-  [[nodiscard]] const JointVector<joint_count>& centre() const noexcept {
-    return signals_->around().position;
-  }
+  /// The reference to which the signals are added. After `begin`.
+  [[nodiscard]] const Reference& around() const noexcept { return signals_->around(); }
 
  private:
   StopAndReturn<R> stop_;

@@ -12,7 +12,7 @@
 namespace articula::remote {
 
 /// The largest number of points of a trajectory. Planners as MoveIt make ten a second, so this is a
-/// motion of 100 s. A follower for six joints takes 600 kB with it.
+/// motion of 100 s. A follower for six joints takes 600 kB with it, and a Remote has five.
 inline constexpr int trajectory_capacity = 1024;
 
 /// Followers of trajectories, each of joints of its own. Who owns them knows which joints.

@@ -171,7 +171,7 @@ void ControllerTopics::stop_old_motions() {
     if (core_.context.now - *since <= to_duration(core_.options.controls_time)) continue;
     since.reset();
     // Otherwise somebody has asked for another motion since.
-    if (core_.watch.situation.joint_motions[controller_.indices[k]] != "set") continue;
+    if (core_.watch.motion_of(controller_.indices[k]) != "set") continue;
     stop.joints.push_back(controller_.joints[k]);
   }
   if (stop.joints.empty()) return;

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -201,7 +202,7 @@ class GripperAction final : public ControllerAction {
   /// Whether the reference is on its way elsewhere: another client has moved it. Cycles come later
   /// than the situation, so it must last.
   [[nodiscard]] bool is_replaced() {
-    const std::string& motion = core_.watch.situation.joint_motions[joint_];
+    const std::string_view motion = core_.watch.motion_of(joint_);
     const double reference = core_.watch.cycle.reference_position[joint_];
     const bool arrived = std::abs(reference - running_->position) < 1e-9;
     if (motion == "go" || (motion == "rest" && arrived)) {

@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace articula::ros2 {
 
@@ -55,6 +56,7 @@ class Action final : public ControllerAction {
     bool accepted = false;
     bool canceling = false;
     bool left = false;  ///< its controller was deactivated
+    std::vector<std::string> joints{};
   };
 
   void reject(const GoalId& id, const std::string& reason) {
@@ -81,13 +83,30 @@ class Action final : public ControllerAction {
     controller_.constraints.complete(request, controller_.joints);
     running_[id] = {.order = ++last_order_,
                     .first_cycle = core_.watch.cycle.number,
-                    .asked = core_.context.wall};
+                    .asked = core_.context.wall,
+                    .joints = goal.trajectory.joint_names};
     core_.loop_operator.ask(request, [this, id](const remote::Answer& answer) { end(id, answer); });
   }
 
   void accept(const GoalId& id, Running& own) {
     own.accepted = true;
     server_.accept(id);
+    // A controller has one goal. The loop has ended those with one of its joints.
+    for (const auto& [other, older] : running_) {
+      if (older.order < own.order) stop(older.joints);
+    }
+  }
+  /// Stops joints, but for those of the newest goal.
+  void stop(const std::vector<std::string>& joints) {
+    const auto newest =
+        std::ranges::max_element(running_, {}, [](const auto& goal) { return goal.second.order; });
+    remote::Stop request;
+    for (const std::string& joint : joints) {
+      const auto& kept = newest->second.joints;
+      if (std::ranges::find(kept, joint) == kept.end()) request.joints.push_back(joint);
+    }
+    if (request.joints.empty()) return;
+    core_.loop_operator.ask(request, [](const remote::Answer&) {});
   }
 
   bool cancel(const GoalId& id) {

@@ -59,6 +59,11 @@ class LoopWatch {
   [[nodiscard]] bool is_active(std::string_view controller) const {
     return situation.mode == LoopMode::active && status_of(controller) == ControllerStatus::active;
   }
+  /// The source of a joint's reference, see remote::Situation::motion.
+  [[nodiscard]] std::string_view motion_of(std::size_t joint) const {
+    const auto& motions = situation.joint_motions;
+    return joint < motions.size() ? motions[joint] : situation.motion;
+  }
   /// Whether a controller has been started, even if it fails.
   [[nodiscard]] bool runs(std::string_view controller) const {
     return status_of(controller) != ControllerStatus::inactive;
