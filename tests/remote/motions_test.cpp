@@ -209,6 +209,29 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a joint that is not named may be outside its limits") {
+  Arm arm;
+  const double beyond = model_of(Q2d()).joints[1].limits.upper + 0.01;
+  arm.loop.post({.position = {0, beyond}});
+  static_cast<void>(arm.loop.update());
+  arm.cycles(1);  // so that the Remote knows it
+  REQUIRE(arm.reference().position[1] == beyond);
+  CHECK(done(arm.ask(to(shoulder, 0.3), 1500)));
+  CHECK(done(arm.ask(PlaySignals{{{shoulder, StepSignal{0.1, 0}}}, 0.1}, 1500)));
+  CHECK(arm.reference().position[1] == beyond);
+  CHECK(done(arm.ask(Stop{{elbow}})));
+}
+
+TEST_CASE("a stop of one joint of a trajectory stops all of them") {
+  Arm arm;
+  const auto both = arm.session->ask(
+      PlayTrajectory{{{shoulder, elbow}, {{.time_from_start = 1, .positions = {0.6, 0.6}}}}});
+  arm.cycles(400);
+  CHECK(done(arm.ask(Stop{{elbow}})));
+  CHECK(arm.answer_to(both).value().verdict == support::Verdict::failed);
+  CHECK(arm.motions() == Motions{"stop", "stop"});
+}
+
 TEST_CASE("a plan of velocities for one joint does not ask what another one does") {
   Arm arm;
   CHECK(done(arm.ask(Go{{{shoulder, 1.4}}})));

@@ -276,7 +276,7 @@ TEST_CASE("a program that is ended while it plays stops the motion") {
 }
 
 TEST_CASE("the loop is deactivated, activated and stopped") {
-  const RunningArm arm;
+  RunningArm arm;
   REQUIRE(eventually([&] { return mode(arm) == "active"; }));
   done(arm.ask({"stop"}));
   // At this speed, the motion takes more than 20 s.

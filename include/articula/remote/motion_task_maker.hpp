@@ -118,12 +118,16 @@ class MotionTaskMaker {
     for (const NamedSignal& own : play.signals) {
       signals.push_back({RequestCheck<R>::checked_name(own.joint), own.signal, own.target});
     }
-    JointSignals<R> sum(robot_, signals, {.position = present.position, .effort = present.effort});
-    Vector velocity = Vector::Zero(), effort = Vector::Zero(), begin = Vector::Zero();
     JointArray<bool, joint_count> joints{};
+    for (const JointSignal& own : signals) joints[joint_index(robot_, own.joint)] = true;
+    Vector around = joint_range(robot_).clamp(present.position);
+    for (int j = 0; j < joint_count; ++j) {  // others may be outside their limits
+      if (joints[j]) around[j] = present.position[j];
+    }
+    JointSignals<R> sum(robot_, signals, {.position = around, .effort = present.effort});
+    Vector velocity = Vector::Zero(), effort = Vector::Zero(), begin = Vector::Zero();
     for (const JointSignal& own : signals) {
       const int joint = joint_index(robot_, own.joint);
-      joints[joint] = true;
       const SignalValue peak = std::visit([](const auto& s) { return s.peak(); }, own.signal);
       (own.target == SignalTarget::effort ? effort : velocity)[joint] +=
           own.target == SignalTarget::effort ? peak.value : peak.rate;

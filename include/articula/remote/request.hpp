@@ -90,7 +90,8 @@ struct PlaySignals {
   double duration = 0;  ///< [s]
 };
 
-/// Ends motions of the reference by the fastest stop within the limits.
+/// Ends motions of the reference by the fastest stop within the limits. Trajectories and signals of
+/// which a joint stops end as a whole.
 struct Stop {
   std::vector<std::string>
       joints{};  ///< that stop; empty: all, also those of requests on their way

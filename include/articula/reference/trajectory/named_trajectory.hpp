@@ -35,8 +35,8 @@ template <int N>
 struct ArrangeOptions {
   TrajectoryOptions trajectory{};
   /// Joints that are not named are left out (Trajectory::leave_out): under a TrajectoryFollower they
-  /// continue their present motion. In the points they stay at the position of `from`. Otherwise a
-  /// joint that is not named is an error.
+  /// continue their present motion. In the points they stay at the position of `from`, or at the limit
+  /// next to it. Otherwise a joint that is not named is an error.
   bool allow_partial_joints = false;
   /// Missing positions (and velocities) are integrated from velocities (and accelerations) by Heun's
   /// method, beginning at `from` at time 0. Otherwise missing positions are an error.
@@ -82,8 +82,9 @@ template <int Capacity = 32, Robot R>
   std::vector<TrajectoryPoint<n>> points;
   double time = 0;
   JointReference<n> from = options.from.value_or(JointReference<n>{});
-  for (int j = 0; j < n; ++j) {
-    if (!column[j]) from.velocity[j] = from.acceleration[j] = 0;  // in the points, it rests
+  const JointVector<n> within = joint_range(robot).clamp(from.position);
+  for (int j = 0; j < n; ++j) {  // a joint that is left out is none of this trajectory's concern
+    if (!column[j]) set_motion(from, j, {within[j], 0, 0});
   }
   JointReference<n> last = from;
   for (std::size_t k = 0; k < named.points.size(); ++k) {
@@ -133,12 +134,8 @@ template <int Capacity = 32, Robot R>
   }
   if (options.trajectory.spline_velocities && options.from && !points.empty() &&
       points.front().time_from_start > 0) {
-    JointVector<n> velocity = from.velocity;
-    for (int j = 0; j < n; ++j) {
-      if (!column[j]) velocity[j] = 0;
-    }
     // The spline begins at `from`, which is no point of the trajectory.
-    points.insert(points.begin(), {.position = from.position, .velocity = velocity});
+    points.insert(points.begin(), {.position = from.position, .velocity = from.velocity});
     set_spline_velocities(std::span(points));
     points.erase(points.begin());
   }

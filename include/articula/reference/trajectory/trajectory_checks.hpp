@@ -91,8 +91,8 @@ void check_segment(const R& robot, const TrajectoryPoint<N>& a, const Trajectory
     refuse_segment({"the segment from the point before overflows"});
   }
   constexpr double rounding = 1e-9;  // [rad or m]
-  const JointRange<N> range = joint_range(robot),
-                      limited = range.extended_to(range.lower, rounding);
+  const JointRange<N> range = joint_range(robot);
+  const JointRange<N> limited = range.extended_to(range.lower, rounding);  // by the margin alone
   const JointVector<N> unlimited =
       JointVector<N>::Constant(std::numeric_limits<double>::infinity());
   const SegmentPeaks<N> limits{limited.lower, limited.upper, unlimited, unlimited};

@@ -21,7 +21,7 @@ class JointSources {
   using Joints = JointArray<bool, N>;
 
   [[nodiscard]] int of(int joint) const noexcept { return source_[joint]; }
-  /// Whether any joint follows a source, or rests.
+  /// Whether any joint follows a source. Of 0, it is not known.
   [[nodiscard]] bool leads(int source) const noexcept {
     return leading_[static_cast<std::size_t>(source)];
   }

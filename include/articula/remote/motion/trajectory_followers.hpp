@@ -15,7 +15,7 @@ namespace articula::remote {
 /// motion of 100 s. A follower for six joints takes 600 kB with it, and a Remote has five.
 inline constexpr int trajectory_capacity = 1024;
 
-/// Followers of trajectories, each of joints of its own. Who owns them knows which joints.
+/// Followers of trajectories, each of joints of its own. Their owner knows which joints each has.
 /// In the loop's thread. Real-time: yes, all functions but the constructor.
 template <Robot R>
 class TrajectoryFollowers {

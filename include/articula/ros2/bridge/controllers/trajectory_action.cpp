@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -55,7 +56,8 @@ class Action final : public ControllerAction {
     std::chrono::nanoseconds asked{0};  ///< by the wall's clock, which no pause stops
     bool accepted = false;
     bool canceling = false;
-    bool left = false;  ///< its controller was deactivated
+    bool left = false;      ///< its controller was deactivated
+    bool replaced = false;  ///< by a newer one
     std::vector<std::string> joints{};
   };
 
@@ -92,20 +94,18 @@ class Action final : public ControllerAction {
     own.accepted = true;
     server_.accept(id);
     // A controller has one goal. The loop has ended those with one of its joints.
-    for (const auto& [other, older] : running_) {
-      if (older.order < own.order) stop(older.joints);
+    for (auto& [other, older] : running_) {
+      if (older.order >= own.order) continue;
+      older.replaced = true;
+      remote::Stop rest;
+      std::ranges::copy_if(older.joints, std::back_inserter(rest.joints), [&](const auto& joint) {
+        return std::ranges::find(own.joints, joint) == own.joints.end();
+      });
+      if (!rest.joints.empty()) stop(rest);
     }
   }
-  /// Stops joints, but for those of the newest goal.
-  void stop(const std::vector<std::string>& joints) {
-    const auto newest =
-        std::ranges::max_element(running_, {}, [](const auto& goal) { return goal.second.order; });
-    remote::Stop request;
-    for (const std::string& joint : joints) {
-      const auto& kept = newest->second.joints;
-      if (std::ranges::find(kept, joint) == kept.end()) request.joints.push_back(joint);
-    }
-    if (request.joints.empty()) return;
+
+  void stop(const remote::Stop& request) {
     core_.loop_operator.ask(request, [](const remote::Answer&) {});
   }
 
@@ -113,7 +113,7 @@ class Action final : public ControllerAction {
     const auto found = running_.find(id);
     if (found == running_.end()) return false;
     found->second.canceling = true;
-    core_.loop_operator.ask(remote::Stop{controller_.joints}, [](const remote::Answer&) {});
+    stop({found->second.joints.empty() ? controller_.joints : found->second.joints});
     return true;
   }
 
@@ -121,7 +121,7 @@ class Action final : public ControllerAction {
   void leave() {
     for (auto& [id, own] : running_) {
       if (std::exchange(own.left, true) || core_.watch.situation.mode != LoopMode::active) continue;
-      core_.loop_operator.ask(remote::Stop{controller_.joints}, [](const remote::Answer&) {});
+      stop({controller_.joints});
     }
   }
 
@@ -137,9 +137,8 @@ class Action final : public ControllerAction {
     if (!found->second.accepted) accept(id, found->second);
     const Running own = found->second;
     running_.erase(found);
-    const bool is_replaced = std::any_of(running_.begin(), running_.end(), [&](const auto& other) {
-      return other.second.order > own.order;
-    });
+    const auto is_newer = [&](const auto& other) { return other.second.order > own.order; };
+    const bool is_replaced = own.replaced || std::ranges::any_of(running_, is_newer);
     if (answer.verdict == remote::Verdict::done) {
       return server_.end(id, Status::succeeded, {Type::successful, "Goal successfully reached!"});
     }
