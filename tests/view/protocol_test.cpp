@@ -312,7 +312,8 @@ TEST_CASE("a refusal names the member, and what was expected") {
   CHECK(refusal_of("/go", "{}") ==
         "positions: missing; expected an object of numbers, as {\"shoulder\": 0.5}");
   CHECK(refusal_of("/go", R"({"position":{}})") == "position: unknown; expected positions, speed");
-  CHECK(refusal_of("/stop", R"({"now":true})") == "now: unknown; expected no members");
+  CHECK(refusal_of("/activate", R"({"now":true})") == "now: unknown; expected no members");
+  CHECK(refusal_of("/stop", R"({"now":true})") == "now: unknown; expected joints");
   CHECK(refusal_of("/go", R"({"positions":{"a":"b"}})") ==
         "positions: expected an object of numbers, as {\"shoulder\": 0.5}");
   CHECK(refusal_of("/go", R"({"positions":{},"speed":"fast"})") == "speed: expected a number");
