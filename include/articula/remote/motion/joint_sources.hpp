@@ -21,7 +21,7 @@ class JointSources {
   using Joints = JointArray<bool, N>;
 
   [[nodiscard]] int of(int joint) const noexcept { return source_[joint]; }
-  /// Whether any joint follows a source. Of 0, it is not known.
+  /// Whether any joint follows a source; of 0, whether one rests.
   [[nodiscard]] bool leads(int source) const noexcept {
     return leading_[static_cast<std::size_t>(source)];
   }
@@ -59,8 +59,8 @@ class JointSources {
 
  private:
   JointArray<int, N> source_{};
-  std::array<bool, static_cast<std::size_t>(Count)>
-      leading_{};  ///< by source: `leads` is asked in each cycle
+  /// By source, since `leads` is asked in each cycle. At first all joints rest.
+  std::array<bool, static_cast<std::size_t>(Count)> leading_{true};
 };
 
 }  // namespace articula::remote
