@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Closed loops at 1 kHz of robots that all differ in mass, friction and inertia, PID plus gravity,
-// Runge-Kutta: in the lanes of a register, and one after the other. `cycles_per_second` counts the
+// Runge-Kutta: in the lanes of LanePack, and one after the other. `cycles_per_second` counts the
 // cycles of all robots. /varied is a type whose numbers are inputs, /described the robot itself,
 // the same in all lanes.
 #include <articula/articula.hpp>
@@ -17,13 +17,12 @@
 namespace {
 
 using namespace articula;
-using Pack = symbolic::Pack<>;
 
 template <class R>
 std::vector<LaneSetup<R>> setups(double friction) {
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> factor(0.8, 1.2);
-  std::vector<LaneSetup<R>> all(Pack::lanes);
+  std::vector<LaneSetup<R>> all(lanes<LanePack<R>>);
   for (LaneSetup<R>& setup : all) {
     auto model = model_of(R{});
     for (Body& body : model.mechanism.bodies) {
@@ -73,12 +72,12 @@ JointVector<N> wanted(const JointVector<N>& start, std::size_t cycle) {
 template <class R, bool Friction>
 void in_lanes(benchmark::State& bench) {
   const auto all = setups<R>(Friction ? 0.02 : 0);
-  LaneLoop<R, PidPlusGravity> loop(all, PidPlusGravity<R, Pack>(gains<R>()));
+  LaneLoop<R, PidPlusGravity> loop(all, PidPlusGravity<R, LanePack<R>>(gains<R>()));
   const auto start = *all[0].simulation.initial_position;
   std::size_t cycle = 0;
   for (auto _ : bench) {
     if (cycle % 500 == 0) {
-      for (int k = 0; k < Pack::lanes; ++k) {
+      for (int k = 0; k < loop.lane_count; ++k) {
         loop.set_reference(k, {.position = wanted<joint_count<R>>(start, cycle)});
       }
     }
@@ -87,9 +86,9 @@ void in_lanes(benchmark::State& bench) {
     benchmark::ClobberMemory();
   }
   if (!all_of(loop.running())) bench.SkipWithError("a lane has ended");
-  bench.counters["lanes"] = Pack::lanes;
+  bench.counters["lanes"] = loop.lane_count;
   bench.counters["cycles_per_second"] =
-      benchmark::Counter(static_cast<double>(cycle) * Pack::lanes, benchmark::Counter::kIsRate);
+      benchmark::Counter(static_cast<double>(cycle) * loop.lane_count, benchmark::Counter::kIsRate);
 }
 
 template <class Loop, class Start>
@@ -126,12 +125,12 @@ void described(benchmark::State& bench) {
   cycles_of(bench, loop, *simulation.initial_position, lanes<S>);
 }
 
-#define ARTICULA_LANES(robot, Robot)                                                              \
-  BENCHMARK(in_lanes<Robot, false>)->Name("closed_loop/" #robot "/lanes");                        \
-  BENCHMARK(in_lanes<Robot, true>)->Name("closed_loop/" #robot "/lanes_with_friction");           \
-  BENCHMARK(described<Robot, Pack>)->Name("closed_loop/" #robot "/described_in_lanes");           \
-  BENCHMARK(varied<Robot, false>)->Name("closed_loop/" #robot "/varied_one_by_one");              \
-  BENCHMARK(varied<Robot, true>)->Name("closed_loop/" #robot "/varied_one_by_one_with_friction"); \
+#define ARTICULA_LANES(robot, Robot)                                                               \
+  BENCHMARK(in_lanes<Robot, false>)->Name("closed_loop/" #robot "/lanes");                         \
+  BENCHMARK(in_lanes<Robot, true>)->Name("closed_loop/" #robot "/lanes_with_friction");            \
+  BENCHMARK(described<Robot, LanePack<Robot>>)->Name("closed_loop/" #robot "/described_in_lanes"); \
+  BENCHMARK(varied<Robot, false>)->Name("closed_loop/" #robot "/varied_one_by_one");               \
+  BENCHMARK(varied<Robot, true>)->Name("closed_loop/" #robot "/varied_one_by_one_with_friction");  \
   BENCHMARK(described<Robot, double>)->Name("closed_loop/" #robot "/described_one_by_one")
 
 ARTICULA_LANES(q2d, Q2d);

@@ -87,12 +87,12 @@ void sweep_chunks(benchmark::State& bench, const auto& experiment) {
 template <class R, bool Friction>
 void in_lanes(benchmark::State& bench) {
   sweep_chunks(bench, experiment_of<R>(R(), one_for_all_lanes<R>, Friction ? 0.5 : 0));
-  bench.counters["lanes"] = symbolic::Pack<>::lanes;
+  bench.counters["lanes"] = lanes<LanePack<R>>;
 }
 template <class R>
 void own_controllers(benchmark::State& bench) {
   sweep_chunks(bench, experiment_of<R>(R(), one_for_each_run<R>, 0));
-  bench.counters["lanes"] = symbolic::Pack<>::lanes;
+  bench.counters["lanes"] = lanes<LanePack<R>>;
 }
 template <class R, bool Friction>
 void alone(benchmark::State& bench) {

@@ -83,7 +83,7 @@ struct Differences {
 template <class R>
 std::vector<LaneSetup<R>> random_setups(Random& random, const Differences& by) {
   constexpr int n = joint_count<R>;
-  std::vector<LaneSetup<R>> setups(static_cast<std::size_t>(lanes<symbolic::Pack<>>));
+  std::vector<LaneSetup<R>> setups(static_cast<std::size_t>(lanes<LanePack<R>>));
   for (LaneSetup<R>& setup : setups) {
     auto description = R::description;
     double scale = by.whole ? random.number(1 - by.mass, 1 + by.mass) : 1;
@@ -148,7 +148,7 @@ auto compare(unsigned seed, const Differences& by, int cycles) {
   CAPTURE(seed);
   Random random(seed);
   const auto setups = random_setups<R>(random, by);
-  Lanes lanes(setups, PidPlusGravity<R, symbolic::Pack<>>(stiff_gains<R>()));
+  Lanes lanes(setups, PidPlusGravity<R, LanePack<R>>(stiff_gains<R>()));
   std::vector<Alone> alone;
   for (const auto& [robot, options, delay, lost] : setups) {
     alone.emplace_back(Hardware(Simulator<VariedRobot<R>>(robot, options), delay, lost),

@@ -76,5 +76,10 @@ template <detail::VectorMask Mask>
 [[nodiscard]] constexpr bool is_true(const Mask& mask, int lane) noexcept {
   return mask[lane] != 0;
 }
+/// Replaces the truth value of one lane. Real-time: yes.
+template <detail::VectorMask Mask>
+constexpr void set_truth(Mask& mask, int lane, bool truth) noexcept {
+  mask[lane] = truth ? -1 : 0;
+}
 
 }  // namespace articula

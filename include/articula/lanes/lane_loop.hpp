@@ -5,6 +5,7 @@
 #include "articula/core/controller.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/scalar.hpp"
+#include "articula/lanes/lane_pack.hpp"
 #include "articula/lanes/lane_simulator.hpp"
 #include "articula/loop/command_history.hpp"
 #include "articula/loop/loop_parts.hpp"
@@ -36,15 +37,16 @@ struct LaneVerdict {
 /// `ControlLoop<Simulator<VariedRobot<R>>, C>` gives, up to rounding, as long as it runs. A lane
 /// whose state, reference or command is not finite ends. Its verdict states the cause. Its robot
 /// stands still from then on, and no other lane changes by a bit. Lanes have the gains of the
-/// controller, which may differ: `PidPlusGravity<Q2d, Pack>` takes a `JointPidGains<2, Pack>`.
+/// controller, which may differ: `PidPlusGravity<Q2d, S>` takes a `JointPidGains<2, S>`.
 /// @tparam R  the kind of robot
 /// @tparam C  a controller over S that commands efforts
 /// @tparam S  a pack, which has one number for each lane
-template <DescribedRobot R, class C, PackedScalar S = symbolic::Pack<>>
+template <DescribedRobot R, class C, PackedScalar S = LanePack<R>>
 class LaneControlLoop {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   static constexpr int lane_count = lanes<S>;
+  using Scalar = S;
   using Simulator = LaneSimulator<R, S>;
   using State = JointState<joint_count, S>;
   using Reference = JointReference<joint_count, S>;
@@ -176,7 +178,7 @@ class LaneControlLoop {
 /// LaneControlLoop of a controller template, as Loop is ControlLoop of one.
 /// @tparam ControllerTemplate  a template over the robot and the scalar, such as PidPlusGravity
 template <DescribedRobot R, template <class...> class ControllerTemplate,
-          PackedScalar S = symbolic::Pack<>>
+          PackedScalar S = LanePack<R>>
 using LaneLoop = LaneControlLoop<R, ControllerTemplate<R, S>, S>;
 
 }  // namespace articula

@@ -7,10 +7,10 @@
 #include "articula/core/scalar.hpp"
 #include "articula/dynamics/robot_lanes.hpp"
 #include "articula/lanes/filled_setups.hpp"
+#include "articula/lanes/lane_pack.hpp"
 #include "articula/lanes/lane_setup.hpp"
 #include "articula/sim/joint_dynamics.hpp"
 #include "articula/sim/joint_sensors.hpp"
-#include "articula/symbolic/pack.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -29,7 +29,7 @@ namespace articula {
 /// one.
 /// @tparam R  the kind of robot
 /// @tparam S  a pack, which has one number for each lane
-template <DescribedRobot R, PackedScalar S = symbolic::Pack<>>
+template <DescribedRobot R, PackedScalar S = LanePack<R>>
 class LaneSimulator {
   static_assert(detail::has_masses<R, LaneSimulator>);
 
@@ -98,7 +98,7 @@ class LaneSimulator {
   /// Real-time: yes.
   void stop(int lane) noexcept {
     const Vector zero = Vector::Zero();
-    moving_[lane] = 0;
+    set_truth(moving_, lane, false);
     set_lane(truth_.position, lane, lane_of(start_, lane));
     set_lane(truth_.velocity, lane, lane_of(zero, lane));
     set_lane(truth_.effort, lane, lane_of(zero, lane));
@@ -150,7 +150,7 @@ class LaneSimulator {
       alone_.emplace_back(own.robot);
       set_lane(truth_.position, k, initial_position(own.robot, own.simulation));
       set_lane(truth_.velocity, k, own.simulation.initial_velocity);
-      moving_[k] = k < static_cast<int>(given.size()) ? -1 : 0;
+      set_truth(moving_, k, k < static_cast<int>(given.size()));
       delays_[k] = static_cast<std::size_t>(own.delay);
       lost_[k] = own.lost;
       longest_delay = std::max(longest_delay, delays_[k]);

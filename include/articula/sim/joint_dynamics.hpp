@@ -231,10 +231,9 @@ class JointDynamics {
   [[nodiscard]] S excess(const Phase<S>& phase, const State<S>& later) const noexcept {
     S most = -JointLimits::infinity;
     for (int j = 0; j < joint_count; ++j) {
-      const MaskOf<S> held = phase.holding.upper[j] > 0;
-      if (all_of(held)) continue;
-      const auto include = [&](const S& x) noexcept {
-        most = select((most < x) & not_of(held), x, most);
+      const auto include = [&](S x) noexcept {
+        if (phase.any_held) x = select(phase.holding.upper[j] > 0, S(-JointLimits::infinity), x);
+        most = select(most < x, x, most);  // processors have a maximum
       };
       include(joint(j).limits.lower - later.position[j]);
       include(later.position[j] - joint(j).limits.upper);

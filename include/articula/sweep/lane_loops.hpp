@@ -9,7 +9,6 @@
 #include "articula/loop/control_loop.hpp"
 #include "articula/sweep/delayed_commands.hpp"
 #include "articula/sweep/varied_loop.hpp"
-#include "articula/symbolic/pack.hpp"
 
 #include <cstddef>
 #include <span>
@@ -26,7 +25,7 @@ struct LaneExchange {
 };
 
 /// One lane as the hardware of a loop. The simulator moves when all loops have written.
-template <DescribedRobot R, class S = symbolic::Pack<>>
+template <DescribedRobot R, class S>
 class LanePort {
  public:
   using RobotType = VariedRobot<R>;

@@ -7,10 +7,10 @@
 #include "articula/core/controller_check.hpp"
 #include "articula/core/scalar.hpp"
 #include "articula/lanes/lane_loop.hpp"
+#include "articula/lanes/lane_pack.hpp"
 #include "articula/sweep/lane_loops.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/varied_loop.hpp"
-#include "articula/symbolic/pack.hpp"
 
 #include <algorithm>
 #include <concepts>
@@ -88,7 +88,7 @@ class LanesOfOneLoop {
 /// @param make     makes the controller of gains
 /// @return         what was watched, the runs in the order of the loops
 /// @throws std::invalid_argument if a loop cannot be simulated
-template <DescribedRobot R, class Make, class S = symbolic::Pack<>>
+template <DescribedRobot R, class Make, class S = LanePack<R>>
 [[nodiscard]] RunWatch<R, S> run_in_lanes(const RunPlan<R>& plan,
                                           std::span<const VariedLoop<R>* const> loops,
                                           const Make& make) {
@@ -128,7 +128,7 @@ void run_in_packs(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops, 
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (loops[k].robot) by_substeps[loops[k].simulation.substeps].push_back(k);
   }
-  constexpr std::size_t most = symbolic::Pack<>::lanes;
+  constexpr std::size_t most = lanes<LanePack<R>>;
   for (const auto& [substeps, places] : by_substeps) {
     for (std::size_t begin = 0; begin < places.size(); begin += most) {
       const auto some = std::span(places).subspan(begin, std::min(most, places.size() - begin));
