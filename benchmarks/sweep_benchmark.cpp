@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs of a sweep in one thread: under one controller for all lanes, under one for each run, and one
-// by one. Each run is a second at 1 kHz of another robot under PID plus gravity: other masses,
-// damping, start and gains. `cycles_per_second` counts the cycles of all runs, set-up and metrics
-// included.
+// by one. /threads is a sweep of more runs in one thread and in two. Each run is a second at 1 kHz of
+// another robot under PID plus gravity: other masses, damping, start and gains. `cycles_per_second`
+// counts the cycles of all runs, set-up and metrics included.
 #include <articula/articula.hpp>
 #include <articula/robots/panda.hpp>
 #include <articula/robots/q2d.hpp>
@@ -108,6 +108,17 @@ void alone(benchmark::State& bench) {
   }
   count_runs(bench);
 }
+/// A sweep in a number of threads, in lanes.
+template <class R>
+void in_threads(benchmark::State& bench) {
+  const auto experiment = experiment_of<R>(R(), one_for_all_lanes<R>, 0);
+  constexpr std::uint64_t count = 100 * runs;
+  const SweepOptions options{.sampling = {.runs = count},
+                             .threads = static_cast<int>(bench.range(0))};
+  for (auto _ : bench) benchmark::DoNotOptimize(sweep(experiment, options));
+  bench.counters["cycles_per_second"] = benchmark::Counter(
+      1000.0 * count * static_cast<double>(bench.iterations()), benchmark::Counter::kIsRate);
+}
 /// What each run costs before its first cycle: robot, gains and options.
 template <class R>
 void set_up(benchmark::State& bench) {
@@ -125,12 +136,13 @@ void loaded(benchmark::State& bench) {
                experiment_of<Q2d>(detail::ModelOf<Q2d>(model_of(Q2d())), one_for_each_run<Q2d>, 0));
 }
 
-#define ARTICULA_SWEEP(robot, Robot)                                                      \
-  BENCHMARK(in_lanes<Robot, false>)->Name("sweep/" #robot "/lanes");                      \
-  BENCHMARK(in_lanes<Robot, true>)->Name("sweep/" #robot "/lanes_with_friction");         \
-  BENCHMARK(own_controllers<Robot>)->Name("sweep/" #robot "/lanes_with_own_controllers"); \
-  BENCHMARK(alone<Robot, false>)->Name("sweep/" #robot "/one_by_one");                    \
-  BENCHMARK(alone<Robot, true>)->Name("sweep/" #robot "/one_by_one_with_friction");       \
+#define ARTICULA_SWEEP(robot, Robot)                                                             \
+  BENCHMARK(in_lanes<Robot, false>)->Name("sweep/" #robot "/lanes");                             \
+  BENCHMARK(in_lanes<Robot, true>)->Name("sweep/" #robot "/lanes_with_friction");                \
+  BENCHMARK(own_controllers<Robot>)->Name("sweep/" #robot "/lanes_with_own_controllers");        \
+  BENCHMARK(alone<Robot, false>)->Name("sweep/" #robot "/one_by_one");                           \
+  BENCHMARK(alone<Robot, true>)->Name("sweep/" #robot "/one_by_one_with_friction");              \
+  BENCHMARK(in_threads<Robot>)->Name("sweep/" #robot "/threads")->Arg(1)->Arg(2)->UseRealTime(); \
   BENCHMARK(set_up<Robot>)->Name("sweep/" #robot "/set_up")
 
 ARTICULA_SWEEP(q2d, Q2d);
