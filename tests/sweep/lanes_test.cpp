@@ -163,6 +163,7 @@ TEST_CASE("runs have the same numbers in lanes as alone, and the same bits in an
                   {VariedQuantity::payload, "tool_link", 0, 0.5},
                   {VariedQuantity::damping, {}, 0.5, 8},  // steps of several lengths
                   {VariedQuantity::added_friction, {}, 0, 1},
+                  {VariedQuantity::effort_limit, {}, 0.1, 1},
                   {VariedQuantity::delay, {}, 0, 0.003},
                   {VariedQuantity::position_noise, {}, 0, 1e-4},
                   {VariedQuantity::encoder_resolution, "shoulder_active_joint", 0, 1e-3},

@@ -140,6 +140,31 @@ TEST_CASE("a heavier and a damped arm are slower; a payload is felt as its inert
         Approx(0.75 * (0.267 * 0.267 + 0.343 * 0.343 + 2 * 0.267 * 0.343 * std::cos(0.9))));
 }
 
+TEST_CASE("drives vary: their inertia adds to the mass matrix, and their limit holds") {
+  const auto loop_of = [](const Variation& variation, double value) {
+    return experiment_of({variation}).loop({0, 1, std::vector{value}});
+  };
+  const JointVector<2> q(0.4, 0.9);
+  const auto inert =
+      loop_of({VariedQuantity::added_reflected_inertia, "elbow_active_joint", 0, 1}, 0.02);
+  const JointMatrix<2> added = mass_matrix(inert.model, q) - mass_matrix(Q2d(), q);
+  const double rounding = 1e-15;  // of sums of the size of the arm's inertias, below 1 kg m^2
+  CHECK(added(1, 1) == Approx(0.02).margin(rounding));
+  CHECK(std::abs(added(0, 0)) < rounding);
+  CHECK(std::abs(added(0, 1)) < rounding);
+
+  const auto weak = experiment_of({{VariedQuantity::effort_limit, {}, 0.02, 1}});
+  const double limit = effort_limits(Q2d())[1];
+  const auto peak_at = [&](double factor) {
+    std::vector<double> metrics(weak.metrics().size());
+    const auto end = weak.run({0, 1, std::vector{factor}}, metrics);
+    REQUIRE(end != FutureEnd::non_finite);
+    return metrics[detail::metric_index(weak.metrics(), "elbow_active_joint.effort_peak")];
+  };
+  REQUIRE(peak_at(1) > 0.02 * limit);
+  CHECK(peak_at(0.02) == 0.02 * limit);
+}
+
 TEST_CASE("the worst runs replay by their numbers, to the last bit") {
   const auto experiment = arms();
   const SweepOptions options{.sampling = {.method = SamplingMethod::sobol, .runs = 40, .seed = 3},

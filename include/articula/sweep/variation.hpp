@@ -15,11 +15,13 @@ namespace articula {
 
 /// What varies: a property of the robot, of its drives and sensors, or of the controller.
 enum class VariedQuantity : unsigned char {
-  mass,                ///< of the body that has a link, its inertia included: a factor [1]
-  payload,             ///< a point mass at the origin of a link [kg]
-  damping,             ///< of a joint: a factor [1]
-  friction,            ///< dry friction of a joint: a factor [1]
-  added_friction,      ///< dry friction of a joint beside the described one [N m or N]
+  mass,                     ///< of the body that has a link, its inertia included: a factor [1]
+  payload,                  ///< a point mass at the origin of a link [kg]
+  damping,                  ///< of a joint: a factor [1]
+  friction,                 ///< dry friction of a joint: a factor [1]
+  added_friction,           ///< dry friction of a joint beside the described one [N m or N]
+  added_reflected_inertia,  ///< of a joint's drive, beside the described one [kg m^2 or kg]
+  effort_limit,        ///< of a joint's drive: a factor; the controller knows the described one [1]
   delay,               ///< of the commands, rounded to whole periods [s]
   lost_commands,       ///< share of the commands that do not arrive [1]
   position_noise,      ///< standard deviation of a joint's measurement [rad or m]
@@ -50,6 +52,8 @@ inline constexpr auto varied_quantities = std::to_array<VariedTraits>({
     {.name = "damping", .unit = "1"},
     {.name = "friction", .unit = "1"},
     {.name = "added_friction", .unit = "N m"},
+    {.name = "added_reflected_inertia", .unit = "kg m^2"},
+    {.name = "effort_limit", .unit = "1", .lowest = 1e-3},
     {.name = "delay", .unit = "s", .subject = VariedSubject::loop, .highest = 10},
     {.name = "lost_commands", .unit = "1", .subject = VariedSubject::loop, .highest = 1},
     {.name = "position_noise", .unit = "rad"},

@@ -135,6 +135,15 @@ void vary(Loop& loop, const PlacedVariation& placed, double value) {
       case added_friction:
         loop.model.joints[j].friction += value;
         break;
+      case added_reflected_inertia:
+        for (int b = 0; b < static_cast<int>(bodies.size()); ++b) {
+          const bool is_own = loop.model.moving_joints[b] == loop.model.joints[j].name;
+          if (is_own) bodies[b].reflected_inertia += value;
+        }
+        break;
+      case effort_limit:
+        loop.model.joints[j].limits.effort *= value;
+        break;
       case position_noise:
         simulation.position_noise[j] = value;
         break;
@@ -174,8 +183,9 @@ template <DynamicRobot R>
   bool changes_bodies = false;
   for (std::size_t k = 0; k < variations.size(); ++k) {
     vary(loop, variations[k], values[k]);
-    changes_bodies = changes_bodies ||
-                     traits_of(variations[k].variation.quantity).subject == VariedSubject::link;
+    const VariedQuantity quantity = variations[k].variation.quantity;
+    changes_bodies = changes_bodies || traits_of(quantity).subject == VariedSubject::link ||
+                     quantity == VariedQuantity::added_reflected_inertia;
   }
   if constexpr (DescribedRobot<R>) {
     loop.robot = robot_of_kind<R>(loop.model);
