@@ -9,6 +9,7 @@
 #include "articula/sim/simulator_options.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace articula {
 
@@ -28,7 +29,7 @@ class JointSensors {
         has_noise_(is_noisy(options)),
         has_encoder_(!options.encoder_resolution.isZero(0)) {
     std::uint64_t seed = options.seed;
-    for (NormalNoise& noise : noise_) noise = NormalNoise(seed++);
+    for (std::uint64_t& own : seeds_) own = seed++;
   }
 
   /// Sensors and seeds of each robot of a pack.
@@ -43,7 +44,7 @@ class JointSensors {
       set_lane(effort_noise_, k, own.effort_noise);
       has_noise_ = has_noise_ || is_noisy(own);
       has_encoder_ = has_encoder_ || !own.encoder_resolution.isZero(0);
-      noise_[k] = NormalNoise(own.seed);
+      seeds_[k] = own.seed;
     }
   }
 
@@ -51,13 +52,8 @@ class JointSensors {
   /// Real-time: yes. O(N).
   [[nodiscard]] JointState<N, S> measure(const JointState<N, S>& truth) noexcept {
     JointState<N, S> measured = truth;
-    if (has_noise_) {
-      for (int j = 0; j < N; ++j) {
-        measured.position[j] += position_noise_[j] * noise();
-        measured.velocity[j] += velocity_noise_[j] * noise();
-        measured.effort[j] += effort_noise_[j] * noise();
-      }
-    }
+    if (has_noise_) add_noise(measured);
+    ++cycle_;
     if (!has_encoder_) return measured;
     for (int j = 0; j < N; ++j) {
       const auto is_exact = resolution_[j] == 0;
@@ -80,10 +76,20 @@ class JointSensors {
     return !(options.position_noise.isZero(0) && options.velocity_noise.isZero(0) &&
              options.effort_noise.isZero(0));
   }
-  [[nodiscard]] S noise() noexcept {
-    S numbers(0);
-    for (int k = 0; k < lanes<S>; ++k) set_lane(numbers, k, noise_[k].next());
-    return numbers;
+  void add_noise(JointState<N, S>& state) const noexcept {
+    for (int j = 0; j < N; ++j) {
+      S position(0), velocity(0), effort(0);
+      for (int k = 0; k < lanes<S>; ++k) {
+        const NormalPair motion = normal_noise(seeds_[k], cycle_, j, 1);
+        set_lane(position, k, motion.first);
+        set_lane(velocity, k, motion.second);
+        if (lane_of(effort_noise_[j], k) == 0) continue;
+        set_lane(effort, k, normal_noise(seeds_[k], cycle_, j, 2).first);
+      }
+      state.position[j] += position_noise_[j] * position;
+      state.velocity[j] += velocity_noise_[j] * velocity;
+      state.effort[j] += effort_noise_[j] * effort;
+    }
   }
 
   double period_;
@@ -95,7 +101,8 @@ class JointSensors {
   bool has_encoder_;
   bool measured_before_ = false;
   JointVector<N, S> last_position_ = JointVector<N, S>::Zero();
-  JointArray<NormalNoise, lanes<S>> noise_;
+  JointArray<std::uint64_t, lanes<S>> seeds_{};
+  std::uint64_t cycle_ = 0;  ///< number of the next measurement
 };
 
 }  // namespace articula

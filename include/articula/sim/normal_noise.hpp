@@ -2,50 +2,44 @@
 /// @file Noise for simulated sensors.
 #pragma once
 
+#include "articula/sim/philox.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
 namespace articula {
 
-/// Independent standard normal numbers, the same on every machine up to rounding of its
-/// mathematical library. (The sequence of std::normal_distribution depends on the implementation,
-/// and neither it nor the generators are noexcept.)
-///
-/// Sources: SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014);
-/// Box and Muller: A note on the generation of random normal deviates, 1958.
-class NormalNoise {
- public:
-  /// @param seed  the same seed gives the same numbers
-  explicit NormalNoise(std::uint64_t seed = 1) noexcept : state_(seed) {}
-
-  /// The next number: mean 0, standard deviation 1. Real-time: yes.
-  [[nodiscard]] double next() noexcept {
-    if (has_second_) {
-      has_second_ = false;
-      return second_;
-    }
-    const double radius = std::sqrt(-2 * std::log(uniform()));
-    const double angle = 2 * std::numbers::pi * uniform();
-    second_ = radius * std::sin(angle);
-    has_second_ = true;
-    return radius * std::cos(angle);
-  }
-
- private:
-  /// In (0, 1], without 0, whose logarithm is infinite.
-  [[nodiscard]] double uniform() noexcept {
-    state_ += 0x9e3779b97f4a7c15;
-    std::uint64_t bits = state_;
-    bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
-    bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
-    bits ^= bits >> 31;
-    return static_cast<double>((bits >> 11) + 1) * 0x1p-53;
-  }
-
-  std::uint64_t state_;
-  double second_ = 0;  ///< second number of the last pair
-  bool has_second_ = false;
+/// Two independent standard normal numbers.
+struct NormalPair {
+  double first;
+  double second;
 };
+
+/// Standard normal numbers that depend on their place alone: the noise of a joint in a cycle is the
+/// same in any lane, thread or process, and whatever else is drawn. They are the same on every machine
+/// up to rounding of its mathematical library. Real-time: yes.
+///
+/// Sources: Philox, see detail::philox; Box and Muller: A note on the generation of random normal
+/// deviates, 1958.
+/// @param seed     the same seed gives the same numbers
+/// @param cycle    number of the measurement
+/// @param joint    index of the joint
+/// @param channel  tells pairs of a joint apart, from 1 (0 is left to other draws of the seed)
+[[nodiscard]] inline NormalPair normal_noise(std::uint64_t seed, std::uint64_t cycle, int joint,
+                                             std::uint32_t channel) noexcept {
+  const auto low = [](std::uint64_t x) { return static_cast<std::uint32_t>(x); };
+  const auto high = [](std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); };
+  const detail::PhiloxCounter bits =
+      detail::philox({low(cycle), high(cycle), static_cast<std::uint32_t>(joint), channel},
+                     {low(seed), high(seed)});
+  // In (0, 1], without 0, whose logarithm is infinite.
+  const auto share = [](std::uint32_t a, std::uint32_t b) {
+    return static_cast<double>(((a | std::uint64_t{b} << 32) >> 11) + 1) * 0x1p-53;
+  };
+  const double radius = std::sqrt(-2 * std::log(share(bits[0], bits[1])));
+  const double angle = 2 * std::numbers::pi * share(bits[2], bits[3]);
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
 
 }  // namespace articula

@@ -36,7 +36,7 @@ namespace articula::detail {
 }
 
 /// A number with mean 0 and standard deviation 1 from a bell-shaped distribution: the sum of four
-/// equally distributed numbers, at most 3.5 in size. Cheaper than NormalNoise. Real-time: yes.
+/// equally distributed numbers, at most 3.5 in size. Cheaper than normal_noise. Real-time: yes.
 [[nodiscard]] constexpr double random_noise(std::uint64_t key, std::uint64_t number) noexcept {
   const std::uint64_t bits = random_bits(key, number);
   const std::uint64_t sum =
