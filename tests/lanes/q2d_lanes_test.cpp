@@ -166,7 +166,8 @@ TEST_CASE("Setups that cannot run are refused with the lane and the reason") {
     return "accepted";
   };
   CHECK_THAT(refusal([](auto& all) { all.clear(); }), Contains("0 setups are not within 1 .. "));
-  CHECK_THAT(refusal([](auto& all) { all.resize(17); }), Contains("17 setups are not within 1 .. "));
+  CHECK_THAT(refusal([](auto& all) { all.resize(17); }),
+             Contains("17 setups are not within 1 .. "));
   CHECK_THAT(refusal([](auto& all) { all[1].simulation.period = 2e-3; }),
              Contains("lane 1: period 0.002 s with 1 substeps differs from lane 0"));
   CHECK_THAT(refusal([](auto& all) { all[1].delay = -1; }), Contains("lane 1: delay -1"));
