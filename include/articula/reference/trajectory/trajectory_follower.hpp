@@ -38,7 +38,7 @@ struct FollowerOptions {
 /// - A canceled trajectory ends in the fastest stop within the limits of acceleration and jerk.
 /// - A trajectory that leaves its tolerances ends likewise. Then the reference returns to the
 ///   measured position, so that the joints do not push against an obstacle.
-/// - A stop that would pass a position limit is as much harder as necessary (StopAndReturn): between
+/// - A stop that would pass a position limit is as much harder as necessary (JointStops): between
 ///   its points, a trajectory may accelerate harder than stops.
 ///
 /// So no sample passes a position limit, to the last bit. A joint that begins outside its limits
@@ -243,11 +243,11 @@ class TrajectoryFollower {
 
   /// Stops, and then returns to the measured position, if it is known.
   void abort(TrajectoryOutcome outcome,
-             const JointVector<joint_count>& measured = StopAndReturn<R>::unknown()) noexcept {
+             const JointVector<joint_count>& measured = JointStops<R>::nowhere()) noexcept {
     outcome_ = outcome;
     watched_ = false;
     waiting_.reset();
-    motion_.stop(is_finite(measured) ? measured : StopAndReturn<R>::unknown());
+    motion_.stop(is_finite(measured) ? measured : JointStops<R>::nowhere());
   }
 
   Tolerances default_tolerances_;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "articula/core/joint_array.hpp"
+#include "articula/reference/joint_stops.hpp"
 #include "articula/reference/speed_override.hpp"
-#include "articula/reference/stop_and_return.hpp"
 #include "articula/reference/trajectory/joint_tracks.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace articula {
 
 /// The motion behind a TrajectoryFollower. Each joint follows a trajectory (JointTracks), or stops,
-/// returns and rests (StopAndReturn). A SpeedOverride is the clock of the trajectories, while stops
+/// returns and rests (JointStops). A SpeedOverride is the clock of the trajectories, while stops
 /// run in real time.
 /// @tparam Capacity  largest number of points of a trajectory
 template <Robot R, int Capacity>
@@ -47,7 +47,7 @@ class TrajectoryMotion {
   /// The present reference. Real-time: yes.
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
   /// Whether a joint moves. Real-time: yes.
-  [[nodiscard]] bool moves() const noexcept { return tracks_.any() || rest_.moves(); }
+  [[nodiscard]] bool moves() const noexcept { return tracks_.any() || stops(); }
   /// The time since the last motion ended, on the clock of the trajectories [s]. Real-time: yes.
   [[nodiscard]] double time_at_rest() const noexcept { return speed_.time() - arrival_; }
 
@@ -56,7 +56,7 @@ class TrajectoryMotion {
   /// must end first: otherwise the motion would exceed them when the speed rises.
   /// Real-time: yes.
   [[nodiscard]] bool can_begin() const noexcept {
-    if (!rest_.moves()) return true;
+    if (!stops()) return true;
     const Reference own = speed_.unapply(reference_);
     const auto keeps = [](double value, double limit) {
       return std::abs(value) <= limit * (1 + 1e-9);  // rounding
@@ -90,7 +90,6 @@ class TrajectoryMotion {
     own_ = present();
     tracks_.begin(trajectory, bridge, speed_.time());
     speed_.restart(bridge.from.time_from_start);
-    if (rest_.moves()) begin_rest(reference_, tracks_.follows());
   }
 
   /// Goes on from the reference of another source, by the fastest stop. What begins then has the
@@ -98,11 +97,11 @@ class TrajectoryMotion {
   void take_over(const Reference& reference) noexcept {
     speed_.settle();
     reference_ = reference;
-    stop(StopAndReturn<R>::unknown());
+    stop(JointStops<R>::nowhere());
   }
 
   /// Stops all joints, and then moves them to a position.
-  /// @param back  [rad or m], N x 1; see StopAndReturn::begin
+  /// @param back  [rad or m], N x 1; see JointStops::begin
   /// Real-time: yes. O(N).
   void stop(const Position& back) noexcept {
     tracks_.clear();
@@ -128,7 +127,7 @@ class TrajectoryMotion {
       own_.position = allowed.clamp(own_.position);  // rounding
       copy_joints(speed_.apply(own_), reference_, tracks_.follows());
     }
-    if (rest_.moves()) arrival_ = speed_.time();
+    if (stops()) arrival_ = speed_.time();
   }
 
  private:
@@ -140,26 +139,21 @@ class TrajectoryMotion {
     return own;
   }
 
-  /// Begins the stop of the joints from a reference.
-  /// @param is_new  whether a joint was not stopping before; it has no position to return to. It
-  ///                does not move if it follows a track
-  void begin_rest(Reference from, const JointArray<bool, joint_count>& is_new) noexcept {
-    Position target = rest_.target();
+  /// Whether a joint that follows no trajectory stops or returns.
+  [[nodiscard]] bool stops() const noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      if (is_new[j]) target[j] = std::numeric_limits<double>::quiet_NaN();
-      if (tracks_.follows()[j]) from.velocity[j] = from.acceleration[j] = 0;
+      if (!tracks_.follows()[j] && rest_.moves(j)) return true;
     }
-    rest_.begin(from, target);
+    return false;
   }
 
   /// Ends the tracks that end at a time. Their joints begin to stop.
   void end_tracks(double end) noexcept {
     JointArray<bool, joint_count> ended = tracks_.follows();
-    Reference resting = rest_.reference(), last;
+    Reference last;
     tracks_.end(end, last);
     for (int j = 0; j < joint_count; ++j) ended[j] = ended[j] && !tracks_.follows()[j];
-    copy_joints(speed_.apply(last), resting, ended);
-    begin_rest(resting, ended);
+    rest_.begin(ended, speed_.apply(last));
   }
 
   /// Copies the references of selected joints.
@@ -176,8 +170,8 @@ class TrajectoryMotion {
   JointRange<joint_count> range_;
   SpeedOverride speed_;
   JointTracks<R, Capacity> tracks_{};
-  StopAndReturn<R> rest_;  ///< of joints that follow no trajectory
-  double arrival_ = 0;     ///< the end of the motion, in the trajectory's time [s]
+  JointStops<R> rest_;  ///< of joints that follow no trajectory
+  double arrival_ = 0;  ///< the end of the motion, in the trajectory's time [s]
   Reference reference_{};
   Reference own_{};  ///< of joints that follow a trajectory, in its time
 };

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "articula/reference/jerk_limited_profile.hpp"
+#include "articula/reference/joint_stops.hpp"
 #include "articula/reference/state_to_state_profile.hpp"
-#include "articula/reference/stop_and_return.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -128,7 +128,7 @@ class GoMotion {
   Limits limits_;
   JointRange<joint_count> range_;
   JointRange<joint_count> allowed_;  ///< by the limits and the beginning
-  StopAndReturn<R> stop_;
+  JointStops<R> stop_;
   JerkLimitedProfile<R> profile_;
   std::optional<StateToStateProfile<R>> blend_{};
   std::optional<Limits> pending_{};  ///< of the profile after the stop

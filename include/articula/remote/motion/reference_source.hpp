@@ -5,7 +5,6 @@
 #include "articula/remote/motion/go_motion.hpp"
 #include "articula/remote/motion/joint_setting.hpp"
 #include "articula/remote/motion/joint_sources.hpp"
-#include "articula/remote/motion/joint_stops.hpp"
 #include "articula/remote/motion/motion_kind.hpp"
 #include "articula/remote/motion/signal_motion.hpp"
 #include "articula/remote/motion/trajectory_followers.hpp"
@@ -44,7 +43,7 @@ class ReferenceSource {
                   const Tolerances& tolerances)
       : followers_(robot, limits, tolerances),
         go_(robot, limits),
-        stops_(robot, limits),
+        stops_(robot, JointVector<joint_count>::Zero(), limits),
         signals_(robot, limits) {
     validate(robot, both_ways(limits));
   }
@@ -181,7 +180,7 @@ class ReferenceSource {
     }
     if (leads(stopping)) {
       Joints resting = sources_.joints_of(stopping);
-      stops_.advance(resting, period, reference);
+      sources_.copy(stopping, stops_.advance(period), reference);
       for (int j = 0; j < joint_count; ++j) resting[j] &= !stops_.moves(j);
       sources_.give(resting, none);
     }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/reference/joint_signals.hpp"
-#include "articula/reference/stop_and_return.hpp"
+#include "articula/reference/joint_stops.hpp"
 
 namespace articula::remote {
 
@@ -50,7 +50,7 @@ class SignalMotion {
   [[nodiscard]] const Reference& around() const noexcept { return signals_->around(); }
 
  private:
-  StopAndReturn<R> stop_;
+  JointStops<R> stop_;
   JointSignals<R>* signals_ = nullptr;
   double duration_ = 0;
   double played_ = 0;  ///< since the end of the stop [s]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The stops of joints, each by itself.
+/// @file Stops of joints from any motion, and their motions back to given positions.
 #pragma once
 
 #include "articula/core/finite.hpp"
@@ -12,11 +12,13 @@
 #include <algorithm>
 #include <limits>
 
-namespace articula::remote {
+namespace articula {
 
-/// The fastest stop of each joint (stop_within), and a motion from there to a given position. A joint
-/// stops and returns as if it were alone, where StopAndReturn moves all joints together. The
-/// reference's effort stays. In the loop's thread. All functions are real-time.
+/// The fastest stop of each joint from any motion, followed by the fastest motion from rest to a
+/// given position. Each joint stops and returns as if it were alone. Joints that start within their
+/// position limits stay there. Where the fastest stop would leave them, acceleration and jerk exceed
+/// their limits as little as possible (stop_within). The reference's effort stays. All functions are
+/// real-time.
 template <Robot R>
 class JointStops {
  public:
@@ -30,14 +32,20 @@ class JointStops {
     return Vector::Constant(std::numeric_limits<double>::quiet_NaN());
   }
 
-  /// @param limits  that validate() accepts
-  JointStops(const R& robot, const MotionLimits<joint_count>& limits) noexcept
-      : limits_(limits), range_(joint_range(robot)), allowed_(range_) {}
+  /// At rest.
+  /// @param position  finite [rad or m], N x 1
+  /// @param limits    that validate() accepts
+  JointStops(const R& robot, const Vector& position,
+             const MotionLimits<joint_count>& limits) noexcept
+      : limits_(limits), range_(joint_range(robot)), allowed_(range_.extended_to(position)) {
+    for (int j = 0; j < joint_count; ++j) motions_[j] = JerkMotion<7>({position[j], 0, 0});
+  }
 
   /// Begins the stops of some joints. Those of others go on.
   /// @param from  the present reference
-  /// @param back  where the joints go after their stop [rad or m], N x 1; NaN: they stay. It is
-  ///              clamped to the joint's limits or the present position, whichever is further out.
+  /// @param back  where the joints go after their stop [rad or m], N x 1. A joint whose number is not
+  ///              finite stays where its stop ends. It is clamped to the joint's limits or the
+  ///              present position, whichever is further out.
   void begin(const Joints& joints, const Reference& from, const Vector& back = nowhere()) noexcept {
     const JointRange<joint_count> reachable = range_.extended_to(from.position);
     const Vector target = reachable.clamp(back);
@@ -51,28 +59,50 @@ class JointStops {
                                 limits_.jerk[j], lower, upper);
       time_[j] = 0;
       effort_[j] = from.effort[j];
-      back_[j] = is_finite(back[j]) ? target[j] : back[j];
+      back_[j] = nowhere()[j];
+      if (is_finite(back[j]) && target[j] != motions_[j].end().position) back_[j] = target[j];
     }
   }
+  /// The same of all joints.
+  void begin(const Reference& from, const Vector& back = nowhere()) noexcept {
+    Joints all;
+    all.fill(true);
+    begin(all, from, back);
+  }
 
-  /// Moves some joints on by a period [s].
-  /// @param[out] reference  receives their reference at its end
-  void advance(const Joints& joints, double period, Reference& reference) noexcept {
+  /// Lets a period [s] pass, >= 0.
+  void pass(double period) noexcept {
     for (int j = 0; j < joint_count; ++j) {
-      if (!joints[j]) continue;
       time_[j] += period;
-      if (time_[j] >= motions_[j].duration() && is_finite(back_[j])) {
-        time_[j] -= motions_[j].duration();
-        return_from(sample(j, motions_[j].duration()).position, j);
-      }
-      set_motion(reference, j, sample(j, std::min(time_[j], motions_[j].duration())));
-      reference.effort[j] = effort_[j];
+      if (time_[j] < motions_[j].duration() || !is_finite(back_[j])) continue;
+      time_[j] -= motions_[j].duration();
+      return_from(sample(j, motions_[j].duration()).position, j);
     }
+  }
+  /// The present reference.
+  [[nodiscard]] Reference reference() const noexcept {
+    Reference reference{.effort = effort_};
+    for (int j = 0; j < joint_count; ++j) {
+      set_motion(reference, j, sample(j, std::min(time_[j], motions_[j].duration())));
+    }
+    return reference;
+  }
+  /// Lets a period pass, and returns the reference at its end.
+  [[nodiscard]] Reference advance(double period) noexcept {
+    pass(period);
+    return reference();
   }
 
   /// Whether a joint moves, or will move back.
   [[nodiscard]] bool moves(int joint) const noexcept {
     return is_finite(back_[joint]) || time_[joint] < motions_[joint].duration();
+  }
+  /// Whether any joint does.
+  [[nodiscard]] bool moves() const noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      if (moves(j)) return true;
+    }
+    return false;
   }
 
  private:
@@ -88,7 +118,7 @@ class JointStops {
         rest_to_rest(here, there, limits_.velocity[j], limits_.acceleration[j], limits_.jerk[j]);
     allowed_.lower[j] = std::min(here, there);
     allowed_.upper[j] = std::max(here, there);
-    back_[j] = std::numeric_limits<double>::quiet_NaN();
+    back_[j] = nowhere()[j];
   }
 
   MotionLimits<joint_count> limits_;
@@ -97,7 +127,7 @@ class JointStops {
   JointArray<JerkMotion<7>, joint_count> motions_{};
   Vector time_ = Vector::Zero();  ///< since the beginning of the motion [s]
   Vector effort_ = Vector::Zero();
-  Vector back_ = nowhere();
+  Vector back_ = nowhere();  ///< of joints that will return
 };
 
-}  // namespace articula::remote
+}  // namespace articula

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <articula/reference/stop_and_return.hpp>
+#include <articula/reference/joint_stops.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Vector = JointVector<2>;
 
 TEST_CASE("from rest or from motion, it moves until it is where it should be") {
   const MotionLimits<2> limits{{2, 10}, {20, 50}, {400, 1000}};
-  StopAndReturn<Q2d> rest(Q2d(), {0.1, 0.2}, limits);
+  JointStops<Q2d> rest(Q2d(), {0.1, 0.2}, limits);
   CHECK_FALSE(rest.moves());
   CHECK(rest.advance(1).position == Vector(0.1, 0.2));
   for (const double v : {0.0, 1.0}) {
@@ -37,7 +37,7 @@ TEST_CASE("from rest or from motion, it moves until it is where it should be") {
 TEST_CASE("a measurement beyond the joints' limits does not lead there") {
   const MotionLimits<2> limits{{2, 10}, {20, 50}, {400, 1000}};
   const double shoulder = Q2d::description.joints[1].limits.upper;
-  StopAndReturn<Q2d> stop(Q2d(), {0, 0}, limits);
+  JointStops<Q2d> stop(Q2d(), {0, 0}, limits);
   stop.begin(JointReference<2>{.position = {0.1, 0.2}}, Vector(1e6, 0.3));
   CHECK(stop.advance(60).position == Vector(shoulder, 0.3));
   // Who is beyond already is not pulled in by more than was asked, nor led further out.
@@ -48,7 +48,7 @@ TEST_CASE("a measurement beyond the joints' limits does not lead there") {
 TEST_CASE("a stop that would lead beyond the joints' limits ends at them") {
   const MotionLimits<2> limits{{2, 10}, {20, 50}, {400, 1000}};
   const double shoulder = Q2d::description.joints[1].limits.upper;
-  StopAndReturn<Q2d> stop(Q2d(), {0, 0}, limits);
+  JointStops<Q2d> stop(Q2d(), {0, 0}, limits);
   // 2 rad/s take 0.14 m at these limits; the elbow's stop is what it always is
   const JointReference<2> from{{shoulder - 0.05, 0}, {2, -1}, {1, 0}};
   stop.begin(from);
