@@ -16,9 +16,9 @@ namespace articula {
 
 /// The fastest stop of each joint from any motion, followed by the fastest motion from rest to a
 /// given position. Each joint stops and returns as if it were alone. Joints that start within their
-/// position limits stay there. Where the fastest stop would leave them, acceleration and jerk exceed
-/// their limits as little as possible (stop_within). The reference's effort stays. All functions are
-/// real-time.
+/// position limits stay there. Where the fastest stop would leave them, acceleration and jerk
+/// exceed their limits as little as possible (stop_within). The reference's effort stays. All
+/// functions are real-time.
 template <Robot R>
 class JointStops {
  public:
@@ -43,9 +43,9 @@ class JointStops {
 
   /// Begins the stops of some joints. Those of others go on.
   /// @param from  the present reference
-  /// @param back  where the joints go after their stop [rad or m], N x 1. A joint whose number is not
-  ///              finite stays where its stop ends. It is clamped to the joint's limits or the
-  ///              present position, whichever is further out.
+  /// @param back  where the joints go after their stop [rad or m], N x 1. A joint whose number is
+  ///              not finite stays where its stop ends. The number is clamped to the joint's limits
+  ///              or the present position, whichever is further out.
   void begin(const Joints& joints, const Reference& from, const Vector& back = nowhere()) noexcept {
     const JointRange<joint_count> reachable = range_.extended_to(from.position);
     const Vector target = reachable.clamp(back);
