@@ -49,3 +49,29 @@ TEST_CASE("steps keep the limits for any requests, those of positions for any pe
     position = next;
   }
 }
+
+TEST_CASE("steps keep the acceleration if no deceleration is given, and take infinite limits") {
+  constexpr unsigned seed = 16;
+  CAPTURE(seed);
+  support::Random random(seed);
+  const double infinity = JointCommandLimits::infinity, period = 1e-3;
+  const JointCommandLimits one{.lower = -1, .upper = 1, .velocity = 2, .acceleration = 5};
+  const JointCommandLimits unlimited{
+      .acceleration = infinity, .deceleration = infinity, .jerk = infinity};
+  const auto start = [&](const JointCommandLimits& of) {
+    return StoppingMotion({0, 0, 0}, of.bounded().deceleration, of.bounded().jerk, period);
+  };
+  StoppingMotion motion = start(one), free = start(unlimited);
+  PositionLimitState state{.stop = start(one)};
+  for (int k = 0; k < 20'000; ++k) {
+    CAPTURE(k);
+    const double request = random.number(-3, 3);
+    motion = limit_motion(motion, request, one, period).next;
+    REQUIRE(std::abs(motion.motion().acceleration) <= 5 * (1 + 1e-9));  // rounding
+    state = limit_position(state, random.number(-2, 2), one, period).next;
+    // The position limit wins over the acceleration by the slack of a position, 1e-13/dt^2.
+    REQUIRE(std::abs(state.stop.motion().acceleration) <= 5 + 1e-6);
+    free = limit_motion(free, request, unlimited, period).next;
+    REQUIRE(free.motion().velocity == request);
+  }
+}

@@ -429,3 +429,12 @@ TEST_CASE("the runner stops a supervised loop and tells it of missed periods") {
   CHECK(loop.fault() == Status::overrun);
   CHECK(loop.mode() == LoopMode::inactive);
 }
+
+TEST_CASE("a supervised loop has the period of its hardware") {
+  using Simulated = SupervisedLoop<Simulator<TiltedQ2d>, PidPlusGravity>;
+  Simulated loop(Simulator<TiltedQ2d>({.period = 0.01, .substeps = 8}));
+  CHECK(loop.period() == 0.01);
+  CHECK_THROWS_AS(Simulated(Simulator<TiltedQ2d>({.period = 0.01, .substeps = 8}),
+                            PidPlusGravity<TiltedQ2d>(), {}, 1e-3),
+                  std::invalid_argument);
+}

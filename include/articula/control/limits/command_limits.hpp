@@ -12,8 +12,7 @@
 
 namespace articula {
 
-/// The limits of one joint's motion (CommandLimits::of_joint). Unlimited acceleration and jerk are
-/// so large that they never limit, and their powers do not overflow.
+/// The limits of one joint's motion (CommandLimits::of_joint), unlimited by default.
 struct JointCommandLimits {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -22,8 +21,18 @@ struct JointCommandLimits {
   double soft_rate = infinity;                           ///< k [1/s]
   double velocity = infinity;                            ///< V [rad/s or m/s]
   double acceleration = 1e15;                            ///< A [rad/s^2 or m/s^2]
-  double deceleration = 1e15;                            ///< B <= A [rad/s^2 or m/s^2]
+  double deceleration = 1e15;                            ///< B; above A it counts as A
   double jerk = 1e30;                                    ///< J [rad/s^3 or m/s^3]
+
+  /// The limits that steps compute with. B is at most A. Unlimited acceleration and jerk are so large
+  /// that they never limit, and their powers do not overflow. Real-time: yes.
+  [[nodiscard]] JointCommandLimits bounded() const noexcept {
+    JointCommandLimits limits = *this;
+    limits.acceleration = std::min(acceleration, 1e15);
+    limits.deceleration = std::min(deceleration, limits.acceleration);
+    limits.jerk = std::min(jerk, 1e30);
+    return limits;
+  }
 };
 
 /// The limits of the commands to N joints, unlimited by default. `command_limits(robot)` returns
@@ -54,16 +63,10 @@ struct CommandLimits {
 
   /// The limits of one joint's motion. Real-time: yes.
   [[nodiscard]] JointCommandLimits of_joint(int joint) const noexcept {
-    const double A = std::min(acceleration[joint], 1e15);
-    return {lower[joint],
-            upper[joint],
-            soft_lower[joint],
-            soft_upper[joint],
-            soft_rate[joint],
-            velocity[joint],
-            A,
-            std::min(deceleration[joint], A),
-            std::min(jerk[joint], 1e30)};
+    const JointCommandLimits limits{lower[joint],        upper[joint],        soft_lower[joint],
+                                    soft_upper[joint],   soft_rate[joint],    velocity[joint],
+                                    acceleration[joint], deceleration[joint], jerk[joint]};
+    return limits.bounded();
   }
 };
 

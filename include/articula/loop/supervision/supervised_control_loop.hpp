@@ -13,6 +13,7 @@
 #include <atomic>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,7 +60,7 @@ class SupervisedControlLoop {
   /// @param period      as Loop's
   /// @throws std::invalid_argument if the period or an option makes no sense
   SupervisedControlLoop(HardwareType hardware, C controller, const SupervisionOptions& options = {},
-                        double period = 1e-3)
+                        std::optional<double> period = {})
       : options_(options),
         loop_(Gate(std::move(hardware), options), std::move(controller), period),
         overruns_(options.overruns, loop_.period()) {
