@@ -93,6 +93,11 @@ class JointStops {
     return reference();
   }
 
+  /// Where each joint rests after its present motion, a stop or a return [rad or m], N x 1.
+  [[nodiscard]] Vector end() const noexcept {
+    return for_each_joint<joint_count>(
+        [&](int j) noexcept { return sample(j, motions_[j].duration()).position; });
+  }
   /// Whether a joint moves, or will move back.
   [[nodiscard]] bool moves(int joint) const noexcept {
     return is_finite(back_[joint]) || time_[joint] < motions_[joint].duration();

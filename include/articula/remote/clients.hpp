@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The clients of a port: who operates, what each has yet to hear.
+/// @file The clients of a port: who operates, and which answers each still gets.
 #pragma once
 
 #include "articula/remote/port.hpp"

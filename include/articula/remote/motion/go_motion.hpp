@@ -45,8 +45,8 @@ class GoMotion {
   void begin(const Reference& from, const Vector& target, double speed) noexcept {
     const Limits limits{speed * limits_.velocity, limits_.acceleration, limits_.jerk};
     allowed_ = range_.extended_to(from.position);
-    const auto stopping = JerkLimitedProfile<R>::stop(from, limits_, range_.lower, range_.upper);
-    target_ = stopping.sample(stopping.duration()).position;
+    stop_.begin(from);
+    target_ = stop_.end();
     for (int j = 0; j < joint_count; ++j) {
       if (is_finite(target[j])) target_[j] = target[j];
     }
@@ -63,7 +63,6 @@ class GoMotion {
       if (blend_ && keeps_range(from) && keeps_velocity(from)) return;
       blend_.reset();
     }
-    stop_.begin(from);
     pending_ = limits;
   }
 

@@ -71,7 +71,7 @@ struct BridgeNodes::Parts {
     if (!options.clock_topic.empty()) {
       subscribe<rosgraph_msgs::msg::Clock>(
           core.manager, options.clock_topic, quality_of_service::sensor_data,
-          [this](const auto& message) { told = from_message(message.clock); });
+          [this](const auto& message) { simulator_time = from_message(message.clock); });
     }
     for (BridgedController& own : core.controllers) {
       controllers.push_back(std::make_unique<ControllerNode>(core, own));
@@ -90,7 +90,7 @@ struct BridgeNodes::Parts {
   }
 
   BridgeCore core;
-  std::chrono::nanoseconds told{0};  ///< by the topic of the options
+  std::chrono::nanoseconds simulator_time{0};  ///< by the topic of the options
   RobotTopics robot;
   std::unique_ptr<ManagerServices> manager;
   std::vector<std::unique_ptr<FixedNode>> fixed{};
@@ -104,9 +104,9 @@ BridgeNodes::~BridgeNodes() = default;
 void BridgeNodes::update(std::chrono::nanoseconds now) {
   BridgeCore& core = parts_->core;
   core.context.wall = now;
-  const bool is_told = !core.options.clock_topic.empty();
-  const bool has_loops_time = core.options.use_sim_time && !is_told;
-  const std::chrono::nanoseconds clock = is_told ? parts_->told : now;
+  const bool has_topic = !core.options.clock_topic.empty();
+  const bool has_loops_time = core.options.use_sim_time && !has_topic;
+  const std::chrono::nanoseconds clock = has_topic ? parts_->simulator_time : now;
   core.watch.update(clock, has_loops_time);
   core.context.now = has_loops_time ? to_duration(core.watch.cycle.time) : clock;
   core.loop_operator.update(now);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The time of a simulator that lives in ROS 2, as the clock of a loop.
+/// @file The time of a simulator in ROS 2, as the clock of a loop.
 #pragma once
 
 #include "articula/loop/stop_flag.hpp"
@@ -19,7 +19,7 @@ namespace articula::ros2 {
 namespace detail {
 
 /// The time that the messages of /clock tell, from the transport's thread to the loop's.
-class ToldTime {
+class ReceivedTime {
  public:
   using Time = std::chrono::nanoseconds;
   /// A longer step is no time that passes: the simulation was set to another time, or two programs
@@ -29,9 +29,9 @@ class ToldTime {
   // For the transport's thread. Real-time: no (locks).
 
   /// Takes a message's time over. A step backwards, or a longer one, counts as a jump.
-  void take(Time told) noexcept {
-    const Time step = told_ ? told - *told_ : Time(0);
-    told_ = told;
+  void take(Time received) noexcept {
+    const Time step = latest_ ? received - *latest_ : Time(0);
+    latest_ = received;
     if (step < Time(0) || step > longest_step) {
       jumps_.fetch_add(1, std::memory_order_relaxed);
     } else {
@@ -40,7 +40,7 @@ class ToldTime {
   }
   /// Lets the time that was taken pass: the loop then has what else came with it.
   void pass() {
-    if (!told_ || (is_known() && waiting_ == Time(0))) return;
+    if (!latest_ || (is_known() && waiting_ == Time(0))) return;
     {
       const std::lock_guard lock(mutex_);
       passed_.store(passed_.load() + waiting_, std::memory_order_release);
@@ -50,7 +50,7 @@ class ToldTime {
     changed_.notify_all();
   }
   /// The time of the last message.
-  [[nodiscard]] Time told() const noexcept { return told_.value_or(Time(0)); }
+  [[nodiscard]] Time latest() const noexcept { return latest_.value_or(Time(0)); }
   /// No message will come any more: from here on the time is that of this host, so that who waits
   /// for it comes to know.
   void end() { ended_.store(host(), std::memory_order_release); }
@@ -88,8 +88,8 @@ class ToldTime {
   std::atomic<Time> ended_{Time(0)};  ///< when, by the host's clock; 0: it goes on
   std::atomic<bool> is_known_ = false;
   std::atomic<std::uint64_t> jumps_ = 0;
-  std::optional<Time> told_{};  ///< by the last message
-  Time waiting_{0};             ///< taken, and not passed yet
+  std::optional<Time> latest_{};  ///< by the last message
+  Time waiting_{0};               ///< taken, and not passed yet
   std::mutex mutex_{};
   std::condition_variable changed_{};
 };
@@ -111,7 +111,7 @@ class TopicClock {
 
   /// @param time  of the hardware
   /// @param stop  ends a wait, which may last as long as the simulator is paused
-  TopicClock(std::shared_ptr<detail::ToldTime> time, const StopFlag* stop) noexcept
+  TopicClock(std::shared_ptr<detail::ReceivedTime> time, const StopFlag* stop) noexcept
       : time_(std::move(time)), stop_(stop) {}
 
   /// The simulator's time. Real-time: yes, but for the clock after the transport's end.
@@ -123,7 +123,7 @@ class TopicClock {
   }
 
  private:
-  std::shared_ptr<detail::ToldTime> time_;
+  std::shared_ptr<detail::ReceivedTime> time_;
   const StopFlag* stop_;
 };
 

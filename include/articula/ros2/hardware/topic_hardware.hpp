@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A robot or simulator that lives in ROS 2, as hardware of a loop.
+/// @file A robot or simulator in ROS 2, as hardware of a loop.
 #pragma once
 
 #include "articula/core/finite.hpp"

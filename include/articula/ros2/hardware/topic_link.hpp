@@ -65,7 +65,7 @@ class TopicLink {
     subscribe<Message>(node_, options.joint_states_topic, quality_of_service::sensor_data,
                        [this](const Message& message) { take(message); });
     if (options.clock_topic.empty()) return;
-    simulated_ = std::make_shared<ToldTime>();
+    simulated_ = std::make_shared<ReceivedTime>();
     subscribe<rosgraph_msgs::msg::Clock>(
         node_, options.clock_topic, quality_of_service::sensor_data,
         [this](const auto& message) { simulated_->take(from_message(message.clock)); });
@@ -117,7 +117,7 @@ class TopicLink {
     return {host, simulated_->is_known() ? simulated_->now() : TopicStates<N>::never.simulated};
   }
   /// The time of a simulator; null without a topic for it.
-  [[nodiscard]] const std::shared_ptr<ToldTime>& simulated_time() const noexcept {
+  [[nodiscard]] const std::shared_ptr<ReceivedTime>& simulated_time() const noexcept {
     return simulated_;
   }
   [[nodiscard]] bool has_reader() const noexcept {
@@ -156,7 +156,7 @@ class TopicLink {
   void send(const Command& command) {
     Message message;
     message.header.stamp = to_message<builtin_interfaces::msg::Time>(
-        simulated_ != nullptr ? simulated_->told()
+        simulated_ != nullptr ? simulated_->latest()
                               : std::chrono::system_clock::now().time_since_epoch());
     for (const Name& name : names_) message.name.emplace_back(name.view());
     const auto put_values = [](const JointVector<N>& values, std::vector<double>& to) {
@@ -179,7 +179,7 @@ class TopicLink {
   Time deadline_;
   std::array<Name, static_cast<std::size_t>(N)> names_;
   JointStateCollector<N> collector_;
-  std::shared_ptr<ToldTime> simulated_{};
+  std::shared_ptr<ReceivedTime> simulated_{};
   TopicTime written_{};   ///< when the last command came from the loop
   bool follows_ = false;  ///< another one is to come
   LatestValue<TopicStates<N>> incoming_{};
