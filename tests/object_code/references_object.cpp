@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <articula/reference/jerk_limited_profile.hpp>
 #include <articula/reference/joint_signals.hpp>
 #include <articula/reference/state_to_state_profile.hpp>
 #include <articula/reference/trajectory/trajectory_follower.hpp>

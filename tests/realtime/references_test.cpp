@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <articula/control/pid_plus_gravity.hpp>
 #include <articula/loop/loop.hpp>
+#include <articula/reference/jerk_limited_profile.hpp>
 #include <articula/reference/joint_signals.hpp>
 #include <articula/reference/set_point.hpp>
 #include <articula/reference/state_to_state_profile.hpp>
