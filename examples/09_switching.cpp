@@ -21,17 +21,21 @@ int main() {
             {"shoulder [rad]", "elbow [rad]", "shoulder effort [N m]", "elbow effort [N m]"});
 
   loop.reference().effort = {8, -1};  // N m, for the bypass, which is active at first
-  JointReference<2> moving;           // continues at the same speed
-  double largest = 0;                 // change of the shoulder's effort in a cycle
+  const auto request = [&](const SwitchRequest& changes) {
+    const SwitchOutcome outcome = loop.controller().request(changes);
+    if (outcome.answer != SwitchAnswer::done) std::puts("this cannot be switched");
+  };
+  JointReference<2> moving;  // continues at the same speed
+  double largest = 0;        // change of the shoulder's effort in a cycle
   for (int k = 0; k < 4000; ++k) {
     const Name before = loop.controller().active();
     if (k == 1000) {
       moving.position = loop.state().position;
       moving.velocity = loop.state().velocity;
-      loop.controller().request({.stop = {"bypass"}, .start = {"pid_plus_gravity"}});
+      request({.stop = {"bypass"}, .start = {"pid_plus_gravity"}});
     }
-    if (k == 2000) loop.controller().request({.start = {"computed_torque"}, .replace = true});
-    if (k == 3000) loop.controller().request({.stop = {"computed_torque"}});
+    if (k == 2000) request({.start = {"computed_torque"}, .replace = true});
+    if (k == 3000) request({.stop = {"computed_torque"}});
     if (k >= 1000) {
       moving.position += loop.period() * moving.velocity;
       loop.reference() = moving;

@@ -2,6 +2,8 @@
 /// @file All of articula that needs nothing but Eigen. Ready robots are in articula/robots/.
 #pragma once
 
+#include "articula/command/command_parts.hpp"
+#include "articula/command/drive_spring.hpp"
 #include "articula/compatibility/control_toolbox_pid_law.hpp"
 #include "articula/control/bypass.hpp"
 #include "articula/control/computed_torque.hpp"
@@ -9,7 +11,6 @@
 #include "articula/control/forward_position.hpp"
 #include "articula/control/forward_velocity.hpp"
 #include "articula/control/joint_impedance.hpp"
-#include "articula/control/laws/drive_spring.hpp"
 #include "articula/control/laws/on_joints.hpp"
 #include "articula/control/limits/limited.hpp"
 #include "articula/control/pid.hpp"
@@ -19,7 +20,6 @@
 #include "articula/control/switching/groups.hpp"
 #include "articula/control/switching/switch.hpp"
 #include "articula/control/velocity_by_effort.hpp"
-#include "articula/core/command_parts.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/core/status.hpp"

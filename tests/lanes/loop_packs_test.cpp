@@ -456,8 +456,12 @@ TEST_CASE("Each arm of a pack moves as it would alone when its controllers switc
     if (cycle == 250) request.start = {"joint_impedance"};
     if (cycle == 600) request.stop = {"joint_impedance"};  // none is active: standby
     if (cycle == 800) request.start = {"pid_plus_gravity"};
-    for (auto& loop : all.alone) loop.controller().request(request);
-    for (auto& loop : all.packs) loop.controller().request(request);
+    for (auto& loop : all.alone) {
+      CHECK(loop.controller().request(request).answer == SwitchAnswer::done);
+    }
+    for (auto& loop : all.packs) {
+      CHECK(loop.controller().request(request).answer == SwitchAnswer::done);
+    }
     for (int arm = 0; arm < arms; ++arm) all.ask(arm, asked(arm, cycle));
     all.update();
     all.compare();
@@ -488,7 +492,7 @@ TEST_CASE(
     if (cycle % 50 != 49) return;
     const bool first = controllers.active() == controllers.name_of(0);
     const Name next = controllers.name_of(first ? 1 : 0);
-    controllers.request({.start = {next}, .replace = true});
+    CHECK(controllers.request({.start = {next}, .replace = true}).started == 1);
   };
   const auto both = [&]<class S>(S) {
     return Switch<R, DriveImpedance<R, S>, DriveImpedance<R, S>>(

@@ -56,7 +56,7 @@ std::size_t heap_calls_of(const C& any_controller) {
       if (k % 100 == 0) controller.start(state);
       seen = is_finite(controller.update(state, reference, period));
       if constexpr (requires { controller.report(); }) seen = controller.report()[0].any();
-      if constexpr (TakesGains<C, ValidPidGains<N>>) controller.set_gains(ValidPidGains<N>());
+      if constexpr (TakesGains<C, ValidPidGains<N>>) set_gains(controller, ValidPidGains<N>());
     });
   }
   return calls;

@@ -153,13 +153,16 @@ int main() {
 #ifdef HARDWARE_WITHOUT_ROBOT
   Loop<int, PidPlusGravity> mistake;
 #endif
-#ifdef GAINS_OF_NOBODY
-  TwoPids<Q2d>().set_gains(ValidPidGains<2>());
-#endif
   GainsExchange<PidGains, 2> exchange(Q2d{});
   TwoPids<Q2d> two;
+#ifdef GAINS_OF_NOBODY
+  set_gains(two, ValidPidGains<2>());
+#endif
 #ifdef EXCHANGE_WITH_NOBODY
   exchange.apply(two);
+#endif
+#ifdef SWITCH_OF_NOBODY
+  static_cast<void>(switch_in(two.member<0>()).list());
 #endif
   exchange.apply(two.member<0>());
   TwoPids<Q2d>().member<Pid<Q2d>>().set_gains(ValidPidGains<2>());

@@ -2,7 +2,7 @@
 /// @file A controller that a test calls by hand, cycle by cycle, as a loop does.
 #pragma once
 
-#include <articula/control/laws/command_numbers.hpp>
+#include <articula/command/command_numbers.hpp>
 #include <articula/core/controller.hpp>
 #include <articula/core/finite.hpp>
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -52,13 +53,8 @@ class AnyController {
         },
         kind_);
   }
-  /// Calls function(controller) for the one that it is.
-  void for_each_part(auto&& function) {
-    std::visit([&](auto& own) { function(own); }, kind_);
-  }
-  void for_each_part(auto&& function) const {
-    std::visit([&](const auto& own) { function(own); }, kind_);
-  }
+  /// The one that it is; see articula::HasParts.
+  static auto parts(auto& self) noexcept { return std::tie(self.kind_); }
 
  private:
   Kind kind_{};

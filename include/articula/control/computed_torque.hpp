@@ -2,9 +2,9 @@
 /// @file Computed torque control: inverse dynamics with a PID on the errors.
 #pragma once
 
+#include "articula/control/composition/part_scope.hpp"
 #include "articula/control/laws/feedforward.hpp"
 #include "articula/control/laws/friction_compensation.hpp"
-#include "articula/control/laws/part_scope.hpp"
 #include "articula/control/laws/pid_law.hpp"
 #include "articula/control/laws/sum_controller.hpp"
 #include "articula/dynamics/forward_dynamics.hpp"
@@ -72,17 +72,12 @@ class ComputedTorqueLaw {
     return inverse_dynamics(robot_, in.state.position, in.state.velocity, acceleration);
   }
 
-  /// Goes on with other gains of the feedback. Real-time: yes.
-  void set_gains(const ValidPidGains<joint_count, S>& gains) noexcept {
-    feedback_.set_gains(gains);
-  }
-
-  /// Calls function(feedback, scope): the PID, whose output is an acceleration.
-  void for_each_part(auto&& function) const {
-    function(feedback_, PartScope<joint_count>{.asks_acceleration = true});
-  }
-  void for_each_part(auto&& function) {
-    function(feedback_, PartScope<joint_count>{.asks_acceleration = true});
+  /// The PID as a part, whose output is an acceleration; see HasParts.
+  static auto parts(auto& self) noexcept { return std::tie(self.feedback_); }
+  /// @copydoc parts
+  /// Real-time: yes.
+  [[nodiscard]] PartScope<joint_count> part_scope(std::size_t) const noexcept {
+    return {.asks_acceleration = true};
   }
 
  private:

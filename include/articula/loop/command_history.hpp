@@ -2,7 +2,7 @@
 /// @file The past of a loop's commands, as its controller learns it.
 #pragma once
 
-#include "articula/control/laws/command_numbers.hpp"
+#include "articula/command/command_numbers.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/core/status.hpp"
 

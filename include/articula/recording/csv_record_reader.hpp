@@ -2,7 +2,7 @@
 /// @file Reads recorded cycles from a CSV file.
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/recording/recording.hpp"
 

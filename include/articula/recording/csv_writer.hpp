@@ -2,7 +2,7 @@
 /// @file Writes recorded cycles to a CSV file.
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/recording/cycle_record.hpp"

@@ -2,7 +2,7 @@
 /// @file Recorded cycles from JSON. Needs nlohmann-json (target articula::recording).
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/recording/record_json.hpp"
 
 #include <chrono>

@@ -2,7 +2,7 @@
 /// @file Recorded cycles as JSON. Needs nlohmann-json (target articula::recording).
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/recording/cycle_record.hpp"
 #include "articula/recording/record_extras.hpp"

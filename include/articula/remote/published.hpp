@@ -2,8 +2,8 @@
 /// @file The state that a loop publishes of itself, for those who watch.
 #pragma once
 
+#include "articula/command/command_parts.hpp"
 #include "articula/control/switching/switch_board.hpp"
-#include "articula/core/command_parts.hpp"
 #include "articula/loop/duration_histogram.hpp"
 #include "articula/loop/status_advice.hpp"
 #include "articula/recording/loop_change.hpp"

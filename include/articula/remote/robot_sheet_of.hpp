@@ -2,7 +2,7 @@
 /// @file The sheet of a robot, and the placements of its links, from its type.
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/dynamics/forward_kinematics.hpp"
 #include "articula/remote/engine/loop_traits.hpp"
 #include "articula/remote/link_tree.hpp"

@@ -2,7 +2,7 @@
 /// @file Recordings from what a port publishes.
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/recording/recording.hpp"
 #include "articula/remote/cycle.hpp"

@@ -2,7 +2,7 @@
 /// @file The first difference between a recording and its replay.
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 

@@ -2,7 +2,7 @@
 /// @file A simulated robot with the interface of hardware.
 #pragma once
 
-#include "articula/control/laws/command_numbers.hpp"
+#include "articula/command/command_numbers.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/dynamics/friction_effort.hpp"

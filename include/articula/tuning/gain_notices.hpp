@@ -2,7 +2,7 @@
 /// @file Notices about gains that make a joint unstable or are missing, before the robot moves.
 #pragma once
 
-#include "articula/control/laws/part_scope.hpp"
+#include "articula/control/composition/parts.hpp"
 #include "articula/control/laws/sampled_feedback.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
@@ -182,9 +182,10 @@ void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_co
       }
       if (joint.unstable()) notices.push_back(gain_notice(model_of(robot).joints[j], joint));
     }
-  } else if constexpr (requires { part.for_each_part([](const auto&...) {}); }) {
-    part.for_each_part([&](const auto& own, const PartScope<joint_count<R>>& inner = {}) {
-      add_gain_notices(robot, own, scope.of(inner), q, period, notices);
+  } else if constexpr (HasParts<Part>) {
+    for_each_part(part, [&](const auto& own, std::size_t place) {
+      const auto inner = scope.of(scope_of_part<joint_count<R>>(part, place));
+      add_gain_notices(robot, own, inner, q, period, notices);
     });
   }
 }

@@ -412,6 +412,6 @@ TEST_CASE("gains reach the one group that takes them") {
   static_assert(!TakesGains<Groups<Arm, Pid<Arm>, Pid<Arm>>, ValidPidGains<2>>);
   Mixed mixed({{{"s", {shoulder}}, {"e", {elbow}}}}, {}, JointImpedance<Arm>({}));
   const PidGains g{.proportional = 7};
-  mixed.set_gains(ValidPidGains<2>({g, g}, joint_names(Arm())));
+  set_gains(mixed, ValidPidGains<2>({g, g}, joint_names(Arm())));
   CHECK(mixed.member<0>().part<PidLaw<2>>().gains()[1].proportional == 7);
 }

@@ -494,7 +494,7 @@ TEST_CASE("gains reach the one controller that takes them") {
   static_assert(!TakesGains<Unclear, ValidPidGains<2>>);
   Mixed mixed({}, PidPlusGravity<Q2d>(), JointImpedance<Q2d>({}));
   const PidGains g{.proportional = 7};
-  mixed.set_gains(ValidPidGains<2>({g, g}, joint_names(Q2d())));
+  set_gains(mixed, ValidPidGains<2>({g, g}, joint_names(Q2d())));
   CHECK(mixed.member<PidPlusGravity<Q2d>>().part<PidLaw<2>>().gains()[1].proportional == 7);
   Unclear unclear;
   unclear.member<0>().set_gains(ValidPidGains<2>({g, g}, joint_names(Q2d())));

@@ -2,8 +2,8 @@
 /// @file A law that acts on some of the joints.
 #pragma once
 
+#include "articula/control/composition/part_scope.hpp"
 #include "articula/control/laws/control_law.hpp"
-#include "articula/control/laws/part_scope.hpp"
 #include "articula/control/laws/valid_gains.hpp"
 #include "articula/model/robot.hpp"
 
@@ -64,16 +64,11 @@ class OnJoints {
     return chosen(law_.output({in.state, in.reference, in.period, in.applied, chosen(in.cut)}));
   }
 
-  /// Goes on with other gains. Real-time: yes.
-  template <class Gains>
-    requires TakesGains<Law, Gains>
-  void set_gains(const Gains& gains) noexcept {
-    law_.set_gains(gains);
-  }
-
-  /// Calls function(law, scope).
-  void for_each_part(auto&& function) const { function(law_, PartScope<N>{.joints = chosen_}); }
-  void for_each_part(auto&& function) { function(law_, PartScope<N>{.joints = chosen_}); }
+  /// The law as a part, and its joints; see HasParts.
+  static auto parts(auto& self) noexcept { return std::tie(self.law_); }
+  /// @copydoc parts
+  /// Real-time: yes.
+  [[nodiscard]] PartScope<N> part_scope(std::size_t) const noexcept { return {.joints = chosen_}; }
 
  private:
   /// The values of the law's joints; a NaN of another joint does not get through.

@@ -2,9 +2,9 @@
 /// @file A controller as the sum of laws, within the drives' limits.
 #pragma once
 
-#include "articula/control/laws/command_range.hpp"
+#include "articula/command/command_range.hpp"
+#include "articula/control/composition/set_gains.hpp"
 #include "articula/control/laws/control_law.hpp"
-#include "articula/control/laws/valid_gains.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/scalar.hpp"
@@ -92,16 +92,13 @@ class SumController {
     requires(TakesGains<Laws, Gains> || ...)
   void set_gains(const Gains& gains) noexcept {
     for_each_law([&](auto& law) noexcept {
-      if constexpr (TakesGains<decltype(law), Gains>) law.set_gains(gains);
+      if constexpr (TakesGains<decltype(law), Gains>) articula::set_gains(law, gains);
     });
   }
 
-  /// Calls function(law) for each of the laws.
-  void for_each_part(auto&& function) const {
-    std::apply([&](const auto&... law) { (function(law), ...); }, laws_);
-  }
-  void for_each_part(auto&& function) {
-    std::apply([&](auto&... law) { (function(law), ...); }, laws_);
+  /// The laws as parts; see HasParts.
+  static auto parts(auto& self) noexcept {
+    return std::apply([](auto&... laws) { return std::tie(laws...); }, self.laws_);
   }
 
   /// One of the laws, by its type.

@@ -43,10 +43,4 @@ class ValidGains {
   Values values_{};
 };
 
-/// A law or controller that can go on with other gains of the kind `Gains` between two cycles.
-template <class L, class Gains>
-concept TakesGains = requires(L law, const Gains& gains) {
-  { law.set_gains(gains) } noexcept;
-};
-
 }  // namespace articula

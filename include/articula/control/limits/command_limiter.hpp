@@ -2,7 +2,7 @@
 /// @file Limits for each kind of command, as Limited applies them.
 #pragma once
 
-#include "articula/control/laws/drive_spring.hpp"
+#include "articula/command/drive_spring.hpp"
 #include "articula/control/limits/effort_limiter.hpp"
 #include "articula/control/limits/limit_motion.hpp"
 #include "articula/control/limits/limit_position.hpp"

@@ -2,7 +2,7 @@
 /// @file A controller whose commands keep limits.
 #pragma once
 
-#include "articula/control/laws/command_numbers.hpp"
+#include "articula/command/command_numbers.hpp"
 #include "articula/control/laws/valid_gains.hpp"
 #include "articula/control/limits/lane_limiters.hpp"
 #include "articula/core/controller_check.hpp"
@@ -45,7 +45,6 @@ template <Robot R, class C, class S = ScalarOf<C>>
 class Limited {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
-  using ControllerType = C;
   using Scalar = S;
   using Command = typename detail::CheckedController<C, joint_count, S>::Command;
   using Input = ControlInput<joint_count, S>;
@@ -128,16 +127,8 @@ class Limited {
   [[nodiscard]] C& controller() noexcept { return controller_; }
   [[nodiscard]] const C& controller() const noexcept { return controller_; }
 
-  /// Calls function(controller).
-  void for_each_part(auto&& function) const { function(controller_); }
-  void for_each_part(auto&& function) { function(controller_); }
-
-  /// Goes on with other gains of the controller. Real-time: yes.
-  template <class Gains>
-    requires TakesGains<C, Gains>
-  void set_gains(const Gains& gains) noexcept {
-    controller_.set_gains(gains);
-  }
+  /// The controller as a part; see HasParts.
+  static auto parts(auto& self) noexcept { return std::tie(self.controller_); }
 
  private:
   using Vector = JointVector<joint_count, S>;

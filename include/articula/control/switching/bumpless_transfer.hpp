@@ -2,8 +2,8 @@
 /// @file Bumpless transfer between the commands of two controllers.
 #pragma once
 
-#include "articula/control/laws/command_numbers.hpp"
-#include "articula/control/laws/command_range.hpp"
+#include "articula/command/command_numbers.hpp"
+#include "articula/command/command_range.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"

@@ -2,8 +2,8 @@
 /// @file The selection of the active controller among several.
 #pragma once
 
+#include "articula/control/composition/controller_tuple.hpp"
 #include "articula/control/safety/standby.hpp"
-#include "articula/control/switching/controller_tuple.hpp"
 #include "articula/control/switching/switch_board.hpp"
 #include "articula/control/switching/switch_options.hpp"
 
@@ -49,14 +49,6 @@ class ControllerSelector : public ControllerTuple<Controllers...> {
   /// The plan of which controllers are active, for compositions such as Groups. Real-time: yes.
   [[nodiscard]] SwitchBoard<controller_count>& board() noexcept { return board_; }
   [[nodiscard]] const SwitchBoard<controller_count>& board() const noexcept { return board_; }
-
-  /// Calls function(controller) for each of the controllers.
-  void for_each_part(auto&& function) const {
-    this->for_each([&](const auto& controller, std::size_t) { function(controller); });
-  }
-  void for_each_part(auto&& function) {
-    this->for_each([&](auto& controller, std::size_t) { function(controller); });
-  }
 
  protected:
   static constexpr std::size_t none = controller_count;

@@ -2,11 +2,11 @@
 /// @file Controllers for groups of a robot's joints, each at its own rate.
 #pragma once
 
-#include "articula/control/laws/command_numbers.hpp"
-#include "articula/control/laws/part_scope.hpp"
+#include "articula/command/command_numbers.hpp"
+#include "articula/control/composition/controller_tuple.hpp"
+#include "articula/control/composition/part_scope.hpp"
 #include "articula/control/safety/damping_effort.hpp"
 #include "articula/control/safety/safe_command.hpp"
-#include "articula/control/switching/controller_tuple.hpp"
 #include "articula/control/switching/group_state.hpp"
 #include "articula/control/switching/joint_group.hpp"
 #include "articula/control/switching/switch_board.hpp"
@@ -155,22 +155,15 @@ class Groups : public ControllerTuple<Controllers...> {
     return all;
   }
 
-  /// Calls function(controller, scope) for each of the controllers.
-  void for_each_part(auto&& function) const {
-    this->for_each([&](const auto& controller, std::size_t g) { function(controller, scope(g)); });
-  }
-  void for_each_part(auto&& function) {
-    this->for_each([&](auto& controller, std::size_t g) { function(controller, scope(g)); });
+  /// The joints and the rate of a group; see HasParts. Real-time: yes.
+  [[nodiscard]] PartScope<joint_count> part_scope(std::size_t group) const noexcept {
+    return {.joints = groups_[group].joints, .divisor = groups_[group].divisor};
   }
 
  private:
   using Vector = JointVector<joint_count, Scalar>;
   using Reference = JointReference<joint_count, Scalar>;
   using Group = detail::GroupState<joint_count, Scalar>;
-
-  [[nodiscard]] PartScope<joint_count> scope(std::size_t g) const noexcept {
-    return {.joints = groups_[g].joints, .divisor = groups_[g].divisor};
-  }
 
   /// @tparam has_reference  whether the reference of all joints is finite
   template <bool has_reference>

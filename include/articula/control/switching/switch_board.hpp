@@ -2,14 +2,17 @@
 /// @file The choice of active controllers: requests checked and planned.
 #pragma once
 
+#include "articula/control/composition/parts.hpp"
 #include "articula/control/switching/switch_request.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/text/similar_word.hpp"
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -165,37 +168,30 @@ concept Switching = requires(C controller, const SwitchRequest& request) {
   { controller.list() } noexcept -> std::same_as<std::array<ControllerInfo, C::controller_count>>;
 };
 
-/// The Switch or Groups in a controller: itself, or what a Limited one limits. Real-time: yes.
-template <class C>
-[[nodiscard]] auto& switch_in(C& controller) noexcept {
-  if constexpr (Switching<std::remove_const_t<C>>) {
-    return controller;
-  } else {
-    return switch_in(controller.controller());
-  }
-}
-
 namespace detail {
 
-/// A controller's own name, or one by its place in a list.
+/// A controller's own name, that of its one part, or one by its place in a list.
 template <class C>
 [[nodiscard]] Name own_name(std::size_t place) {
   if constexpr (requires { C::name; }) {
     return C::name;
-  } else if constexpr (requires { typename C::ControllerType; }) {  // of a Limited one
-    return own_name<typename C::ControllerType>(place);
-  } else {
-    return message_of({"controller_", place + 1});
+  } else if constexpr (HasParts<C>) {
+    if constexpr (std::tuple_size_v<PartsOf<C>> == 1) {
+      return own_name<std::remove_cvref_t<std::tuple_element_t<0, PartsOf<C>>>>(place);
+    }
   }
+  return message_of({"controller_", place + 1});
 }
 
-/// How many controllers can be switched in a controller.
+/// How many controllers can be switched in a controller: in itself, or in its parts.
 template <class C>
 [[nodiscard]] consteval std::size_t count_switched() {
   if constexpr (Switching<C>) {
     return C::controller_count;
-  } else if constexpr (requires { typename C::ControllerType; }) {
-    return count_switched<typename C::ControllerType>();
+  } else if constexpr (HasParts<C>) {
+    return []<class... Parts>(std::type_identity<std::tuple<Parts...>>) {
+      return (count_switched<std::remove_cvref_t<Parts>>() + ... + std::size_t{0});
+    }(std::type_identity<PartsOf<C>>());
   } else {
     return 0;
   }
@@ -204,6 +200,32 @@ template <class C>
 template <class C>
 inline constexpr std::size_t switch_size = count_switched<C>();
 
+/// Which of several parts has the controllers that can be switched.
+template <class... Parts>
+[[nodiscard]] consteval std::size_t place_of_switch(std::type_identity<std::tuple<Parts...>>) {
+  const std::array<bool, sizeof...(Parts)> have{switch_size<std::remove_cvref_t<Parts>> > 0 ...};
+  return static_cast<std::size_t>(std::find(have.begin(), have.end(), true) - have.begin());
+}
+
 }  // namespace detail
+
+/// The Switch or Groups in a controller: itself, or in one of its parts. Real-time: yes.
+template <class C>
+[[nodiscard]] auto& switch_in(C& controller) noexcept {
+  using Own = std::remove_const_t<C>;
+  static_assert(detail::switch_size<Own> > 0, "there is no Switch or Groups in this controller");
+  if constexpr (Switching<Own>) {
+    return controller;
+  } else {
+    using Parts = detail::PartsOf<C>;
+    auto& part =
+        std::get<detail::place_of_switch(std::type_identity<Parts>())>(Own::parts(controller));
+    static_assert(
+        detail::switch_size<std::remove_cvref_t<decltype(part)>> == detail::switch_size<Own>,
+        "several parts of this controller are a Switch or Groups: pass the one that is "
+        "meant");
+    return switch_in(part);
+  }
+}
 
 }  // namespace articula

@@ -72,7 +72,7 @@ enum class SwitchAnswer : unsigned char {
 };
 
 /// The answer to a request. A refused strict request changes nothing.
-struct SwitchOutcome {
+struct [[nodiscard]] SwitchOutcome {
   SwitchAnswer answer = SwitchAnswer::done;  ///< done, or the first obstacle
   Name controller{};                         ///< the controller of that obstacle, else empty
   int started = 0;                           ///< how many controllers start

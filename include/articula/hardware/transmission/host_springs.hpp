@@ -2,7 +2,7 @@
 /// @file Springs and dampers for drives that take only efforts.
 #pragma once
 
-#include "articula/control/laws/drive_spring.hpp"
+#include "articula/command/drive_spring.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"

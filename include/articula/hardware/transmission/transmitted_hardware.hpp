@@ -2,7 +2,7 @@
 /// @file Hardware with transmissions between its joints and the actuators of other hardware.
 #pragma once
 
-#include "articula/control/laws/drive_spring.hpp"
+#include "articula/command/drive_spring.hpp"
 #include "articula/core/hardware.hpp"
 #include "articula/core/joint_array.hpp"
 #include "articula/core/refuse.hpp"

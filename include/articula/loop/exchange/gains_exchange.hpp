@@ -2,6 +2,7 @@
 /// @file New gains for a running controller, from another thread.
 #pragma once
 
+#include "articula/control/composition/set_gains.hpp"
 #include "articula/control/laws/valid_gains.hpp"
 #include "articula/core/joint_array.hpp"
 #include "articula/core/name.hpp"
@@ -20,7 +21,7 @@ namespace articula {
 ///     exchange.offer(gains);               // another thread: throws if the gains are bad
 ///     exchange.apply(loop.controller());   // the control thread, between two cycles
 ///
-/// In the loop's own thread, call the controller's `set_gains` instead.
+/// In the loop's own thread, call `set_gains(loop.controller(), gains)` instead.
 /// @tparam G  the gains of one joint: PidGains, ImpedanceGains or your own, with `validate`
 template <class G, int N>
 class GainsExchange {
@@ -47,23 +48,14 @@ class GainsExchange {
 
   /// Gives the controller the latest gains, if there are any that it does not have yet. For the
   /// control thread, between two cycles.
-  /// @param controller  has a noexcept set_gains(ValidGains<G, N>); of a Switch or Groups in which
-  ///                    several have, the one that is meant: `member<I>()`
+  /// @param controller  takes them, as `set_gains` says
   /// @return whether there were some
   /// Real-time: yes. Wait-free.
   template <class C>
   bool apply(C& controller) noexcept {
-    if constexpr (TakesGains<C, ValidGains<G, N>>) {
-      if (!latest_.update()) return false;
-      controller.set_gains(latest_.value());
-      return true;
-    } else {
-      static_assert(TakesGains<C, ValidGains<G, N>>,
-                    "this controller does not take such gains for N joints: of several in a Switch "
-                    "or Groups pass the one that is meant, apply(loop.controller().member<I>()); "
-                    "your own controller needs set_gains(const ValidGains<G, N>&) noexcept");
-      return false;
-    }
+    if (!latest_.update()) return false;
+    set_gains(controller, latest_.value());
+    return true;
   }
 
  private:

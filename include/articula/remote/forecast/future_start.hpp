@@ -2,7 +2,7 @@
 /// @file The beginning of a question's futures, and the reference that they follow.
 #pragma once
 
-#include "articula/core/command_parts.hpp"
+#include "articula/command/command_parts.hpp"
 #include "articula/core/finite.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/futures/futures.hpp"

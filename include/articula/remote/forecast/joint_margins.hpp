@@ -2,7 +2,7 @@
 /// @file The stability margins of all laws of a controller, joint by joint.
 #pragma once
 
-#include "articula/control/laws/part_scope.hpp"
+#include "articula/control/composition/parts.hpp"
 #include "articula/control/laws/sampled_feedback.hpp"
 #include "articula/control/switching/switch_board.hpp"
 #include "articula/model/robot.hpp"
@@ -49,11 +49,9 @@ class MarginCollector {
         if (scope.joints[j] == 0 || law.of_velocity) continue;
         add_joint(j, law, scope, controller);
       }
-    } else if constexpr (requires { part.for_each_part([](const auto&...) {}); }) {
-      std::size_t place = 0;
-      part.for_each_part([&](const auto& own, const PartScope<joint_count>& inner = {}) {
+    } else if constexpr (HasParts<Part>) {
+      for_each_part(part, [&](const auto& own, std::size_t number) {
         using Own = std::remove_cvref_t<decltype(own)>;
-        const std::size_t number = place++;
         std::string name = controller;
         if constexpr (requires { part.name_of(number); }) {
           if (part.list()[number].status != ControllerStatus::active) return;
@@ -61,7 +59,7 @@ class MarginCollector {
         } else if constexpr (requires { Part::group_count; }) {
           name = articula::detail::own_name<Own>(number).view();
         }
-        this->add(own, scope.of(inner), name);
+        this->add(own, scope.of(scope_of_part<joint_count>(part, number)), name);
       });
     }
   }

@@ -2,9 +2,9 @@
 /// @file The gains of a controller as parameters with names.
 #pragma once
 
-#include "articula/control/laws/part_scope.hpp"
+#include "articula/command/command_parts.hpp"
+#include "articula/control/composition/parts.hpp"
 #include "articula/control/switching/switch_board.hpp"
-#include "articula/core/command_parts.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/remote/gains/gain_holder.hpp"
@@ -28,8 +28,8 @@ template <class Part, int N>
 concept HasGains =
     requires(const Part& part) { part.gains()[0]; } &&
     (!gain_fields<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>>.empty()) &&
-    TakesGains<
-        Part, ValidGains<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>, N>>;
+    SetsGains<Part,
+              ValidGains<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>, N>>;
 
 /// The unit of a command's numbers.
 template <class Command>
@@ -123,20 +123,18 @@ class GainParameters {
            NameIterator end) {
     if constexpr (HasGains<Part, joint_count>) {
       add_gains(part, scope, name);
-    } else if constexpr (requires { part.for_each_part([](auto&, const auto&...) {}); }) {
-      std::size_t place = 0;
-      part.for_each_part([&](auto& own, const Scope& inner = {}) {
+    } else if constexpr (HasParts<Part>) {
+      articula::detail::for_each_part(part, [&](auto& own, std::size_t number) {
         using Own = std::remove_cvref_t<decltype(own)>;
-        const std::size_t number = place++;
+        const Scope inner = scope.of(articula::detail::scope_of_part<joint_count>(part, number));
         if constexpr (requires { part.name_of(number); }) {
           NameIterator none = end;  // a Switch within a Switch is not switched from outside
-          add(own, scope.of(inner),
-              next != end ? *next++ : std::string(part.name_of(number).view()), none, end);
+          add(own, inner, next != end ? *next++ : std::string(part.name_of(number).view()), none,
+              end);
         } else if constexpr (requires { Part::group_count; }) {
-          add(own, scope.of(inner), std::string(articula::detail::own_name<Own>(number).view()),
-              next, end);
+          add(own, inner, std::string(articula::detail::own_name<Own>(number).view()), next, end);
         } else {
-          add(own, scope.of(inner), name, next, end);
+          add(own, inner, name, next, end);
         }
       });
     }

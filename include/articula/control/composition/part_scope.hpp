@@ -6,8 +6,7 @@
 
 namespace articula {
 
-/// What a controller does with the output of one of its parts. `for_each_part` of controllers that
-/// are made of parts calls function(part) or function(part, scope).
+/// What a composition does with the output of one of its parts; see HasParts.
 /// @tparam N  number of joints
 template <int N>
 struct PartScope {

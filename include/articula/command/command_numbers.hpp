@@ -2,7 +2,7 @@
 /// @file The numbers of a command that must not jump.
 #pragma once
 
-#include "articula/control/laws/drive_spring.hpp"
+#include "articula/command/drive_spring.hpp"
 #include "articula/core/joint_command.hpp"
 #include "articula/core/joint_state.hpp"
 

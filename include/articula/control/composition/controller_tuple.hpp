@@ -2,7 +2,6 @@
 /// @file Several controllers in one, as Switch and Groups hold them.
 #pragma once
 
-#include "articula/control/laws/valid_gains.hpp"
 #include "articula/core/controller_check.hpp"
 #include "articula/core/scalar.hpp"
 
@@ -60,25 +59,10 @@ class ControllerTuple {
     return std::get<C>(controllers_);
   }
 
-  /// A compile-time error: several controllers take such gains. (As it may throw, TakesGains is
-  /// false.)
-  template <class Gains>
-    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) > 1)
-  void set_gains(const Gains&) {
-    static_assert(
-        sizeof(Gains) == 0,
-        "several controllers take such gains: write member<I>().set_gains(gains) for the one "
-        "that is meant");
-  }
-
-  /// Goes on with other gains of the one controller that takes them. Where several do, write
-  /// `member<I>().set_gains(gains)`. Real-time: yes.
-  template <class Gains>
-    requires(((TakesGains<Controllers, Gains> ? 1 : 0) + ...) == 1)
-  void set_gains(const Gains& gains) noexcept {
-    for_each([&](auto& controller, std::size_t) noexcept {
-      if constexpr (TakesGains<decltype(controller), Gains>) controller.set_gains(gains);
-    });
+  /// The controllers as parts; see HasParts.
+  static auto parts(auto& self) noexcept {
+    return std::apply([](auto&... controllers) { return std::tie(controllers...); },
+                      self.controllers_);
   }
 
  protected:
