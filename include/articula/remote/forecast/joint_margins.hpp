@@ -50,8 +50,10 @@ class MarginCollector {
         add_joint(j, law, scope, controller);
       }
     } else if constexpr (HasParts<Part>) {
-      for_each_part(part, [&](const auto& own, std::size_t number) {
+      articula::detail::for_each_part(part, [&](const auto& own, std::size_t number) {
         using Own = std::remove_cvref_t<decltype(own)>;
+        const PartScope<joint_count> inner =
+            scope.of(articula::detail::scope_of_part<joint_count>(part, number));
         std::string name = controller;
         if constexpr (requires { part.name_of(number); }) {
           if (part.list()[number].status != ControllerStatus::active) return;
@@ -59,7 +61,7 @@ class MarginCollector {
         } else if constexpr (requires { Part::group_count; }) {
           name = articula::detail::own_name<Own>(number).view();
         }
-        this->add(own, scope.of(scope_of_part<joint_count>(part, number)), name);
+        this->add(own, inner, name);
       });
     }
   }
