@@ -78,17 +78,11 @@ class JointSensors {
   }
   void add_noise(JointState<N, S>& state) const noexcept {
     for (int j = 0; j < N; ++j) {
-      S position(0), velocity(0), effort(0);
-      for (int k = 0; k < lanes<S>; ++k) {
-        const NormalPair motion = normal_noise(seeds_[k], cycle_, j, 1);
-        set_lane(position, k, motion.first);
-        set_lane(velocity, k, motion.second);
-        if (lane_of(effort_noise_[j], k) == 0) continue;
-        set_lane(effort, k, normal_noise(seeds_[k], cycle_, j, 2).first);
-      }
+      const auto [position, velocity] = normal_noise<S>(seeds_, cycle_, j, 1);
       state.position[j] += position_noise_[j] * position;
       state.velocity[j] += velocity_noise_[j] * velocity;
-      state.effort[j] += effort_noise_[j] * effort;
+      if (all_of(effort_noise_[j] == 0)) continue;
+      state.effort[j] += effort_noise_[j] * normal_noise<S>(seeds_, cycle_, j, 2).first;
     }
   }
 

@@ -4,6 +4,7 @@
 
 #include "articula/command/command_parts.hpp"
 #include "articula/control/composition/parts.hpp"
+#include "articula/control/composition/set_gains.hpp"
 #include "articula/control/switching/switch_board.hpp"
 #include "articula/core/controller.hpp"
 #include "articula/model/robot.hpp"
