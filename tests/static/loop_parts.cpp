@@ -55,6 +55,9 @@ struct Limp {
 #else
   void start(const ControlInput<N>&) START_NOEXCEPT {}
 #endif
+#ifdef PARTS_OF_ONE_OBJECT
+  auto parts() noexcept { return std::tie(*this); }
+#endif
 #ifdef BRAKE_MAY_THROW
   Command<N> brake(const ControlInput<N>&) { return {}; }
 #endif

@@ -16,6 +16,7 @@
 #include <random>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 using namespace articula;
@@ -27,6 +28,15 @@ template <class R>
 using Controllers = Switch<R, Pid<R>, PidPlusGravity<R>>;
 template <class R>
 using CarefulPid = Limited<R, Pid<R>>;
+
+/// A composition of one's own.
+template <class C>
+struct Around {
+  C controller;
+
+  auto update(const ControlInput<2>& in) noexcept { return update_controller(controller, in); }
+  static auto parts(auto& self) noexcept { return std::tie(self.controller); }
+};
 template <class R>
 using Parts = Groups<R, Pid<R>, PidPlusGravity<R>>;
 
@@ -269,6 +279,8 @@ TEST_CASE("notices come from all parts of a controller, and not from drives' own
   limits.acceleration.setConstant(100);
   CHECK(count(CarefulPid<Q2d>(limits, pid)) == 2);
   CHECK(count(PositionByVelocity<Q2d>(hard)) == 0);
+  CHECK(count(Around<PositionByVelocity<Q2d>>{PositionByVelocity<Q2d>(hard)}) == 0);
+  CHECK(count(Around<Pid<Q2d>>{pid}) == 2);
   CHECK(count(VelocityByEffort<Q2d>(same<2>({.proportional = 1e5}))) == 2);
   JointImpedanceGains<2> impedance;
   impedance.fill({10, 1e5});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The numbers of a command that must not jump.
+/// @file The efforts, velocities or positions that a command makes.
 #pragma once
 
 #include "articula/command/drive_spring.hpp"

@@ -107,7 +107,8 @@ using CommandOf = typename detail::CommandIn<decltype(detail::called(
 /// - `brake(const ControlInput<N>&)`, if there is one, brakes the joints: see Brakes.
 ///
 /// The caller guarantees that state, reference and period are finite, and that the period is
-/// positive. No controller checks them. Only `brake` is called with a reference that is not finite.
+/// positive, so a controller need not check them. JointPid does, as it is used without a loop, too.
+/// Only `brake` is called with a reference that is not finite.
 /// Up to three consecutive cycles without a call leave the controller's memory valid. After more,
 /// the caller starts the controller again.
 ///

@@ -8,6 +8,7 @@
 
 #include "articula/core/controller.hpp"
 
+#include <tuple>
 #include <type_traits>
 
 namespace articula::detail {
@@ -49,6 +50,19 @@ struct CheckedUpdate<C, N, S, false> {
                 "robot, see core/controller.hpp");
 };
 
+template <class T>
+inline constexpr bool is_tuple_of_references = false;
+template <class... Parts>
+inline constexpr bool is_tuple_of_references<std::tuple<Parts...>> =
+    (std::is_lvalue_reference_v<Parts> && ...);
+
+/// A controller has no `parts`, or shows its parts as control/composition/parts.hpp says.
+template <class C>
+concept PartsFit =
+    !(requires(C& c) { c.parts(); } || requires(C& c) { C::parts(c); }) ||
+    (requires(C& c) { requires is_tuple_of_references<decltype(C::parts(c))>; } &&
+     requires(const C& c) { requires is_tuple_of_references<decltype(C::parts(c))>; });
+
 /// Asserts all that the concept Controller demands, one thing at a time.
 /// @tparam N  number of joints
 /// @tparam S  type of a number
@@ -62,6 +76,9 @@ struct CheckedController : CheckedUpdate<C, N, S> {
       BrakeFits<C, N, S>,
       "brake of the controller must be noexcept, take a const ControlInput<N>& and return "
       "what update returns, see core/controller.hpp");
+  static_assert(PartsFit<C>,
+                "parts of the controller must be static auto parts(auto& self) noexcept and return "
+                "std::tie of members, see control/composition/parts.hpp");
 };
 
 }  // namespace articula::detail

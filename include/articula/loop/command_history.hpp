@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The past of a loop's commands, as its controller learns it.
+/// @file The last commands of a loop: what reached the drives, and whether it held the joints.
 #pragma once
 
 #include "articula/command/command_numbers.hpp"

@@ -52,9 +52,10 @@ template <class C>
   if constexpr (std::default_initializable<C>) {
     return C();
   } else {
-    static_assert(std::default_initializable<C>,
-                  "this controller has no default gains for this robot: add pid_gains to the "
-                  "robot, or pass a controller");
+    static_assert(
+        std::default_initializable<C>,
+        "this controller cannot be made by default: pass a controller, or add pid_gains to "
+        "the robot if the controller takes its gains from there");
     std::terminate();
   }
 }

@@ -40,7 +40,7 @@ class Published {
     condition_.mode = is_supervised<LoopType> ? LoopMode::inactive : LoopMode::active;
   }
 
-  /// Takes over what is new, and tells the clients of events.
+  /// Takes over what is new, and sends events to the clients.
   void collect(Clients& clients) {
     for (ConditionChange<joint_count> change; rings_.changes.pop(change);) note(change, clients);
     for (Record record; rings_.records.pop(record);) note(record, clients);

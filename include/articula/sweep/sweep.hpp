@@ -24,7 +24,7 @@ namespace articula {
 
 namespace detail {
 
-/// Adds the runs of a chunk to a result, and tells the hooks.
+/// Adds the runs of a chunk to a result, and calls the hooks.
 /// @return  false if the hooks end the sweep
 template <class Hooks>
 [[nodiscard]] bool collect(const ComputedChunk& chunk, SweepResult& result, const Hooks& hooks) {

@@ -4,6 +4,7 @@
 
 #include "articula/control/composition/parts.hpp"
 #include "articula/control/laws/sampled_feedback.hpp"
+#include "articula/core/controller.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/tuning/joint_plant.hpp"
@@ -183,8 +184,8 @@ void add_gain_notices(const R& robot, const Part& part, const PartScope<joint_co
       if (joint.unstable()) notices.push_back(gain_notice(model_of(robot).joints[j], joint));
     }
   } else if constexpr (HasParts<Part>) {
-    for_each_part(part, [&](const auto& own, std::size_t place) {
-      const auto inner = scope.of(scope_of_part<joint_count<R>>(part, place));
+    for_each_part(part, [&](const auto& own, std::size_t index) {
+      const auto inner = scope.of(scope_of_part<joint_count<R>>(part, index));
       add_gain_notices(robot, own, inner, q, period, notices);
     });
   }
@@ -212,9 +213,8 @@ template <Robot R, class C>
                                                     const JointVector<joint_count<R>>& q,
                                                     double period) {
   std::vector<std::string> notices;
-  if constexpr (
-      !requires { typename C::Command; } ||
-      requires(typename C::Command command) { command.effort; }) {
+  constexpr bool is_law = !requires { typename CommandOf<C, joint_count<R>>; };
+  if constexpr (is_law || requires(CommandOf<C, joint_count<R>> command) { command.effort; }) {
     detail::add_gain_notices(robot, controller, {}, q, period, notices);
   }
   return notices;

@@ -44,6 +44,23 @@ const Q2d robot;
 const PidGains seven{.proportional = 7};
 const ValidPidGains<2> sevens({seven, seven}, joint_names(Q2d()));
 
+/// Functions `parts` that are none.
+struct OfOneObject : Pid<Q2d> {
+  auto parts() noexcept { return std::tie(*this); }
+};
+struct OfNonConstant : Pid<Q2d> {
+  static auto parts(OfNonConstant& self) noexcept { return std::tie(self); }
+};
+struct OfCopies : Pid<Q2d> {
+  static auto parts(auto& self) noexcept { return std::make_tuple(self); }
+};
+struct OfNoTuple : Pid<Q2d> {
+  static auto& parts(auto& self) noexcept { return self; }
+};
+static_assert(detail::PartsFit<Pid<Q2d>> && detail::PartsFit<HalfEfforts<Pid<Q2d>>>);
+static_assert(!detail::PartsFit<OfOneObject> && !detail::PartsFit<OfNonConstant>);
+static_assert(!detail::PartsFit<OfCopies> && !detail::PartsFit<OfNoTuple>);
+
 }  // namespace
 
 TEST_CASE("gains reach the law in compositions of one's own") {
@@ -52,6 +69,7 @@ TEST_CASE("gains reach the law in compositions of one's own") {
   HalfEfforts<Limited<Q2d, Pid<Q2d>>> half{{limits, Pid<Q2d>()}};
   static_assert(TakesGains<decltype(half), ValidPidGains<2>>);
   static_assert(!TakesGains<decltype(half), ValidImpedanceGains<2>>);
+  static_assert(!TakesGains<const decltype(half), ValidPidGains<2>>);
   set_gains(half, sevens);
   CHECK(half.controller.controller().part<PidLaw<2>>().gains()[1].proportional == 7);
 
@@ -75,7 +93,7 @@ TEST_CASE("a variant among the parts is the controller that it holds") {
 
 TEST_CASE("a switch in compositions of one's own takes requests") {
   using Two = Switch<Q2d, PidPlusGravity<Q2d>, ComputedTorque<Q2d>>;
-  Loop loop{Q2dSim(), HalfEfforts<HalfEfforts<Two>>{{Two()}}};
+  ControlLoop<Q2dSim, HalfEfforts<HalfEfforts<Two>>> loop;
   SwitchExchange exchange(loop.controller());
   static_assert(std::same_as<decltype(exchange), SwitchExchange<2>>);
   CHECK(switch_in(loop.controller()).list()[1].name == Name("computed_torque"));

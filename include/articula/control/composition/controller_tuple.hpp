@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Several controllers in one, as Switch and Groups hold them.
+/// @file The members of Switch and Groups.
 #pragma once
 
 #include "articula/core/controller_check.hpp"
@@ -45,9 +45,13 @@ using CommandOfAll = typename CheckedControllers<N, Controllers...>::Command;
 template <class... Controllers>
 class ControllerTuple {
  public:
-  /// One of the controllers, by its place in the list or its type.
+  /// One of the controllers, by its index in the list or its type.
   template <std::size_t I>
   [[nodiscard]] auto& member() noexcept {
+    return std::get<I>(controllers_);
+  }
+  template <std::size_t I>
+  [[nodiscard]] const auto& member() const noexcept {
     return std::get<I>(controllers_);
   }
   template <class C>
@@ -68,7 +72,7 @@ class ControllerTuple {
  protected:
   explicit ControllerTuple(Controllers... controllers) : controllers_(std::move(controllers)...) {}
 
-  /// Calls function(controller, place) for each of the controllers.
+  /// Calls function(controller, index) for each of the controllers.
   void for_each(auto&& function) { visit(controllers_, function); }
   void for_each(auto&& function) const { visit(controllers_, function); }
 

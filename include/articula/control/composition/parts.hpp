@@ -20,8 +20,9 @@ namespace articula {
 /// The gains of the parts can then be set, are checked in `loop.notices()` and are parameters of a
 /// Remote. A Switch among the parts takes requests. Without the function nothing of this is known.
 ///
-/// - A std::variant among the parts stands for the one that it holds.
-/// - `part_scope(place)` gives the PartScope of a part, by its place in the tuple. A composition
+/// - For notices and parameters, a std::variant among the parts stands for the one that it holds.
+///   `set_gains` and requests to a Switch do not reach into it.
+/// - `part_scope(index)` gives the PartScope of a part, by its index in the tuple. A composition
 ///   that uses all joints of its parts in every cycle has no need of it.
 template <class C>
 concept HasParts = requires(C& composition) { std::remove_const_t<C>::parts(composition); };
@@ -36,17 +37,17 @@ inline constexpr bool is_variant = false;
 template <class... Kinds>
 inline constexpr bool is_variant<std::variant<Kinds...>> = true;
 
-/// Calls function(part, place) for each part of a composition.
+/// Calls function(part, index) for each part of a composition.
 template <HasParts C>
 void for_each_part(C& composition, auto&& function) {
-  std::size_t place = 0;
+  std::size_t index = 0;
   const auto visit = [&](auto& part) {
     if constexpr (is_variant<std::remove_cvref_t<decltype(part)>>) {
-      std::visit([&](auto& held) { function(held, place); }, part);
+      std::visit([&](auto& held) { function(held, index); }, part);
     } else {
-      function(part, place);
+      function(part, index);
     }
-    ++place;
+    ++index;
   };
   std::apply([&](auto&... part) { (visit(part), ...); },
              std::remove_const_t<C>::parts(composition));
@@ -54,9 +55,9 @@ void for_each_part(C& composition, auto&& function) {
 
 /// What a composition does with the output of one of its parts. Real-time: yes.
 template <int N, HasParts C>
-[[nodiscard]] PartScope<N> scope_of_part(const C& composition, std::size_t place) noexcept {
-  if constexpr (requires { composition.part_scope(place); }) {
-    return composition.part_scope(place);
+[[nodiscard]] PartScope<N> scope_of_part(const C& composition, std::size_t index) noexcept {
+  if constexpr (requires { composition.part_scope(index); }) {
+    return composition.part_scope(index);
   } else {
     return {};
   }

@@ -75,7 +75,7 @@ using ValidPidGains = ValidGains<BasicPidGains<S>, N>;
 
 /// Refuses gains that make no controller. These are a gain that is not finite or negative, and
 /// clamps that do not contain 0 (the joint would be pushed at rest). So are a time or dead-band
-/// below 0, a weight outside 0 .. 1, back-calculation whose T_t nothing tells.
+/// below 0, a weight outside 0 .. 1, and back-calculation without a T_t.
 /// @param gains  of all joints
 /// @param names  of the same joints, for the message
 /// @param signs  which p, i and d may have; with `any` the output clamps need not contain 0

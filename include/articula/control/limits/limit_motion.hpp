@@ -121,16 +121,16 @@ inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
 ///
 /// @param now       the motion in the last cycle
 /// @param velocity  the request, v_(k+1) [rad/s or m/s]; if it is not finite, the joint brakes
-/// @param given     limits of the joint
+/// @param joint_limits     limits of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// @param slack     rounding that does not count as beyond a limit
 /// @param report    limits that changed the request before; this step adds its own
 /// Real-time: yes. At most 61 stops are computed.
 [[nodiscard]] inline MotionStep limit_motion(StoppingMotion now, double velocity,
-                                             const JointCommandLimits& given, double period,
+                                             const JointCommandLimits& joint_limits, double period,
                                              const CommandSlack& slack = {},
                                              JointLimitReport report = {}) noexcept {
-  const JointCommandLimits limits = given.bounded();
+  const JointCommandLimits limits = joint_limits.bounded();
   detail::set_period(now, limits, period);
   StoppingMotion braking = now;
   braking.advance();
@@ -193,13 +193,13 @@ inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
 /// @param now       the motion in the last cycle
 /// @param position  measured [rad or m]; ignored if not finite
 /// @param velocity  the request [rad/s or m/s]; if it is not finite, the joint brakes
-/// @param given     limits of the joint
+/// @param joint_limits     limits of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// Real-time: yes. At most 61 stops are computed.
 [[nodiscard]] inline MotionStep limit_velocity(StoppingMotion now, double position, double velocity,
-                                               const JointCommandLimits& given,
+                                               const JointCommandLimits& joint_limits,
                                                double period) noexcept {
-  const JointCommandLimits limits = given.bounded();
+  const JointCommandLimits limits = joint_limits.bounded();
   detail::set_period(now, limits, period);
   if (is_finite(position)) {
     now.move_to(position);

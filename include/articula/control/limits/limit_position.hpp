@@ -108,13 +108,13 @@ namespace detail {
 ///                  {.stop = {{.position = q}, limits.deceleration, limits.jerk, period}}
 /// @param position  the request [rad or m]; if it is not finite, the joint brakes, and approaches the
 ///                  next request as after a start
-/// @param given     limits of the joint
+/// @param joint_limits     limits of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// Real-time: yes. At most 95 stops are computed.
 [[nodiscard]] inline PositionStep limit_position(PositionLimitState state, double position,
-                                                 const JointCommandLimits& given,
+                                                 const JointCommandLimits& joint_limits,
                                                  double period) noexcept {
-  const JointCommandLimits limits = given.bounded();
+  const JointCommandLimits limits = joint_limits.bounded();
   detail::set_period(state.stop, limits, period);
   const double from = state.stop.motion().position;
   const double lowest = std::min(limits.lower, from), highest = std::max(limits.upper, from);

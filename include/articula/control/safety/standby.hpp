@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The controller for times without an active one.
+/// @file The controller that brakes while no other one is active.
 #pragma once
 
 #include "articula/control/safety/damping_effort.hpp"

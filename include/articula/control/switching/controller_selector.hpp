@@ -30,7 +30,7 @@ class ControllerSelector : public ControllerTuple<Controllers...> {
   /// Real-time: yes.
   SwitchOutcome request(const SwitchRequest& request) noexcept { return board_.plan(request); }
 
-  /// The name of a controller, by its place in the list. Real-time: yes.
+  /// The name of a controller, by its index in the list. Real-time: yes.
   [[nodiscard]] const Name& name_of(std::size_t controller) const noexcept {
     return board_.entries[controller].name;
   }
@@ -57,8 +57,8 @@ class ControllerSelector : public ControllerTuple<Controllers...> {
                      Controllers... controllers)
       : ControllerTuple<Controllers...>(std::move(controllers)...),
         standby_(robot, options.damping_time) {
-    std::size_t place = 0;
-    board_.set_names(options.names, {detail::own_name<Controllers>(place++)...});
+    std::size_t index = 0;
+    board_.set_names(options.names, {detail::own_name<Controllers>(index++)...});
     for (const Fallback& fallback : options.fallbacks) {
       std::vector<std::size_t>& own = fallbacks_[board_.known(fallback.controller)];
       for (const Name& name : fallback.instead) {

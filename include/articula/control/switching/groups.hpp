@@ -116,7 +116,7 @@ class Groups : public ControllerTuple<Controllers...> {
     return cycle<false>(in);
   }
 
-  /// Whether a group is active or has failed, by its place in the list. Real-time: yes.
+  /// Whether a group is active or has failed, by its index in the list. Real-time: yes.
   [[nodiscard]] ControllerStatus status_of(std::size_t group) const noexcept {
     return groups_[group].status;
   }
@@ -224,7 +224,7 @@ class Groups : public ControllerTuple<Controllers...> {
     return command;
   }
 
-  /// Calls function(switch, place) for every group that has one.
+  /// Calls function(switch, index) for every group that has one.
   static void for_each_switch(auto& groups, auto function) noexcept {
     groups.for_each([&](auto& controller, std::size_t g) noexcept {
       using C = std::remove_cvref_t<decltype(controller)>;

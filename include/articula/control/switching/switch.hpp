@@ -53,7 +53,11 @@ class Switch : public ControllerSelector<R, Controllers...> {
   using Vector = JointVector<joint_count, Scalar>;
 
   /// The controllers as they are by default.
-  explicit Switch(const SwitchOptions<articula::joint_count<R>>& options = {})
+  Switch()
+    requires DescribedRobot<R> && (std::default_initializable<Controllers> && ...)
+      : Switch(SwitchOptions<articula::joint_count<R>>()) {}
+  /// @copydoc Switch()
+  explicit Switch(const SwitchOptions<articula::joint_count<R>>& options)
     requires DescribedRobot<R> && (std::default_initializable<Controllers> && ...)
       : Switch(options, Controllers()...) {}
 

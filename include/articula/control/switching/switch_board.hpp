@@ -170,17 +170,17 @@ concept Switching = requires(C controller, const SwitchRequest& request) {
 
 namespace detail {
 
-/// A controller's own name, that of its one part, or one by its place in a list.
+/// A controller's own name, that of its one part, or one by its index in a list.
 template <class C>
-[[nodiscard]] Name own_name(std::size_t place) {
+[[nodiscard]] Name own_name(std::size_t index) {
   if constexpr (requires { C::name; }) {
     return C::name;
   } else if constexpr (HasParts<C>) {
     if constexpr (std::tuple_size_v<PartsOf<C>> == 1) {
-      return own_name<std::remove_cvref_t<std::tuple_element_t<0, PartsOf<C>>>>(place);
+      return own_name<std::remove_cvref_t<std::tuple_element_t<0, PartsOf<C>>>>(index);
     }
   }
-  return message_of({"controller_", place + 1});
+  return message_of({"controller_", index + 1});
 }
 
 /// How many controllers can be switched in a controller: in itself, or in its parts.
@@ -202,7 +202,7 @@ inline constexpr std::size_t switch_size = count_switched<C>();
 
 /// Which of several parts has the controllers that can be switched.
 template <class... Parts>
-[[nodiscard]] consteval std::size_t place_of_switch(std::type_identity<std::tuple<Parts...>>) {
+[[nodiscard]] consteval std::size_t index_of_switch(std::type_identity<std::tuple<Parts...>>) {
   const std::array<bool, sizeof...(Parts)> have{switch_size<std::remove_cvref_t<Parts>> > 0 ...};
   return static_cast<std::size_t>(std::find(have.begin(), have.end(), true) - have.begin());
 }
@@ -219,7 +219,7 @@ template <class C>
   } else {
     using Parts = detail::PartsOf<C>;
     auto& part =
-        std::get<detail::place_of_switch(std::type_identity<Parts>())>(Own::parts(controller));
+        std::get<detail::index_of_switch(std::type_identity<Parts>())>(Own::parts(controller));
     static_assert(
         detail::switch_size<std::remove_cvref_t<decltype(part)>> == detail::switch_size<Own>,
         "several parts of this controller are a Switch or Groups: pass the one that is "

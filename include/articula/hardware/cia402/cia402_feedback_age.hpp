@@ -74,7 +74,7 @@ class Cia402FeedbackAge {
     return true;
   }
 
-  /// Notes that the node is told to leave the operational state. What still arrives answers earlier
+  /// Notes a command to the node to leave the operational state. What still arrives answers earlier
   /// SYNCs, so nothing counts until begin_feedback().
   void end_feedback() noexcept {
     cycle_ = {};
@@ -86,7 +86,7 @@ class Cia402FeedbackAge {
   /// Whether the node has sent feedback after the answer to a request that came after the command to
   /// leave the operational state. So it has not got that command, or not yet.
   [[nodiscard]] bool is_still_operational() const noexcept { return is_still_operational_; }
-  /// Notes that the node is told to start now. Without feedback since end_feedback(), it was not
+  /// Notes a command to the node to start now. Without feedback since end_feedback(), it was not
   /// operational, so that it does not answer the SYNCs until now.
   void begin_feedback(const SyncHistory& syncs) noexcept {
     if (std::ranges::any_of(cycle_, [](std::uint64_t cycle) { return cycle > 0; })) return;

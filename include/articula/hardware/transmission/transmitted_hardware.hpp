@@ -86,7 +86,7 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     const Status status = this->hardware_.read(actuators_);
     if (status == Status::hardware_fault) return status;
-    for_each_part([&](const auto& part) noexcept {
+    for_each_transmission([&](const auto& part) noexcept {
       const auto& [gearing, joints, actuators] = part;
       const auto& transmission = gearing.transmission;
       state.position(joints) = transmission.joint_position(actuators_.position(actuators));
@@ -107,7 +107,7 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
               joint_count == sizeof...(Transmissions))
   [[nodiscard]] Status write(const Command& command) noexcept {
     Command converted;
-    for_each_part([&](const auto& part) noexcept {
+    for_each_transmission([&](const auto& part) noexcept {
       const auto& [gearing, joints, actuators] = part;
       const auto& transmission = gearing.transmission;
       if constexpr (requires { command.position; }) {
@@ -207,7 +207,7 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
       if (!std::exchange(has[index], true)) return;
       detail::refuse({"transmissions: ", kind, " '", name.view(), "' occurs twice"});
     };
-    for_each_part([&](const auto& part) {
+    for_each_transmission([&](const auto& part) {
       for (std::size_t k = 0; k < part.joints.size(); ++k) {
         add(has_joint, part.joints[k], "joint", part.gearing.joints[k]);
         add(has_actuator, part.actuators[k], "actuator", part.gearing.actuators[k]);
@@ -216,7 +216,8 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
   }
 
   template <class Action>
-  void for_each_part(const Action& action) const noexcept(noexcept(action(std::get<0>(parts_)))) {
+  void for_each_transmission(const Action& action) const
+      noexcept(noexcept(action(std::get<0>(parts_)))) {
     constexpr bool calm = noexcept(action(std::get<0>(parts_)));
     [&]<std::size_t... I>(std::index_sequence<I...>) noexcept(calm) {
       (action(std::get<I>(parts_)), ...);

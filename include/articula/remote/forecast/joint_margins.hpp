@@ -50,16 +50,16 @@ class MarginCollector {
         add_joint(j, law, scope, controller);
       }
     } else if constexpr (HasParts<Part>) {
-      articula::detail::for_each_part(part, [&](const auto& own, std::size_t number) {
+      articula::detail::for_each_part(part, [&](const auto& own, std::size_t index) {
         using Own = std::remove_cvref_t<decltype(own)>;
         const PartScope<joint_count> inner =
-            scope.of(articula::detail::scope_of_part<joint_count>(part, number));
+            scope.of(articula::detail::scope_of_part<joint_count>(part, index));
         std::string name = controller;
-        if constexpr (requires { part.name_of(number); }) {
-          if (part.list()[number].status != ControllerStatus::active) return;
-          name = part.name_of(number).view();
+        if constexpr (requires { part.name_of(index); }) {
+          if (part.list()[index].status != ControllerStatus::active) return;
+          name = part.name_of(index).view();
         } else if constexpr (requires { Part::group_count; }) {
-          name = articula::detail::own_name<Own>(number).view();
+          name = articula::detail::own_name<Own>(index).view();
         }
         this->add(own, inner, name);
       });

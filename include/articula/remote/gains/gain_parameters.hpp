@@ -29,8 +29,8 @@ template <class Part, int N>
 concept HasGains =
     requires(const Part& part) { part.gains()[0]; } &&
     (!gain_fields<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>>.empty()) &&
-    SetsGains<Part,
-              ValidGains<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>, N>>;
+    articula::detail::SetsGains<
+        Part, ValidGains<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>, N>>;
 
 /// The unit of a command's numbers.
 template <class Command>
@@ -125,15 +125,15 @@ class GainParameters {
     if constexpr (HasGains<Part, joint_count>) {
       add_gains(part, scope, name);
     } else if constexpr (HasParts<Part>) {
-      articula::detail::for_each_part(part, [&](auto& own, std::size_t number) {
+      articula::detail::for_each_part(part, [&](auto& own, std::size_t index) {
         using Own = std::remove_cvref_t<decltype(own)>;
-        const Scope inner = scope.of(articula::detail::scope_of_part<joint_count>(part, number));
-        if constexpr (requires { part.name_of(number); }) {
+        const Scope inner = scope.of(articula::detail::scope_of_part<joint_count>(part, index));
+        if constexpr (requires { part.name_of(index); }) {
           NameIterator none = end;  // a Switch within a Switch is not switched from outside
-          add(own, inner, next != end ? *next++ : std::string(part.name_of(number).view()), none,
+          add(own, inner, next != end ? *next++ : std::string(part.name_of(index).view()), none,
               end);
         } else if constexpr (requires { Part::group_count; }) {
-          add(own, inner, std::string(articula::detail::own_name<Own>(number).view()), next, end);
+          add(own, inner, std::string(articula::detail::own_name<Own>(index).view()), next, end);
         } else {
           add(own, inner, name, next, end);
         }

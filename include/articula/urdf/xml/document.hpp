@@ -129,7 +129,8 @@ class MessageCatcher {
   if (without_masses) detail::remove_inertials(robot);
 
   detail::NoticeList unknown_words, notices;
-  detail::for_each_part(robot, [&](const detail::XmlElement& part, const std::string& owner) {
+  detail::for_each_link_and_joint(robot, [&](const detail::XmlElement& part,
+                                             const std::string& owner) {
     detail::report_unknown_words(part, detail::mechanics_words(), true,
                                  [&](const std::string& text) { unknown_words.add(owner, text); });
     detail::check_duplicates(file, part, owner, notices);
@@ -141,9 +142,10 @@ class MessageCatcher {
   result.notices = notices.lines();
 
   detail::keep_mechanics(file, robot);
-  detail::for_each_part(robot, [&](const detail::XmlElement& part, const std::string& owner) {
-    detail::check_attributes(file, owner, part);
-  });
+  detail::for_each_link_and_joint(robot,
+                                  [&](const detail::XmlElement& part, const std::string& owner) {
+                                    detail::check_attributes(file, owner, part);
+                                  });
   // TinyXML may read odd characters differently from how it writes them. So the checks of the tree,
   // urdfdom and the reader of angles all parse what TinyXML writes.
   detail::XmlPrinter printer;

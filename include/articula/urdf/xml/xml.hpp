@@ -86,7 +86,7 @@ void for_each_child(const XmlElement& parent, const char* name, Use use) {
 
 /// Calls `use` with each link, then with each joint of a robot, and with its owner_text.
 template <class Use>
-void for_each_part(const XmlElement& robot, Use use) {
+void for_each_link_and_joint(const XmlElement& robot, Use use) {
   for (const char* kind : {"link", "joint"}) {
     for_each_child(robot, kind, [&](const XmlElement& part) { use(part, owner_text(part)); });
   }
