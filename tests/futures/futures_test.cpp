@@ -98,6 +98,49 @@ TEST_CASE("a future depends on seed and number alone, in whatever order they are
   CHECK(distance(other[0], fan[0]) > 0);
 }
 
+TEST_CASE("futures in lanes are those of robots that are simulated alone") {
+  Arm arm;
+  move(arm);
+  constexpr int lanes = LaneSimulator<Q2d>::lane_count;
+  const FutureOptions options{.count = lanes + 3};  // the second pack is not full
+  const auto together = futures_of(arm, options);
+  // A model is no type, so its futures are simulated one after the other.
+  const auto alone =
+      futures(model_of(Q2d()), arm.controller(), start_of(arm), arm.hardware().options(), options);
+  REQUIRE(together.size() == alone.size());
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    CAPTURE(k);
+    CHECK(together[k].end == alone[k].end);
+    CHECK(together[k].positions.size() == alone[k].positions.size());
+    // Programs and recursions round differently: 1e-16 in each of 1000 cycles of a stable loop.
+    CHECK(distance(together[k], alone[k]) < 1e-12);
+  }
+}
+
+TEST_CASE("a lane that ends early changes no other one") {
+  // It fails where its robot has moved, which each does in a time of its own.
+  struct Failing {
+    PidPlusGravity<Q2d> law{};
+    Outcome<EffortCommand<2>> update(const ControlInput<2>& in) noexcept {
+      const bool is_beyond = std::abs(in.state.position[0]) > 0.1;
+      return {law.update(in), is_beyond ? Verdict::failed : Verdict::fine};
+    }
+  };
+  Start start;
+  start.reference.position << 0.3, -0.2;
+  const FutureOptions options{.spread = {.mass = 0.5}, .count = 20, .horizon = 0.1};
+  const auto some = futures(Q2d(), Failing(), start, {}, options);
+  const auto alone = futures(model_of(Q2d()), Failing(), start, {}, options);
+  for (std::size_t k = 0; k < some.size(); ++k) {
+    CHECK(some[k].end == alone[k].end);
+    CHECK(some[k].positions.size() == alone[k].positions.size());
+    CHECK(distance(some[k], alone[k]) < 1e-12);  // see above
+  }
+  CHECK(std::any_of(some.begin(), some.end(), [&](const Future<2>& future) {
+    return future.positions.size() != some[0].positions.size();
+  }));
+}
+
 TEST_CASE("each spread alone makes different futures") {
   Arm arm;
   move(arm);
@@ -148,10 +191,12 @@ TEST_CASE("gains that make the arm unstable give unstable futures, and good ones
 TEST_CASE("futures end when they are not wanted any more") {
   const Law law(Q2d::pid_gains);
   int asked = 0;
-  const auto some = futures(Q2d(), law, Start{}, {}, {.count = 10}, [&] { return ++asked < 1000; });
-  CHECK(some.size() == 7);  // a future of 1000 cycles asks 126 times
-  const auto all = futures(Q2d(), law, Start{}, {}, {.count = 10});
-  REQUIRE(all.size() == 10);
+  constexpr int lanes = LaneSimulator<Q2d>::lane_count;  // so many are simulated at once
+  const FutureOptions options{.count = 3 * lanes};
+  const auto some = futures(Q2d(), law, Start{}, {}, options, [&] { return ++asked < 300; });
+  CHECK(some.size() == 2 * lanes);  // futures of 1000 cycles ask 126 times
+  const auto all = futures(Q2d(), law, Start{}, {}, options);
+  REQUIRE(all.size() == 3 * lanes);
   for (std::size_t k = 0; k < some.size(); ++k) CHECK(some[k].positions == all[k].positions);
   CHECK(futures(Q2d(), law, Start{}, {}, {.count = 10}, [] { return false; }).empty());
 }

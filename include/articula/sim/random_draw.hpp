@@ -35,13 +35,4 @@ namespace articula::detail {
   return 1 + spread * (2 * share_of_bits(random_bits(key, number)) - 1);
 }
 
-/// A number with mean 0 and standard deviation 1 from a bell-shaped distribution: the sum of four
-/// equally distributed numbers, at most 3.5 in size. Cheaper than normal_noise. Real-time: yes.
-[[nodiscard]] constexpr double random_noise(std::uint64_t key, std::uint64_t number) noexcept {
-  const std::uint64_t bits = random_bits(key, number);
-  const std::uint64_t sum =
-      (bits & 0xffff) + (bits >> 16 & 0xffff) + (bits >> 32 & 0xffff) + (bits >> 48);
-  return (static_cast<double>(sum) * 0x1p-16 - 2 + 0x1p-15) * 1.7320508075688772;
-}
-
 }  // namespace articula::detail

@@ -4,7 +4,7 @@
 
 #include "articula/core/finite.hpp"
 #include "articula/core/scalar.hpp"
-#include "articula/futures/futures.hpp"
+#include "articula/futures/limit_swings.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/reference/joint_signals.hpp"
 #include "articula/sweep/run_measures.hpp"
