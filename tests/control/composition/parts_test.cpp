@@ -44,6 +44,12 @@ const Q2d robot;
 const PidGains seven{.proportional = 7};
 const ValidPidGains<2> sevens({seven, seven}, joint_names(Q2d()));
 
+struct BesideVariant {
+  Pid<Q2d> own{};
+  std::variant<Pid<Q2d>> other{};
+  static auto parts(auto& self) noexcept { return std::tie(self.own, self.other); }
+};
+
 /// Functions `parts` that are none.
 struct OfOneObject : Pid<Q2d> {
   auto parts() noexcept { return std::tie(*this); }
@@ -113,4 +119,11 @@ TEST_CASE("joints, rate and unit of parts reach through compositions") {
   for (const auto& value : parameters.list()) {
     CHECK(value.name.find("elbow_active_joint") != std::string::npos);
   }
+}
+
+TEST_CASE("gains of a part do not reach into a variant beside it") {
+  BesideVariant both;
+  set_gains(both, sevens);
+  CHECK(both.own.part<PidLaw<2>>().gains()[0].proportional == 7);
+  CHECK(std::get<0>(both.other).part<PidLaw<2>>().gains()[0].proportional != 7);
 }

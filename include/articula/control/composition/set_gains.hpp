@@ -5,6 +5,7 @@
 #include "articula/control/composition/parts.hpp"
 
 #include <cstddef>
+#include <tuple>
 #include <type_traits>
 
 namespace articula {
@@ -56,9 +57,10 @@ void set_gains(C& controller, const Gains& gains) noexcept {
   if constexpr (detail::SetsGains<C, Gains>) {
     controller.set_gains(gains);
   } else if constexpr (takers == 1) {
-    detail::for_each_part(controller, [&](auto& part, std::size_t) noexcept {
+    const auto set = [&](auto& part) noexcept {
       if constexpr (TakesGains<decltype(part), Gains>) set_gains(part, gains);
-    });
+    };
+    std::apply([&](auto&... parts) noexcept { (set(parts), ...); }, C::parts(controller));
   }
 }
 
