@@ -14,6 +14,11 @@
 
 #include "catch.hpp"
 
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <variant>
+
 using namespace articula;
 
 namespace {
