@@ -70,6 +70,7 @@ class Clients {
 
   /// The operator has given a sign of life.
   void note_sign(Clock::time_point now) { last_sign_ = now; }
+  [[nodiscard]] bool has_operator() const { return operator_ != 0; }
   /// Whether there is an operator that has been silent for too long.
   [[nodiscard]] bool operator_is_silent(Clock::time_point now) const {
     return operator_ != 0 && std::chrono::duration<double>(now - last_sign_).count() > lifetime_;

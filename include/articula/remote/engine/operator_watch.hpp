@@ -22,6 +22,7 @@ enum class OperatorLoss : unsigned char {
 ///
 /// - The outside numbers the signs of life, of all operators together. Each task has the number of
 ///   the last sign before it.
+/// - The outside gives a sign whenever it runs and knows of an operator that is not silent yet.
 /// - The loop counts the periods without a sign. So it notices a silence even if all other threads
 ///   hang.
 ///
