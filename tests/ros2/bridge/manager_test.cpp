@@ -233,10 +233,17 @@ TEST_CASE("each distribution gets its layout, and Humble no hashes") {
   CHECK(humble.transport.topics.contains("/tf"));
   CHECK_FALSE(humble.transport.topics.contains("/left/controller_manager/activity"));
   CHECK_FALSE(humble.transport.topics.contains("/left/pid_plus_gravity/speed_scaling_input"));
+  static_cast<void>(humble.ask(articula::remote::Activate{}));
+  humble.run(50);
+  const auto& topics = humble.transport.topics;
+  CHECK(topics.at("/left/pid_plus_gravity/controller_state").count > 0);
+  CHECK(topics.at("/left/pid_plus_gravity/state").count ==
+        topics.at("/left/pid_plus_gravity/controller_state").count);
   BridgedArm rolling({.distribution = Distribution::rolling});
   CHECK(controller<Rolling>(rolling, "computed_torque").update_rate == 1000);
   CHECK(rolling.transport.services.at(manager + "list_controllers")
             .endpoint.hash.starts_with("RIHS01_"));
+  CHECK_FALSE(rolling.transport.topics.contains("/pid_plus_gravity/state"));
 }
 
 TEST_CASE("a client that watches only cannot switch") {

@@ -58,6 +58,7 @@ ControllerTopics::ControllerTopics(BridgeCore& core, const Node& node,
   // The factor is the loop's, so all of its controllers show and set the same one.
   if (core.options.distribution == Distribution::humble) {
     humble_state_.emplace(node, "~/controller_state", quality_of_service::states);
+    humble_old_state_.emplace(node, "~/state", quality_of_service::states);
   } else {
     state_.emplace(node, "~/controller_state", quality_of_service::states);
   }
@@ -86,7 +87,9 @@ void ControllerTopics::update() {
   published_cycle_ = core_.watch.cycle.number;
   const CyclePoints points = points_of(core_.watch.cycle, controller_.indices, core_.port.robot());
   if (humble_state_) {
-    humble_state_->publish(state_of<Humble>(core_.header(), controller_.joints, points, 1));
+    const HumbleState state = state_of<Humble>(core_.header(), controller_.joints, points, 1);
+    humble_state_->publish(state);
+    humble_old_state_->publish(state);
   } else {
     state_->publish(state_of<Jazzy>(core_.header(), controller_.joints, points,
                                     core_.watch.situation.trajectory_speed));

@@ -22,7 +22,7 @@ namespace articula::ros2 {
 /// - in: ~/commands, a number for each joint; ~/<joint>/command, one for a joint; ~/reference, a point for all joints;
 ///   ~/joint_trajectory. They are taken while the controller is active. ~/speed_scaling_input,
 ///   except in Humble;
-/// - out: ~/controller_state, as joint_trajectory_controller publishes it;
+/// - out: ~/controller_state, as joint_trajectory_controller publishes it, in Humble also ~/state;
 /// - the service ~/query_state, which gives the reference at a time that has passed.
 ///
 /// A reference with a velocity holds for BridgeOptions::controls_time. If no other one comes, the
@@ -59,6 +59,7 @@ class ControllerTopics {
   const BridgedController& controller_;
   std::optional<Publisher<State>> state_{};
   std::optional<Publisher<HumbleState>> humble_state_{};
+  std::optional<Publisher<HumbleState>> humble_old_state_{};  ///< the name before controller_state
   Periodic state_due_;
   std::optional<std::uint64_t> published_cycle_{};
   /// By joint of the controller: when it got a reference with a velocity.
