@@ -117,6 +117,41 @@ TEST_CASE("futures in lanes are those of robots that are simulated alone") {
   }
 }
 
+TEST_CASE("robots that need shorter steps are futures, too, and change no other one") {
+  // The described Q2D is stable with steps of 2.5 ms, some of those that are 20 % lighter are not.
+  const SimulatorOptions<2> slow{.period = 0.0025};
+  const Law law(Q2d::pid_gains);
+  Start start;
+  start.reference.position << 0.3, -0.2;
+  const FutureOptions options{.count = 100};
+  const auto fan = futures(Q2d(), law, start, slow, options);
+  REQUIRE(fan.size() == 100);
+  int shorter = 0;
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    const std::uint64_t key = detail::random_bits(options.seed, k);
+    const auto model = varied_model(Q2d(), options.spread, detail::random_bits(key, 2));
+    shorter += longest_step(model, {0, 0}) < slow.period ? 1 : 0;
+    const auto own = future_of(Q2d(), law, start, slow, options, k);
+    CHECK(distance(own, fan[k]) == 0);
+    CHECK(own.end == FutureEnd::stable);
+  }
+  CHECK(shorter > 0);
+  CHECK(shorter < 50);
+}
+
+TEST_CASE("one future refuses what a fan refuses") {
+  const Law law(Q2d::pid_gains);
+  const auto of = [&](const FutureOptions& options, const Start& start = {}) {
+    return future_of(Q2d(), law, start, SimulatorOptions<2>(), options, 0);
+  };
+  CHECK_THROWS_AS(of({.spread = {.delay = -1}}), std::invalid_argument);
+  CHECK_THROWS_AS(of({.samples = -5}), std::invalid_argument);
+  CHECK_THROWS_AS(of({.horizon = std::numeric_limits<double>::quiet_NaN()}), std::invalid_argument);
+  Start start;
+  start.state.position[0] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(of({}, start), std::invalid_argument);
+}
+
 TEST_CASE("a lane that ends early changes no other one") {
   // It fails where its robot has moved, which each does in a time of its own.
   struct Failing {

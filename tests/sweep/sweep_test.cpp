@@ -211,6 +211,21 @@ TEST_CASE("lost commands leave the drives what they had") {
   CHECK(std::abs(lost - 3000) < 6 * 46);
 }
 
+TEST_CASE("the mean of efforts has those of all periods, and none of the time before") {
+  // The first sample is before the first period, so its effort is 0.
+  RunMeasures<2> measures({0, 0}, {0, 0}, {});
+  const JointReference<2> reference{};
+  measures.add(0, {{0, 0}, {0, 0}, {0, 0}}, reference, 1e-3);
+  measures.add(1e-3, {{0, 0}, {0, 0}, {5, -3}}, reference, 1e-3);
+  measures.add(2e-3, {{0, 0}, {0, 0}, {5, 3}}, reference, 1e-3);
+  const auto metrics = RunMeasures<2>::metrics({"a", "b"}, {});
+  std::vector<double> values(metrics.size());
+  measures.values(values);
+  CHECK(values[detail::metric_index(metrics, "a.effort_rms")] == 5);
+  CHECK(values[detail::metric_index(metrics, "b.effort_rms")] == 3);
+  CHECK(values[detail::metric_index(metrics, "a.effort_peak")] == 5);
+}
+
 TEST_CASE("an unstable loop is a result") {
   const auto experiment =
       experiment_of({{VariedQuantity::proportional, {}, 1, 1e6, Spacing::logarithmic, 5},
@@ -251,6 +266,10 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
   CHECK_THAT(refused({VariedQuantity::mass, {}, 2, 1}), Catch::Contains("above its high end"));
   CHECK_THAT(refused({VariedQuantity::mass, {}, 1, std::nan("")}), Catch::Contains("not finite"));
   CHECK_THAT(refused({VariedQuantity::payload, {}, 0, 1}), Catch::Contains("needs the name"));
+  // The Q2D has no dry friction.
+  CHECK_THAT(refused({VariedQuantity::friction, {}, 1, 2}),
+             Catch::Contains("'friction' is a factor of numbers that are 0") &&
+                 Catch::Contains("expected added_friction"));
   CHECK_THAT(refused({VariedQuantity::delay, "elbow_active_joint", 0, 1}),
              Catch::Contains("whole loop"));
   CHECK_THAT(refused({VariedQuantity::lost_commands, {}, 0, 1.5}),

@@ -29,8 +29,8 @@ struct ToTheEnd {
   constexpr bool operator()() const noexcept { return true; }
 };
 
-/// Simulates futures, of which as many as there are lanes at once. Parameters are those of
-/// `future_of`; all outlive it.
+/// Simulates futures, of which as many as there are lanes at once. Parameters and exceptions are those
+/// of `future_of`; all parameters outlive it.
 template <DynamicRobot R, class C, class Command, class GoesOn>
 class FutureSimulation {
  public:
@@ -53,6 +53,12 @@ class FutureSimulation {
         simulation_(simulation),
         options_(options),
         goes_on_(goes_on) {
+    validate(options, simulation.period);
+    const auto finite = [](const auto& reference) { return is_finite(reference); };
+    if (!is_finite(start.state) || !is_finite(start.reference) || !is_finite(start.command) ||
+        !std::all_of(start.references.begin(), start.references.end(), finite)) {
+      refuse({"futures: the present state, reference or command is not finite"});
+    }
     simulation_.initial_position = future_position(robot, start.state.position);
     simulation_.initial_velocity = start.state.velocity;
     simulation_.encoder_resolution.setZero();
@@ -63,50 +69,67 @@ class FutureSimulation {
 
   /// The futures with the numbers first .. first + count - 1, where count is at most most_at_once.
   [[nodiscard]] Some some(std::uint64_t first, int count) const {
-    std::vector<std::uint64_t> keys;
-    for (int k = 0; k < count; ++k) {
-      keys.push_back(random_bits(options_.seed, first + static_cast<std::uint64_t>(k)));
-    }
+    Some all(static_cast<std::size_t>(count));
+    std::vector<bool> is_done(all.size());
     const bool are_alike = options_.spread.mass == 0 && options_.spread.friction == 0;
     if constexpr (has_futures_in_lanes<R, Command>) {
-      std::vector<LaneSetup<R>> setups;
-      std::vector<Run> runs;
-      for (const std::uint64_t key : keys) {
-        if (are_alike) break;
-        const auto robot = robot_of_kind<R>(model_of_future(key));
-        if (!robot) break;
-        setups.push_back({*robot, simulation_of(key)});
-        runs.push_back(run_of(key));
-      }
-      if (setups.size() == keys.size()) {
-        return simulate_in_lanes<R, Run>(setups, runs, goes_on_);
-      }
+      if (!are_alike) simulate_together(first, all, is_done);
     }
-    Some all;
-    for (const std::uint64_t key : keys) {
-      all.push_back(are_alike ? alone(robot_, key) : alone(model_of_future(key), key));
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const std::uint64_t key = key_of(first + k);
+      if (!is_done[k]) all[k] = are_alike ? alone(robot_, key) : alone(model_of_future(key), key);
     }
     return all;
   }
 
  private:
+  [[nodiscard]] std::uint64_t key_of(std::uint64_t number) const {
+    return random_bits(options_.seed, number);
+  }
   [[nodiscard]] auto model_of_future(std::uint64_t key) const {
     return varied_model(robot_, options_.spread, random_bits(key, 2));
   }
-  [[nodiscard]] SimulatorOptions<joint_count> simulation_of(std::uint64_t key) const {
+  template <class SimulatedRobot>
+  [[nodiscard]] SimulatorOptions<joint_count> simulation_of(const SimulatedRobot& robot,
+                                                            std::uint64_t key) const {
     SimulatorOptions<joint_count> own = simulation_;
     own.seed = random_bits(key, 1);
+    shorten_steps(robot, own);
     return own;
   }
   [[nodiscard]] Run run_of(std::uint64_t key) const {
     return Run(robot_, controller_, start_, options_, simulation_.period, key);
   }
 
+  /// Simulates those robots in lanes that are of R's kind and need no shorter steps. So a future does
+  /// not depend on the others.
+  void simulate_together(std::uint64_t first, Some& all, std::vector<bool>& is_done) const {
+    std::vector<std::size_t> indices;
+    std::vector<LaneSetup<R>> setups;
+    std::vector<Run> runs;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const std::uint64_t key = key_of(first + k);
+      const auto model = model_of_future(key);
+      const auto robot = robot_of_kind<R>(model);
+      const auto simulation = simulation_of(model, key);
+      if (!robot || simulation.substeps != simulation_.substeps) continue;
+      indices.push_back(k);
+      setups.push_back({*robot, simulation});
+      runs.push_back(run_of(key));
+    }
+    if (indices.empty()) return;
+    Some together = simulate_in_lanes<R, Run>(setups, runs, goes_on_);
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+      all[indices[k]] = std::move(together[k]);
+      is_done[indices[k]] = true;
+    }
+  }
+
   /// The future of one robot.
   template <class SimulatedRobot>
   [[nodiscard]] Future<joint_count> alone(const SimulatedRobot& robot, std::uint64_t key) const {
     Run run = run_of(key);
-    Simulator<SimulatedRobot> simulator(robot, simulation_of(key));
+    Simulator<SimulatedRobot> simulator(robot, simulation_of(robot, key));
     JointState<joint_count> state;
     for (int cycle = 0; cycle < run.cycles(); ++cycle) {
       if (cycle % 8 == 0 && !goes_on_()) break;
@@ -143,7 +166,9 @@ class FutureSimulation {
 /// @param number      of the future. The result depends on nothing else, so futures may be computed
 ///                    in any order and in several threads.
 /// @param goes_on     asked every few cycles. The future ends early where it returns false.
-/// Real-time: no (allocates).
+/// @throws std::invalid_argument if an option is out of its range, the start is not finite, or the
+///         robot of this number cannot be simulated
+/// Real-time: no (allocates, throws).
 template <DynamicRobot R, class C, class Command, class GoesOn = detail::ToTheEnd>
 [[nodiscard]] Future<Command::joint_count> future_of(
     const R& robot, const C& controller, const FutureStart<Command>& start,
@@ -155,19 +180,13 @@ template <DynamicRobot R, class C, class Command, class GoesOn = detail::ToTheEn
 
 /// Simulates all futures of the options: those of the numbers 0 .. count - 1. Parameters as above.
 /// Where `goes_on()` returns false, and then always, the result has the futures that are complete.
-/// @throws std::invalid_argument if an option is out of its range, or the start is not finite
+/// @throws std::invalid_argument as future_of
 /// Real-time: no (allocates, throws).
 template <DynamicRobot R, class C, class Command, class GoesOn = detail::ToTheEnd>
 [[nodiscard]] std::vector<Future<Command::joint_count>> futures(
     const R& robot, const C& controller, const FutureStart<Command>& start,
     const SimulatorOptions<joint_count<R>>& simulation, const FutureOptions& options = {},
     const GoesOn& goes_on = {}) {
-  validate(options, simulation.period);
-  const auto finite = [](const auto& reference) { return is_finite(reference); };
-  if (!is_finite(start.state) || !is_finite(start.reference) || !is_finite(start.command) ||
-      !std::all_of(start.references.begin(), start.references.end(), finite)) {
-    detail::refuse({"futures: the present state, reference or command is not finite"});
-  }
   const detail::FutureSimulation simulated(robot, controller, start, simulation, options, goes_on);
   std::vector<Future<Command::joint_count>> all;
   all.reserve(static_cast<std::size_t>(options.count));

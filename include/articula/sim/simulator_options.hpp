@@ -187,4 +187,20 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
   }
 }
 
+namespace detail {
+
+/// More substeps where a robot that differs from its description needs them: light bodies and strong
+/// damping do. `validate` refuses robots that need more than a hundred times as many.
+/// @param options  with an initial position
+/// Real-time: no (set-up).
+template <Robot R>
+void shorten_steps(const R& robot, SimulatorOptions<joint_count<R>>& options) {
+  const double needed = std::ceil(options.period / longest_step(robot, *options.initial_position));
+  if (needed <= 100.0 * options.substeps) {
+    options.substeps = std::max(options.substeps, static_cast<int>(needed));
+  }
+}
+
+}  // namespace detail
+
 }  // namespace articula

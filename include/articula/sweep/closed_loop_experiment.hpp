@@ -86,6 +86,7 @@ class ClosedLoopExperiment {
     }
     for (const Variation& each : options_.vary) {
       varied_.push_back(detail::placed(robot_, each));
+      detail::validate_factor(nominal_, varied_.back());
       parameters_.push_back(each.parameter());
     }
     for (int j = 0; j < joint_count; ++j) {

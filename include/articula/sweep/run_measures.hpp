@@ -76,7 +76,7 @@ class RunMeasures {
     return all;
   }
 
-  /// Adds a cycle.
+  /// Adds the sample of a cycle. The last one is after the last cycle.
   /// @param time       [s]
   /// @param state      the true one; the effort is that of the period before
   /// @param reference  at this time, of all runs
@@ -85,7 +85,7 @@ class RunMeasures {
   void add(double time, const JointState<N, S>& state, const JointReference<N>& reference,
            double period) noexcept {
     using std::abs;
-    ++cycles_;
+    ++samples_;
     for (int j = 0; j < N; ++j) {
       auto& step = steps_[static_cast<std::size_t>(j)];
       if (step) step->add(time, state.position[j]);
@@ -109,8 +109,8 @@ class RunMeasures {
     const auto put_if_defined = [&](std::optional<double> value) {
       values[next++] = value.value_or(std::numeric_limits<double>::quiet_NaN());
     };
-    const auto put_mean = [&](const S& squares) {
-      values[next++] = std::sqrt(lane_of(squares, lane) / cycles_);
+    const auto put_mean = [&](const S& squares, double samples) {
+      values[next++] = std::sqrt(lane_of(squares, lane) / samples);
     };
     for (int j = 0; j < N; ++j) {
       if (const auto& step = steps_[static_cast<std::size_t>(j)]) {
@@ -120,11 +120,11 @@ class RunMeasures {
         const auto error = step->steady_error(lane);
         put_if_defined(error ? std::optional(std::abs(*error)) : error);
       }
-      put_mean(error_squares_[j]);
+      put_mean(error_squares_[j], samples_);
       put(error_peak_[j]);
       put(speed_peak_[j]);
       put(effort_peak_[j]);
-      put_mean(effort_squares_[j]);
+      put_mean(effort_squares_[j], samples_ - 1);  // none before the first
     }
     put(energy_);
   }
@@ -138,7 +138,7 @@ class RunMeasures {
   Vector error_squares_ = Vector::Zero(), effort_squares_ = Vector::Zero();
   Vector error_peak_ = Vector::Zero(), effort_peak_ = Vector::Zero(), speed_peak_ = Vector::Zero();
   S energy_ = 0;
-  double cycles_ = 0;
+  double samples_ = 0;
 };
 
 }  // namespace articula

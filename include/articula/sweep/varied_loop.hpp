@@ -96,6 +96,31 @@ template <DynamicRobot R>
   return result;
 }
 
+/// Refuses a factor of numbers that are all 0: it would change nothing.
+/// @throws std::invalid_argument naming the variation
+/// Real-time: no (throws).
+template <class Loop>
+void validate_factor(const Loop& nominal, const PlacedVariation& placed) {
+  using enum VariedQuantity;
+  const VariedQuantity quantity = placed.variation.quantity;
+  const auto number = [&](int j) {
+    const PidGains& gains = nominal.gains[static_cast<std::size_t>(j)];
+    return quantity == damping        ? nominal.model.joints[j].damping
+           : quantity == friction     ? nominal.model.joints[j].friction
+           : quantity == proportional ? gains.proportional
+           : quantity == integral     ? gains.integral
+           : quantity == derivative   ? gains.derivative
+                                      : 1;
+  };
+  const bool is_of_joints = traits_of(quantity).subject == VariedSubject::joint;
+  const auto is_zero = [&](int j) { return number(j) == 0; };
+  if (is_of_joints && std::all_of(placed.places.begin(), placed.places.end(), is_zero)) {
+    refuse({"sweep: parameter '", placed.variation.parameter().name,
+            "' is a factor of numbers that are 0, so it would change nothing",
+            quantity == friction ? "; expected added_friction" : ""});
+  }
+}
+
 /// Applies one variation.
 template <class Loop>
 void vary(Loop& loop, const PlacedVariation& placed, double value) {
@@ -194,13 +219,7 @@ template <DynamicRobot R>
   if (!loop.robot && changes_bodies) {
     loop.model.canonical = canonical_form(loop.model.mechanism).mechanism;
   }
-  // Light bodies and strong damping need shorter steps; more than a hundred of them are refused.
-  SimulatorOptions<joint_count<R>>& simulation = loop.simulation;
-  const double longest = longest_step(loop.model, *simulation.initial_position);
-  const double needed = std::ceil(simulation.period / longest);
-  if (needed <= 100.0 * simulation.substeps) {
-    simulation.substeps = std::max(simulation.substeps, static_cast<int>(needed));
-  }
+  shorten_steps(loop.model, loop.simulation);
   return loop;
 }
 

@@ -21,7 +21,7 @@ struct JointCommandLimits {
   double soft_rate = infinity;                           ///< k [1/s]
   double velocity = infinity;                            ///< V [rad/s or m/s]
   double acceleration = 1e15;                            ///< A [rad/s^2 or m/s^2]
-  double deceleration = 1e15;                            ///< B; above A it counts as A
+  double deceleration = 1e15;                            ///< B; above A, steps count it as A
   double jerk = 1e30;                                    ///< J [rad/s^3 or m/s^3]
 
   /// The limits that steps compute with. B is at most A. Unlimited acceleration and jerk are so large

@@ -121,7 +121,7 @@ inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
 ///
 /// @param now       the motion in the last cycle
 /// @param velocity  the request, v_(k+1) [rad/s or m/s]; if it is not finite, the joint brakes
-/// @param joint_limits     limits of the joint
+/// @param joint_limits  of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// @param slack     rounding that does not count as beyond a limit
 /// @param report    limits that changed the request before; this step adds its own
@@ -193,7 +193,7 @@ inline void set_period(StoppingMotion& stop, const JointCommandLimits& limits,
 /// @param now       the motion in the last cycle
 /// @param position  measured [rad or m]; ignored if not finite
 /// @param velocity  the request [rad/s or m/s]; if it is not finite, the joint brakes
-/// @param joint_limits     limits of the joint
+/// @param joint_limits  of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// Real-time: yes. At most 61 stops are computed.
 [[nodiscard]] inline MotionStep limit_velocity(StoppingMotion now, double position, double velocity,

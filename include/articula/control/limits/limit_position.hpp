@@ -106,9 +106,10 @@ namespace detail {
 /// position without crossing it, and limit_motion() keeps its limits.
 /// @param state     after the last cycle; at the start
 ///                  {.stop = {{.position = q}, limits.deceleration, limits.jerk, period}}
+///                  with limits that are `bounded()`
 /// @param position  the request [rad or m]; if it is not finite, the joint brakes, and approaches the
 ///                  next request as after a start
-/// @param joint_limits     limits of the joint
+/// @param joint_limits  of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// Real-time: yes. At most 95 stops are computed.
 [[nodiscard]] inline PositionStep limit_position(PositionLimitState state, double position,
