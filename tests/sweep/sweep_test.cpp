@@ -270,6 +270,7 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
   CHECK_THAT(refused({VariedQuantity::friction, {}, 1, 2}),
              Catch::Contains("'friction' is a factor of numbers that are 0") &&
                  Catch::Contains("expected added_friction"));
+  CHECK(refused({VariedQuantity::friction, {}, 0, 0}).empty());  // without friction, as it is
   CHECK_THAT(refused({VariedQuantity::delay, "elbow_active_joint", 0, 1}),
              Catch::Contains("whole loop"));
   CHECK_THAT(refused({VariedQuantity::lost_commands, {}, 0, 1.5}),

@@ -96,7 +96,8 @@ template <DynamicRobot R>
   return result;
 }
 
-/// Refuses a factor of numbers that are all 0: it would change nothing.
+/// Refuses a factor of numbers that are all 0: it would change nothing. (The factor 0 alone, which
+/// removes them, is true of such numbers.)
 /// @throws std::invalid_argument naming the variation
 /// Real-time: no (throws).
 template <class Loop>
@@ -114,7 +115,9 @@ void validate_factor(const Loop& nominal, const PlacedVariation& placed) {
   };
   const bool is_of_joints = traits_of(quantity).subject == VariedSubject::joint;
   const auto is_zero = [&](int j) { return number(j) == 0; };
-  if (is_of_joints && std::all_of(placed.places.begin(), placed.places.end(), is_zero)) {
+  const bool removes = placed.variation.high == 0;
+  if (is_of_joints && !removes &&
+      std::all_of(placed.places.begin(), placed.places.end(), is_zero)) {
     refuse({"sweep: parameter '", placed.variation.parameter().name,
             "' is a factor of numbers that are 0, so it would change nothing",
             quantity == friction ? "; expected added_friction" : ""});
