@@ -41,11 +41,11 @@ struct Instant {
     for (std::size_t k = 0; k < metric_count; ++k) all.push_back({std::to_string(k), "1"});
     return all;
   }
-  [[nodiscard]] FutureEnd run(const SweepRun& run, std::span<double> metrics) const {
+  [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
     for (std::size_t k = 0; k < metrics.size(); ++k) {
       metrics[k] = std::exp(run.parameters[k % 4] * static_cast<double>(k + 1));
     }
-    return FutureEnd::stable;
+    return SimulationEnd::stable;
   }
 };
 

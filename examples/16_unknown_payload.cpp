@@ -71,7 +71,7 @@ int main() {
                                   [&](double load, double by) { plot.add(load, {none, by}); });
   std::printf("w %.0f rad/s, integral %.0f: 95 %% below %.5f rad; %llu of %llu arms unstable\n",
               best.parameters[0], best.parameters[1], result.summary(error).quantile(0.95),
-              static_cast<unsigned long long>(result.runs_with(FutureEnd::unstable)),
+              static_cast<unsigned long long>(result.runs_with(SimulationEnd::unstable)),
               static_cast<unsigned long long>(result.runs()));
   plot.save();
   return result.summary(error).quantile(0.95) < 0.2 * off.quantile(0.95) ? 0 : 1;

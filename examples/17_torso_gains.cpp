@@ -82,7 +82,7 @@ double error_of(const SweepResult& result) {
 
 /// The share of torsos whose drives swing between their limits in the end.
 double unstable_share(const SweepResult& result) {
-  return static_cast<double>(result.runs_with(FutureEnd::unstable)) /
+  return static_cast<double>(result.runs_with(SimulationEnd::unstable)) /
          static_cast<double>(result.runs());
 }
 

@@ -133,7 +133,7 @@ TEST_CASE("robots that need shorter steps are futures, too, and change no other 
     shorter += longest_step(model, {0, 0}) < slow.period ? 1 : 0;
     const auto own = future_of(Q2d(), law, start, slow, options, k);
     CHECK(distance(own, fan[k]) == 0);
-    CHECK(own.end == FutureEnd::stable);
+    CHECK(own.end == SimulationEnd::stable);
   }
   CHECK(shorter > 0);
   CHECK(shorter < 50);
@@ -212,13 +212,13 @@ TEST_CASE("gains that make the arm unstable give unstable futures, and good ones
   Arm arm;
   move(arm);
   for (const Future<2>& future : futures_of(arm, {.count = 20})) {
-    CHECK(future.end == FutureEnd::stable);
+    CHECK(future.end == SimulationEnd::stable);
   }
   JointPidGains<2> gains = Q2d::pid_gains;
   for (PidGains& own : gains) own.derivative = 1000;
   const Law bad(gains);
   for (const Future<2>& future : futures(Q2d(), bad, start_of(arm), {}, {.count = 20})) {
-    CHECK(future.end == FutureEnd::unstable);
+    CHECK(future.end == SimulationEnd::unstable);
     CHECK(future.positions.size() == 51);
   }
 }
@@ -241,7 +241,7 @@ TEST_CASE("a controller that computes no number ends its future") {
     return EffortCommand<2>{JointVector<2>::Constant(std::numeric_limits<double>::quiet_NaN())};
   };
   const auto fan = futures(Q2d(), broken, Start{}, {}, {.count = 1});
-  CHECK(fan[0].end == FutureEnd::non_finite);
+  CHECK(fan[0].end == SimulationEnd::non_finite);
   CHECK(fan[0].positions.size() == 1);
 }
 

@@ -56,7 +56,7 @@ TEST_CASE("a run of a sweep is what MuJoCo makes of its bodies and efforts") {
   const auto run = GENERATE(range(0, 8));
   CAPTURE(run);
   const auto number = static_cast<std::uint64_t>(run);
-  const SweepRow row = run_once(experiment, samples, number, experiment.metrics().size());
+  const SweepRow row = run_once(experiment, samples, number);
   const auto loop = experiment.loop({row.number, row.seed, row.parameters});
   auto peer = support::load_mujoco(loop.model.mechanism.bodies, loop.model.mechanism.gravity,
                                    loop.simulation.period / loop.simulation.substeps);

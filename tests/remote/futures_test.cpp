@@ -100,7 +100,7 @@ TEST_CASE("futures begin with the present state and follow the present reference
     REQUIRE(future.positions[0].size() == 51);
     CHECK(future.positions[0].front() == position[0]);
     CHECK(future.positions[0].back() == Approx(0.3).margin(0.05));
-    CHECK(future.end == FutureEnd::stable);
+    CHECK(future.end == SimulationEnd::stable);
   }
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("futures have the gains of the question, and the loop keeps its own") 
   const double before = value_of(arm.remote, shoulder_d);
   const FuturesQuestion question{.gains = {{shoulder_d, 1000}}, .options = {.count = 5}};
   const auto answer = arm.remote.futures(question);
-  for (const FutureTrajectory& future : answer.futures) CHECK(future.end == FutureEnd::unstable);
+  for (const FutureTrajectory& future : answer.futures) CHECK(future.end == SimulationEnd::unstable);
   CHECK(value_of(arm.remote, shoulder_d) == before);
   CHECK(arm.loop.controller().part<PidLaw<2>>().gains()[0].derivative == before);
 }
@@ -121,7 +121,7 @@ TEST_CASE("futures have the gains that were applied since the port was made") {
   REQUIRE(arm.ask(Activate{}).verdict == remote::Verdict::done);
   REQUIRE(arm.ask(SetParameters{{{shoulder_d, 1000}}}).verdict == remote::Verdict::done);
   arm.cycles(1);
-  CHECK(arm.remote.futures({.options = {.count = 1}}).futures[0].end == FutureEnd::unstable);
+  CHECK(arm.remote.futures({.options = {.count = 1}}).futures[0].end == SimulationEnd::unstable);
 }
 
 TEST_CASE("the margins are those of the question's gains at the present position") {
@@ -169,12 +169,12 @@ TEST_CASE("futures of a loop that switches are those of the controller that is a
   REQUIRE(arm.ask(SwitchControllers{.start = {second}, .replace = true}).verdict ==
           remote::Verdict::done);
   arm.cycles(10);
-  CHECK(end() == FutureEnd::stable);
+  CHECK(end() == SimulationEnd::stable);
   CHECK(margins() == second);
   REQUIRE(arm.ask(SwitchControllers{.start = {first}, .replace = true}).verdict ==
           remote::Verdict::done);
   arm.cycles(10);
-  CHECK(end() == FutureEnd::unstable);
+  CHECK(end() == SimulationEnd::unstable);
   CHECK(margins() == first);
 }
 

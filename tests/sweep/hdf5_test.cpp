@@ -40,7 +40,7 @@ TEST_CASE("HDF5 has the rows of the CSV, bit for bit, and units") {
       const double x = std::sin(static_cast<double>(k)) * std::exp2(double(k % 600) - 300);
       masses.push_back(x);
       overshoots.push_back(k % 7 == 0 ? std::nan("") : -x);
-      rows.add({k, ~k, {x, 1e-3}, {overshoots.back()}, static_cast<FutureEnd>(k % 3)});
+      rows.add({k, ~k, {x, 1e-3}, {overshoots.back()}, static_cast<SimulationEnd>(k % 3)});
     }
     rows.flush();
   }

@@ -146,7 +146,7 @@ void check_overflows(const auto& make) {
   int overflows = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const bool bad = rows[k].parameters[1] > 1;
-    CHECK((rows[k].end == FutureEnd::non_finite) == bad);
+    CHECK((rows[k].end == SimulationEnd::non_finite) == bad);
     CHECK(std::ranges::all_of(rows[k].metrics, [](double x) { return std::isnan(x); }) == bad);
     overflows += bad ? 1 : 0;
     if (!bad) CHECK(same_bits(rows[k].metrics, healthy[k].metrics));
@@ -204,8 +204,8 @@ TEST_CASE("an unstable run in a lane leaves the bits of the others") {
   const auto rows = rows_of(experiment, {.sampling = {.method = SamplingMethod::grid}, .chunk = 8});
   int stable = 0, unstable = 0;
   for (const SweepRow& row : rows) {
-    stable += row.end == FutureEnd::stable ? 1 : 0;
-    unstable += row.end == FutureEnd::unstable ? 1 : 0;
+    stable += row.end == SimulationEnd::stable ? 1 : 0;
+    unstable += row.end == SimulationEnd::unstable ? 1 : 0;
   }
   CHECK(stable >= 1);
   CHECK(unstable >= 2);

@@ -20,9 +20,9 @@ struct Arms {
     return {{"inertia", "1", 0.5, 2, Spacing::logarithmic}};
   }
   [[nodiscard]] std::vector<SweepMetric> metrics() const { return {{"error", "1"}}; }
-  [[nodiscard]] FutureEnd run(const SweepRun& run, std::span<double> metrics) const {
+  [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
     metrics[0] = std::abs(std::log(gain * run.parameters[0]));
-    return FutureEnd::stable;
+    return SimulationEnd::stable;
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -94,7 +95,7 @@ TEST_CASE("a run is a loop of one's own, to the last bit") {
   const auto experiment = arms();
   const Samples samples(experiment.parameters(), {.runs = 20, .seed = 9});
   for (const std::uint64_t number : {std::uint64_t{3}, std::uint64_t{17}}) {
-    const SweepRow row = run_once(experiment, samples, number, experiment.metrics().size());
+    const SweepRow row = run_once(experiment, samples, number);
     const auto own = experiment.loop({number, row.seed, row.parameters});
     using Robot = VariedRobot<Q2d>;
     ControlLoop loop(DelayedCommands<Simulator<Robot>, EffortCommand<2>>(
@@ -122,7 +123,7 @@ TEST_CASE("a heavier and a damped arm are slower; a payload is felt as its inert
   const auto rise = [](const Variation& variation) {
     const auto experiment = experiment_of({variation});
     const Samples samples(experiment.parameters(), {.runs = 1});
-    const SweepRow row = run_once(experiment, samples, 0, experiment.metrics().size());
+    const SweepRow row = run_once(experiment, samples, 0);
     return row.metrics[detail::metric_index(experiment.metrics(), "elbow_active_joint.rise_time")];
   };
   const double nominal = rise({VariedQuantity::mass, {}, 1, 1});
@@ -158,7 +159,7 @@ TEST_CASE("drives vary: their inertia adds to the mass matrix, and their limit h
   const auto peak_at = [&](double factor) {
     std::vector<double> metrics(weak.metrics().size());
     const auto end = weak.run({0, 1, std::vector{factor}}, metrics);
-    REQUIRE(end != FutureEnd::non_finite);
+    REQUIRE(end != SimulationEnd::non_finite);
     return metrics[detail::metric_index(weak.metrics(), "elbow_active_joint.effort_peak")];
   };
   REQUIRE(peak_at(1) > 0.02 * limit);
@@ -174,8 +175,7 @@ TEST_CASE("the worst runs replay by their numbers, to the last bit") {
   REQUIRE(result.worst().size() == 4);
   const Samples samples(experiment.parameters(), options.sampling);
   for (const SweepRow& row : result.worst()) {
-    CHECK(bits_of({row}) ==
-          bits_of({run_once(experiment, samples, row.number, row.metrics.size())}));
+    CHECK(bits_of({row}) == bits_of({run_once(experiment, samples, row.number)}));
   }
 }
 
@@ -187,7 +187,7 @@ TEST_CASE("a light, strongly damped arm takes shorter steps") {
   const Samples samples(experiment.parameters(),
                         {.method = SamplingMethod::latin_hypercube, .runs = 4});
   for (std::uint64_t k = 0; k < 4; ++k) {
-    CHECK(run_once(experiment, samples, k, experiment.metrics().size()).end == FutureEnd::stable);
+    CHECK(run_once(experiment, samples, k).end == SimulationEnd::stable);
   }
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("lost commands leave the drives what they had") {
   const auto metric = [](double share, const char* name) {
     const auto experiment = experiment_of({{VariedQuantity::lost_commands, {}, share, share}});
     const Samples samples(experiment.parameters(), {.runs = 1});
-    const SweepRow row = run_once(experiment, samples, 0, experiment.metrics().size());
+    const SweepRow row = run_once(experiment, samples, 0);
     return row.metrics[detail::metric_index(experiment.metrics(), name)];
   };
   CHECK(metric(1, "elbow_active_joint.effort_peak") == 0);
@@ -218,7 +218,8 @@ TEST_CASE("the mean of efforts has those of all periods, and none of the time be
   measures.add(0, {{0, 0}, {0, 0}, {0, 0}}, reference, 1e-3);
   measures.add(1e-3, {{0, 0}, {0, 0}, {5, -3}}, reference, 1e-3);
   measures.add(2e-3, {{0, 0}, {0, 0}, {5, 3}}, reference, 1e-3);
-  const auto metrics = RunMeasures<2>::metrics({"a", "b"}, {});
+  const std::array<JointProperties, 2> joints{{{.name = "a"}, {.name = "b"}}};
+  const auto metrics = RunMeasures<2>::metrics(joints, {});
   std::vector<double> values(metrics.size());
   measures.values(values);
   CHECK(values[detail::metric_index(metrics, "a.effort_rms")] == 5);
@@ -236,12 +237,12 @@ TEST_CASE("an unstable loop is a result") {
                          .worst_metric = "elbow_active_joint.effort_rms",
                          .worst = 3});
   CHECK(result.runs() == 15);
-  CHECK(result.runs_with(FutureEnd::unstable) >= 4);
-  CHECK(result.runs_with(FutureEnd::stable) >= 3);
+  CHECK(result.runs_with(SimulationEnd::unstable) >= 4);
+  CHECK(result.runs_with(SimulationEnd::stable) >= 3);
   CHECK(result.runs_within() >= 1);
-  CHECK(result.runs_within() <= result.runs_with(FutureEnd::stable));
+  CHECK(result.runs_within() <= result.runs_with(SimulationEnd::stable));
   REQUIRE(result.worst().size() == 3);
-  CHECK(result.worst()[0].end == FutureEnd::unstable);
+  CHECK(result.worst()[0].end == SimulationEnd::unstable);
   const std::size_t effort =
       detail::metric_index(experiment.metrics(), "elbow_active_joint.effort_rms");
   CHECK(result.worst()[0].metrics[effort] >= result.worst()[1].metrics[effort]);

@@ -43,7 +43,7 @@ struct Chaos {
     return {{"rate", "1", 3.6, 4}, {"start", "1", 0.1, 0.9}};
   }
   [[nodiscard]] std::vector<SweepMetric> metrics() const { return {{"last", "1"}, {"log", "1"}}; }
-  [[nodiscard]] FutureEnd run(const SweepRun& run, std::span<double> metrics) const {
+  [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
     if (run.number == kill && !std::filesystem::exists(folder / "killed")) {
       std::ofstream(folder / "killed").close();
       std::this_thread::sleep_for(std::chrono::milliseconds(100));  // the others get ahead
@@ -57,7 +57,7 @@ struct Chaos {
     }
     metrics[0] = x;
     metrics[1] = run.number % 50 == 0 ? std::nan("") : sum;
-    return x > 0.9 ? FutureEnd::unstable : FutureEnd::stable;
+    return x > 0.9 ? SimulationEnd::unstable : SimulationEnd::stable;
   }
 };
 

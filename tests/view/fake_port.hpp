@@ -93,9 +93,9 @@ class FakePort final : public remote::Port {
                                  .horizon = question.options.horizon,
                                  .samples = 1};
     for (int k = 0; k < std::clamp(question.options.count, 0, 100); ++k) {
-      answer.futures.push_back({articula::FutureEnd::stable, {{0, 0}, {0, gain * (k + 1)}}});
+      answer.futures.push_back({articula::SimulationEnd::stable, {{0, 0}, {0, gain * (k + 1)}}});
     }
-    if (answer.futures.size() > 1) answer.futures.back().end = articula::FutureEnd::unstable;
+    if (answer.futures.size() > 1) answer.futures.back().end = articula::SimulationEnd::unstable;
     answer.margins = {{"pid", "elbow", true, std::numeric_limits<double>::infinity(), 1,
                        static_cast<double>(question.options.spread.delay)}};
     return answer;

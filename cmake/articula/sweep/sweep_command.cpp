@@ -32,7 +32,6 @@ namespace terminal {
 
 namespace {
 
-using articula::FutureEnd;
 using articula::SweepResult;
 namespace fs = std::filesystem;
 
@@ -144,24 +143,24 @@ void report(const Program& program, const SweepPlan& plan, const AnyExperiment& 
                      {by, number(each.metrics[metric])},
                      {"parameters", parameters}});
   }
-  const auto count = [&](FutureEnd end) { return result.runs_with(end); };
-  std::string text = std::to_string(result.runs()) +
-                     " runs: " + std::to_string(count(FutureEnd::stable)) + " stable, " +
-                     std::to_string(count(FutureEnd::unstable)) + " unstable, " +
-                     std::to_string(count(FutureEnd::non_finite)) + " not finite";
+  Json all{{"runs", result.runs()}};
+  std::string ends;
+  for (std::size_t k = 0; k < result.ends().size(); ++k) {
+    const std::string name(articula::simulation_end_names[k]);
+    const std::uint64_t count = result.ends()[k];
+    all[name] = count;
+    ends += (ends.empty() ? "" : ", ") + std::to_string(count) + " " + name;
+  }
+  std::string text = std::to_string(result.runs()) + " runs: " + ends;
   if (!plan.options.specifications.empty()) {
     text += "; " + std::to_string(result.runs_within()) + " within all specifications";
   }
   text += "\n" + table(rows) + "\n" + table(worst_rows) + "\nrows and plots: " + plan.output;
   if (!drawn.empty()) text += "\n" + drawn;
-  Json all{{"runs", result.runs()},
-           {"stable", count(FutureEnd::stable)},
-           {"unstable", count(FutureEnd::unstable)},
-           {"non_finite", count(FutureEnd::non_finite)},
-           {"within", result.runs_within()},
-           {"metrics", metrics},
-           {"worst", worst},
-           {"output", plan.output}};
+  all.update({{"within", result.runs_within()},
+              {"metrics", metrics},
+              {"worst", worst},
+              {"output", plan.output}});
   if (!searched.line.empty()) {
     all["search"] = searched.json;
     text = searched.line + "\n" + text;

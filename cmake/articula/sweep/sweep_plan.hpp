@@ -66,14 +66,14 @@ struct SweepPlan {
 struct AnyExperiment {
   std::vector<articula::SweepParameter> all_parameters{};
   std::vector<articula::SweepMetric> all_metrics{};
-  std::function<articula::FutureEnd(const articula::SweepRun&, std::span<double>)> run_one{};
+  std::function<articula::SimulationEnd(const articula::SweepRun&, std::span<double>)> run_one{};
 
   [[nodiscard]] const std::vector<articula::SweepParameter>& parameters() const {
     return all_parameters;
   }
   [[nodiscard]] const std::vector<articula::SweepMetric>& metrics() const { return all_metrics; }
-  [[nodiscard]] articula::FutureEnd run(const articula::SweepRun& run,
-                                        std::span<double> metrics) const {
+  [[nodiscard]] articula::SimulationEnd run(const articula::SweepRun& run,
+                                            std::span<double> metrics) const {
     return run_one(run, metrics);
   }
 };

@@ -44,7 +44,7 @@ SweepPlan with_values(SweepPlan plan, const std::vector<double>& values) {
 double cost_of(const SweepPlan& plan) {
   const articula::SweepResult result = articula::sweep(experiment_of(plan), plan.options);
   const auto runs = static_cast<double>(result.runs());
-  const double stable = static_cast<double>(result.runs_with(articula::FutureEnd::stable));
+  const double stable = static_cast<double>(result.runs_with(articula::SimulationEnd::stable));
   // As the rank of the quantile: up to this share of the runs may do anything.
   if (stable < std::floor(plan.search.quantile * (runs - 1)) + 1) {
     return std::numeric_limits<double>::infinity();

@@ -4,7 +4,7 @@
 
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
-#include "articula/futures/future_end.hpp"
+#include "articula/sim/simulation_end.hpp"
 #include "articula/loop/command_history.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace articula {
 template <int N>
 struct Future {
   std::vector<JointVector<N>> positions{};  ///< at the times of FutureOptions::samples [rad or m]
-  FutureEnd end = FutureEnd::stable;
+  SimulationEnd end = SimulationEnd::stable;
 };
 
 /// Where futures begin.

@@ -92,7 +92,7 @@ class FutureRun {
     const bool controls = outcome.verdict != Verdict::failed;
     const Command command = controls ? within_effort_limits(robot_, outcome.command) : Command{};
     if (!controls || !is_finite(command)) {
-      future_.end = FutureEnd::non_finite;
+      future_.end = SimulationEnd::non_finite;
       return std::nullopt;
     }
     // The command of a cycle reaches the drives as many cycles later as the delay has.
@@ -115,8 +115,8 @@ class FutureRun {
 
   /// The future, whose last true state this is.
   [[nodiscard]] Future<joint_count> end(const State& truth) {
-    if (!is_finite(truth.position)) future_.end = FutureEnd::non_finite;
-    if (future_.end == FutureEnd::stable && swings_.many()) future_.end = FutureEnd::unstable;
+    if (!is_finite(truth.position)) future_.end = SimulationEnd::non_finite;
+    if (future_.end == SimulationEnd::stable && swings_.many()) future_.end = SimulationEnd::unstable;
     return std::move(future_);
   }
 

@@ -3,19 +3,22 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
-#include "articula/futures/future_end.hpp"
 #include "articula/loop/loop_parts.hpp"
 #include "articula/reference/joint_signals.hpp"
+#include "articula/sim/simulation_end.hpp"
 #include "articula/sim/simulator_options.hpp"
 #include "articula/sweep/lane_runs.hpp"
+#include "articula/sweep/loop_refused.hpp"
 #include "articula/sweep/run_simulated.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_result.hpp"
 #include "articula/sweep/varied_loop.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -88,11 +91,12 @@ class ClosedLoopExperiment {
       varied_.push_back(detail::placed(robot_, each));
       detail::validate_factor(nominal_, varied_.back());
       parameters_.push_back(each.parameter());
+      parameters_.back().unit = detail::unit_of(nominal_.model, varied_.back());
     }
     for (int j = 0; j < joint_count; ++j) {
       plan_.moves[static_cast<std::size_t>(j)] = plan_.target[j] != start[j];
     }
-    metrics_ = RunMeasures<joint_count>::metrics(joint_names(robot_), plan_.moves);
+    metrics_ = RunMeasures<joint_count>::metrics(nominal_.model.joints, plan_.moves);
     plan_.standard_metrics = metrics_.size();
     for (const auto& own : options_.own_metrics) {
       if (!own.next) detail::refuse({"sweep: metric '", own.metric.name, "' has no function"});
@@ -113,37 +117,38 @@ class ClosedLoopExperiment {
   }
 
   /// One run, as a sweep runs it. It ends early if the motion or a command is not finite; then all
-  /// metrics are undefined.
-  /// @throws std::invalid_argument if the loop cannot be simulated
+  /// metrics are undefined. They are likewise if the loop cannot be simulated; `run_alone` throws the
+  /// reason.
+  /// @throws what the own metrics throw
   /// Real-time: no (allocates).
-  [[nodiscard]] FutureEnd run(const SweepRun& run, std::span<double> metrics) const {
-    const VariedLoop<R> own = loop(run);
-    if constexpr (in_lanes) {
-      if (own.robot) {
-        const VariedLoop<R>* const only = &own;
-        return detail::run_in_lanes<R>(plan_, {&only, 1}, make_).result(metrics);
+  [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
+    try {
+      const VariedLoop<R> own = detail::set_up([&] { return loop(run); });
+      if constexpr (in_lanes) {
+        if (own.robot) {
+          const VariedLoop<R>* const only = &own;
+          return detail::run_in_lanes<R>(plan_, {&only, 1}, make_).result(metrics);
+        }
       }
+      return run_alone(own, metrics);
+    } catch (const detail::LoopRefused&) {
+      return refused(metrics);
     }
-    return run_alone(own, metrics);
   }
 
   /// Some runs: those that have `VariedLoop::robot`, under a controller that commands efforts, in the
   /// lanes of packs; the others one after the other. Each gives what `run` gives, to the last bit.
   /// @param rows  with number, seed and parameters; get metrics and end
-  /// @throws std::invalid_argument if a loop cannot be simulated
+  /// @throws what the own metrics throw
   /// Real-time: no (allocates).
   void run_together(std::span<SweepRow> rows) const {
-    std::vector<VariedLoop<R>> loops;
-    loops.reserve(rows.size());
-    for (SweepRow& row : rows) {
-      loops.push_back(loop({row.number, row.seed, row.parameters}));
-      if (!in_lanes || !loops.back().robot) row.end = run_alone(loops.back(), row.metrics);
-    }
-    if constexpr (in_lanes) {
-      detail::run_in_packs<R>(plan_, loops, make_,
-                              [&](std::size_t place, const auto& watch, int lane) {
-                                rows[place].end = watch.result(rows[place].metrics, lane);
-                              });
+    if constexpr (!in_lanes) {
+      for (SweepRow& row : rows) row.end = run(row.run(), row.metrics);
+    } else {
+      constexpr std::size_t most = 256;  // loops in memory; more packs would gain nothing
+      for (std::size_t begin = 0; begin < rows.size(); begin += most) {
+        run_packs(rows.subspan(begin, std::min(most, rows.size() - begin)));
+      }
     }
   }
 
@@ -152,7 +157,7 @@ class ClosedLoopExperiment {
   /// @param own  from `loop`
   /// @throws std::invalid_argument if the loop cannot be simulated
   /// Real-time: no (allocates).
-  [[nodiscard]] FutureEnd run_alone(const VariedLoop<R>& own, std::span<double> metrics) const {
+  [[nodiscard]] SimulationEnd run_alone(const VariedLoop<R>& own, std::span<double> metrics) const {
     if constexpr (DescribedRobot<R>) {
       if (own.robot) return detail::run_simulated(plan_, *own.robot, own, make_).result(metrics);
     }
@@ -162,6 +167,32 @@ class ClosedLoopExperiment {
  private:
   /// True if runs can go into lanes.
   static constexpr bool in_lanes = detail::can_run_in_lanes<R, Controller>;
+
+  [[nodiscard]] static SimulationEnd refused(std::span<double> metrics) {
+    std::ranges::fill(metrics, std::numeric_limits<double>::quiet_NaN());
+    return SimulationEnd::refused;
+  }
+
+  /// Runs in packs, and one by one those that do not go into lanes.
+  void run_packs(std::span<SweepRow> rows) const {
+    std::vector<VariedLoop<R>> loops;
+    std::vector<SweepRow*> of_loops;
+    for (SweepRow& row : rows) {
+      try {
+        loops.push_back(detail::set_up([&] { return loop(row.run()); }));
+        of_loops.push_back(&row);
+        if (!loops.back().robot) row.end = run_alone(loops.back(), row.metrics);
+      } catch (const detail::LoopRefused&) {
+        row.end = refused(row.metrics);
+      }
+    }
+    detail::run_in_packs<R>(
+        plan_, loops, make_,
+        [&](std::size_t place, const auto& watch, int lane) {
+          of_loops[place]->end = watch.result(of_loops[place]->metrics, lane);
+        },
+        [&](std::size_t place) { of_loops[place]->end = refused(of_loops[place]->metrics); });
+  }
 
   /// Sets up a loop at each corner of the ranges, of many parameters at the lowest and highest only.
   /// A light body and a strongly damped joint are at different ends.

@@ -7,7 +7,6 @@
 #include "articula/core/scalar.hpp"
 #include "articula/lanes/lane_simulator.hpp"
 #include "articula/loop/control_loop.hpp"
-#include "articula/sweep/delayed_commands.hpp"
 #include "articula/sweep/varied_loop.hpp"
 
 #include <cstddef>
@@ -60,21 +59,35 @@ class LanePort {
   int lane_;
 };
 
+/// The robots of some loops for a simulator in lanes.
+template <DescribedRobot R>
+[[nodiscard]] std::vector<LaneSetup<R>> setups_of(std::span<const VariedLoop<R>* const> loops) {
+  std::vector<LaneSetup<R>> setups;
+  for (const VariedLoop<R>* each : loops) {
+    setups.push_back({.robot = *each->robot,
+                      .simulation = each->simulation,
+                      .delay = each->delay,
+                      .lost = each->lost});
+  }
+  return setups;
+}
+
 /// Robots in lanes, each under a ControlLoop of its own.
 template <DescribedRobot R, class Make, class S>
-class LaneLoops {
+class LanesOfOwnLoops {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using Loops = std::span<const VariedLoop<R>* const>;
 
-  LaneLoops(const Loops& loops, const Make& make, double period)
-      : simulator_(setups_of(loops)), exchange_(std::make_unique<LaneExchange<joint_count, S>>()) {
+  LanesOfOwnLoops(const Loops& loops, const Make& make, double period)
+      : simulator_(setups_of<R>(loops)),
+        exchange_(std::make_unique<LaneExchange<joint_count, S>>()) {
     exchange_->command.effort.setConstant(S(0));
     static_cast<void>(simulator_.read(exchange_->measured));
     arms_.reserve(loops.size());
     for (const VariedLoop<R>* own : loops) {
-      const LanePort<R, S> port(*own->robot, period, *exchange_, static_cast<int>(arms_.size()));
-      arms_.emplace_back(Port(port, own->delay, own->lost), make(own->gains));
+      const Port port(*own->robot, period, *exchange_, static_cast<int>(arms_.size()));
+      arms_.emplace_back(port, make(own->gains));
     }
   }
 
@@ -92,17 +105,9 @@ class LaneLoops {
   [[nodiscard]] LaneSimulator<R, S>& simulator() noexcept { return simulator_; }
 
  private:
-  using Port = DelayedCommands<LanePort<R, S>, EffortCommand<joint_count>>;
+  using Port = LanePort<R, S>;
   using Controller =
       std::remove_cvref_t<std::invoke_result_t<const Make&, const JointPidGains<joint_count>&>>;
-
-  [[nodiscard]] static std::vector<LaneSetup<R>> setups_of(const Loops& loops) {
-    std::vector<LaneSetup<R>> setups;
-    for (const VariedLoop<R>* each : loops) {
-      setups.push_back({.robot = *each->robot, .simulation = each->simulation});
-    }
-    return setups;
-  }
 
   LaneSimulator<R, S> simulator_;
   std::unique_ptr<LaneExchange<joint_count, S>> exchange_;  ///< to which the ports refer

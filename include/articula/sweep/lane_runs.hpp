@@ -9,6 +9,7 @@
 #include "articula/lanes/lane_loop.hpp"
 #include "articula/lanes/lane_pack.hpp"
 #include "articula/sweep/lane_loops.hpp"
+#include "articula/sweep/loop_refused.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/varied_loop.hpp"
 
@@ -50,7 +51,7 @@ class LanesOfOneLoop {
   using Loops = std::span<const VariedLoop<R>* const>;
 
   LanesOfOneLoop(const Loops& loops, const Make& make, double)
-      : loop_(setups_of(loops), make(gains_of(loops))) {}
+      : loop_(setups_of<R>(loops), make(gains_of(loops))) {}
 
   /// One cycle of the lanes that move. A lane with a number that is not finite stops.
   void update(const JointReference<joint_count>& reference) noexcept {
@@ -62,16 +63,6 @@ class LanesOfOneLoop {
   [[nodiscard]] LaneSimulator<R, S>& simulator() noexcept { return loop_.simulator(); }
 
  private:
-  [[nodiscard]] static std::vector<LaneSetup<R>> setups_of(const Loops& loops) {
-    std::vector<LaneSetup<R>> setups;
-    for (const VariedLoop<R>* each : loops) {
-      setups.push_back({.robot = *each->robot,
-                        .simulation = each->simulation,
-                        .delay = each->delay,
-                        .lost = each->lost});
-    }
-    return setups;
-  }
   [[nodiscard]] static Gains gains_of(const Loops& loops) {
     Gains gains = in_all_lanes<S>(loops[0]->gains);
     for (std::size_t k = 1; k < loops.size(); ++k) {
@@ -87,15 +78,15 @@ class LanesOfOneLoop {
 /// @param loops    as many as there are lanes, or fewer; their substeps are equal, each has a robot
 /// @param make     makes the controller of gains
 /// @return         what was watched, the runs in the order of the loops
-/// @throws std::invalid_argument if a loop cannot be simulated
+/// @throws LoopRefused if a loop cannot be simulated
 template <DescribedRobot R, class Make, class S = LanePack<R>>
 [[nodiscard]] RunWatch<R, S> run_in_lanes(const RunPlan<R>& plan,
                                           std::span<const VariedLoop<R>* const> loops,
                                           const Make& make) {
   constexpr int n = articula::joint_count<R>;
   using Arms = std::conditional_t<MakesLaneController<Make, n, S>, LanesOfOneLoop<R, Make, S>,
-                                  LaneLoops<R, Make, S>>;
-  Arms arms(loops, make, plan.period);
+                                  LanesOfOwnLoops<R, Make, S>>;
+  Arms arms = set_up([&] { return Arms(loops, make, plan.period); });
   LaneSimulator<R, S>& simulator = arms.simulator();
   RunWatch<R, S> watch(plan, simulator.start(), simulator.effort_limits());
   for (int cycle = 0; any_of(simulator.moving()); ++cycle) {
@@ -117,13 +108,32 @@ template <DescribedRobot R, class Make, class S = LanePack<R>>
   return watch;
 }
 
+/// Runs loops at once, as run_in_lanes. If one of them cannot be simulated, they run one by one.
+/// @param places   of the loops, as many as there are lanes, or fewer
+/// @param done     called with the place of a loop, what was watched, and the lane
+/// @param refused  called with the place of a loop that cannot be simulated
+template <DescribedRobot R, class Make, class Done, class Refused>
+void run_pack(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops,
+              std::span<const std::size_t> places, const Make& make, const Done& done,
+              const Refused& refused) {
+  std::vector<const VariedLoop<R>*> pack;
+  for (const std::size_t place : places) pack.push_back(&loops[place]);
+  try {
+    const auto watch = run_in_lanes<R>(plan, pack, make);
+    for (std::size_t k = 0; k < places.size(); ++k) done(places[k], watch, static_cast<int>(k));
+  } catch (const LoopRefused&) {
+    if (places.size() == 1) return refused(places[0]);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      run_pack(plan, loops, places.subspan(k, 1), make, done, refused);
+    }
+  }
+}
+
 /// Runs all loops that have a robot, as many at once as there are lanes. The loops of a pack have the
-/// same substeps.
-/// @param done  called with the index of a loop, what was watched, and the lane
-/// @throws std::invalid_argument as above
-template <DescribedRobot R, class Make, class Done>
+/// same substeps. `done` and `refused` are those of run_pack.
+template <DescribedRobot R, class Make, class Done, class Refused>
 void run_in_packs(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops, const Make& make,
-                  const Done& done) {
+                  const Done& done, const Refused& refused) {
   std::map<int, std::vector<std::size_t>> by_substeps;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     if (loops[k].robot) by_substeps[loops[k].simulation.substeps].push_back(k);
@@ -132,10 +142,7 @@ void run_in_packs(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops, 
   for (const auto& [substeps, places] : by_substeps) {
     for (std::size_t begin = 0; begin < places.size(); begin += most) {
       const auto some = std::span(places).subspan(begin, std::min(most, places.size() - begin));
-      std::vector<const VariedLoop<R>*> pack;
-      for (const std::size_t place : some) pack.push_back(&loops[place]);
-      const auto watch = run_in_lanes<R>(plan, pack, make);
-      for (std::size_t k = 0; k < some.size(); ++k) done(some[k], watch, static_cast<int>(k));
+      run_pack(plan, loops, some, make, done, refused);
     }
   }
 }

@@ -2,21 +2,13 @@
 /// @file One run of a sweep as a line of CSV.
 #pragma once
 
-#include "articula/futures/future_end.hpp"
+#include "articula/sim/simulation_end.hpp"
 #include "articula/sweep/sweep_result.hpp"
 
 #include <charconv>
 #include <string>
-#include <string_view>
 
 namespace articula {
-
-/// The word for a run's end in files: stable, unstable or non_finite.
-[[nodiscard]] constexpr std::string_view to_string(FutureEnd end) noexcept {
-  return end == FutureEnd::stable     ? "stable"
-         : end == FutureEnd::unstable ? "unstable"
-                                      : "non_finite";
-}
 
 /// Appends a run as a line of CSV: number, seed, end, parameters, metrics. Each number reads back as
 /// the same double; an undefined metric is nan.

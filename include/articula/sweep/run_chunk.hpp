@@ -47,14 +47,13 @@ namespace detail {
 }  // namespace detail
 
 /// One run of a sweep, for example to replay one of the worst.
-/// @throws std::runtime_error naming the run and its parameters, if it cannot be set up
+/// @throws std::runtime_error naming the run and its parameters, if the experiment throws
 /// Real-time: no (allocates).
 template <SweepExperiment E>
-[[nodiscard]] SweepRow run_once(const E& experiment, const Samples& samples, std::uint64_t number,
-                                std::size_t metrics) {
-  SweepRow row = detail::row_of(samples, number, metrics);
+[[nodiscard]] SweepRow run_once(const E& experiment, const Samples& samples, std::uint64_t number) {
+  SweepRow row = detail::row_of(samples, number, experiment.metrics().size());
   try {
-    row.end = experiment.run({number, row.seed, row.parameters}, row.metrics);
+    row.end = experiment.run(row.run(), row.metrics);
   } catch (const std::exception& error) {
     std::string values;
     for (std::size_t p = 0; p < row.parameters.size(); ++p) {
@@ -68,27 +67,29 @@ template <SweepExperiment E>
 }
 
 /// The runs of a chunk: together if the experiment can, else one after the other.
-/// @throws std::runtime_error as above
+/// @throws std::runtime_error naming the run or the runs, if the experiment throws
 /// Real-time: no (allocates).
 template <SweepExperiment E>
 [[nodiscard]] std::vector<SweepRow> run_chunk(const E& experiment, const Samples& samples,
                                               const SweepChunk& chunk) {
-  const std::size_t metrics = experiment.metrics().size();
   std::vector<SweepRow> rows;
   rows.reserve(chunk.count);
   if constexpr (requires(std::span<SweepRow> all) { experiment.run_together(all); }) {
+    const std::size_t metrics = experiment.metrics().size();
     for (std::uint64_t k = 0; k < chunk.count; ++k) {
       rows.push_back(detail::row_of(samples, chunk.first + k, metrics));
     }
     try {
       experiment.run_together(rows);
-      return rows;
-    } catch (const std::exception&) {
-      rows.clear();  // below, the run that cannot be set up has its number in the error
+    } catch (const std::exception& error) {
+      throw std::runtime_error(
+          detail::message_of({"sweep: runs ", chunk.first, " .. ", chunk.first + chunk.count - 1,
+                              ": ", error.what()}));
     }
-  }
-  for (std::uint64_t k = 0; k < chunk.count; ++k) {
-    rows.push_back(run_once(experiment, samples, chunk.first + k, metrics));
+  } else {
+    for (std::uint64_t k = 0; k < chunk.count; ++k) {
+      rows.push_back(run_once(experiment, samples, chunk.first + k));
+    }
   }
   return rows;
 }

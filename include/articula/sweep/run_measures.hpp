@@ -6,6 +6,8 @@
 #include "articula/core/joint_state.hpp"
 #include "articula/core/joint_vector.hpp"
 #include "articula/core/scalar.hpp"
+#include "articula/model/joint.hpp"
+#include "articula/sweep/joint_unit.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/tuning/step_metrics.hpp"
 
@@ -17,7 +19,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace articula {
@@ -51,14 +52,15 @@ class RunMeasures {
   }
 
   /// Names and units of all metrics, joint by joint; the energy is the last.
-  /// @param moves  joints that make a step
-  [[nodiscard]] static std::vector<SweepMetric> metrics(
-      const std::array<std::string_view, static_cast<std::size_t>(N)>& joints, const Moves& moves) {
+  /// @param joints  N of them
+  /// @param moves   joints that make a step
+  [[nodiscard]] static std::vector<SweepMetric> metrics(std::span<const JointProperties> joints,
+                                                        const Moves& moves) {
     std::vector<SweepMetric> all;
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const std::string prefix = std::string(joints[j]) + ".";
-      const auto add = [&](const char* name, const char* unit) {
-        all.push_back({prefix + name, unit});
+      const std::string prefix = std::string(joints[j].name.view()) + ".";
+      const auto add = [&](const char* name, const char* angular) {
+        all.push_back({prefix + name, detail::joint_unit(angular, {&joints[j].type, 1})});
       };
       if (moves[j]) {
         add("rise_time", "s");

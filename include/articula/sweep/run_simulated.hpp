@@ -5,6 +5,7 @@
 #include "articula/loop/control_loop.hpp"
 #include "articula/sim/simulator.hpp"
 #include "articula/sweep/delayed_commands.hpp"
+#include "articula/sweep/loop_refused.hpp"
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/varied_loop.hpp"
 
@@ -17,15 +18,17 @@ namespace articula::detail {
 /// @param robot  which is simulated
 /// @param make   makes the controller of gains
 /// @return       what was watched
-/// @throws std::invalid_argument if the loop cannot be simulated
+/// @throws LoopRefused if the loop cannot be simulated
 template <DynamicRobot R, Robot Simulated, class Make>
 [[nodiscard]] RunWatch<R> run_simulated(const RunPlan<R>& plan, const Simulated& robot,
                                         const VariedLoop<R>& own, const Make& make) {
   using Controller = std::remove_cvref_t<decltype(make(own.gains))>;
   using Command = typename CheckedController<Controller, articula::joint_count<R>, double>::Command;
   using Delayed = DelayedCommands<Simulator<Simulated>, Command>;
-  ControlLoop arm(Delayed(Simulator<Simulated>(robot, own.simulation), own.delay, own.lost),
-                  make(own.gains));
+  ControlLoop arm = set_up([&] {
+    return ControlLoop(Delayed(Simulator<Simulated>(robot, own.simulation), own.delay, own.lost),
+                       make(own.gains));
+  });
   Simulator<Simulated>& simulator = arm.hardware().simulator();
   RunWatch<R> watch(plan, simulator.true_state().position, effort_limits(robot));
   for (int cycle = 0;; ++cycle) {

@@ -43,7 +43,7 @@ struct RunPlan {
 ///     RunWatch<R> watch(plan, start, effort_limits(robot));
 ///     watch.begin(cycle, state, reference);       // before each cycle, and after the last one
 ///     watch.finish(cycle, state);                 // after each cycle
-///     const FutureEnd end = watch.result(metrics);
+///     const SimulationEnd end = watch.result(metrics);
 ///
 /// It stores no states, so its memory does not grow with the run. For single runs whose states you
 /// want to see, use a Recorder.
@@ -89,16 +89,16 @@ class RunWatch {
 
   /// @param metrics  receives all metrics. They are NaN for a run that was not finite, since those
   ///                 of its few cycles would look good.
-  [[nodiscard]] FutureEnd result(std::span<double> metrics, int lane = 0) const {
+  [[nodiscard]] SimulationEnd result(std::span<double> metrics, int lane = 0) const {
     if (is_true(non_finite_, lane)) {
       std::ranges::fill(metrics, std::numeric_limits<double>::quiet_NaN());
-      return FutureEnd::non_finite;
+      return SimulationEnd::non_finite;
     }
     measures_.values(metrics.first(plan_->standard_metrics), lane);
     for (std::size_t k = 0; k < plan_->own_metrics.size(); ++k) {
       metrics[plan_->standard_metrics + k] = own_values_[place(lane, k)];
     }
-    return is_true(swings_.many(), lane) ? FutureEnd::unstable : FutureEnd::stable;
+    return is_true(swings_.many(), lane) ? SimulationEnd::unstable : SimulationEnd::stable;
   }
 
  private:

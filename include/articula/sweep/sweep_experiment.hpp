@@ -2,7 +2,7 @@
 /// @file The interface of an experiment, which a sweep runs many times.
 #pragma once
 
-#include "articula/futures/future_end.hpp"
+#include "articula/sim/simulation_end.hpp"
 #include "articula/sweep/sampling/sweep_parameter.hpp"
 
 #include <concepts>
@@ -31,7 +31,7 @@ struct SweepRun {
 /// - `parameters()` are the numbers that vary, `metrics()` what each run measures.
 /// - `run(run, metrics)` runs once, fills in the metrics, and returns how the run has ended. Metrics
 ///   that are not finite are undefined in this run. Several threads call it at the same time. The
-///   result depends on the run alone.
+///   result depends on the run alone. What it throws ends the sweep.
 ///
 /// If there is `run_together(std::span<SweepRow>)`, a sweep calls it with some rows that have number,
 /// seed and parameters. It gives each what `run` gives, to the last bit.
@@ -42,7 +42,7 @@ concept SweepExperiment =
     requires(const E& experiment, const SweepRun& run, std::span<double> metrics) {
       { experiment.parameters() } -> std::convertible_to<std::vector<SweepParameter>>;
       { experiment.metrics() } -> std::convertible_to<std::vector<SweepMetric>>;
-      { experiment.run(run, metrics) } -> std::same_as<FutureEnd>;
+      { experiment.run(run, metrics) } -> std::same_as<SimulationEnd>;
     };
 
 }  // namespace articula

@@ -29,7 +29,7 @@ struct SweepOptions {
   std::string worst_metric{};  ///< by which the worst runs are kept; empty: the first metric
   std::size_t worst = 10;      ///< number of worst runs to keep, at most 10 000
   int threads = 0;             ///< at most 1024; 0: one for each processor
-  std::uint64_t chunk = 64;    ///< runs that a thread takes at once, 1 .. 1 000 000
+  std::uint64_t chunk = 64;    ///< runs that a thread takes at once, 1 .. 10 000
 };
 
 namespace detail {
@@ -58,7 +58,7 @@ inline void validate(const SweepOptions& options, const std::vector<SweepMetric>
   };
   if (metrics.empty()) detail::refuse({"sweep: the experiment measures nothing"});
   check("threads", options.threads, 0, 1024);
-  check("chunk", options.chunk, std::uint64_t{1}, std::uint64_t{1'000'000});
+  check("chunk", options.chunk, std::uint64_t{1}, std::uint64_t{10'000});
   check("worst", options.worst, std::size_t{0}, std::size_t{10'000});
   if (!options.worst_metric.empty()) {
     static_cast<void>(detail::metric_index(metrics, options.worst_metric));

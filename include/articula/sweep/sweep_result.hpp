@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
-#include "articula/futures/future_end.hpp"
+#include "articula/sim/simulation_end.hpp"
 #include "articula/sweep/statistics/metric_summary.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_options.hpp"
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -25,7 +26,10 @@ struct SweepRow {
   std::uint64_t seed = 0;
   std::vector<double> parameters{};
   std::vector<double> metrics{};
-  FutureEnd end = FutureEnd::stable;
+  SimulationEnd end = SimulationEnd::stable;
+
+  /// The run that an experiment repeats. It refers to this row's parameters.
+  [[nodiscard]] SweepRun run() const noexcept { return {number, seed, parameters}; }
 };
 
 /// A sweep's runs, summarised. Its size does not grow with their number. Rows are added in the order
@@ -58,9 +62,11 @@ class SweepResult {
   /// Number of runs so far.
   [[nodiscard]] std::uint64_t runs() const noexcept { return runs_; }
   /// Number of runs with this end.
-  [[nodiscard]] std::uint64_t runs_with(FutureEnd end) const noexcept {
+  [[nodiscard]] std::uint64_t runs_with(SimulationEnd end) const noexcept {
     return ends_[static_cast<std::size_t>(end)];
   }
+  /// Numbers of runs, in the order of SimulationEnd.
+  [[nodiscard]] const auto& ends() const noexcept { return ends_; }
   /// Number of stable runs that meet all specifications.
   [[nodiscard]] std::uint64_t runs_within() const noexcept { return within_; }
   /// One metric over all runs.
@@ -75,17 +81,18 @@ class SweepResult {
 
   /// True if a run is stable and meets all specifications.
   [[nodiscard]] bool meets_all(const SweepRow& row) const noexcept {
-    return row.end == FutureEnd::stable &&
+    return row.end == SimulationEnd::stable &&
            std::all_of(limits_.begin(), limits_.end(),
                        [&](const auto& limit) { return row.metrics[limit.first] <= limit.second; });
   }
 
   /// The counts of a part of a sweep, from a file.
-  void restore(std::uint64_t within, const std::array<std::uint64_t, 3>& ends,
+  void restore(std::uint64_t within,
+               const std::array<std::uint64_t, simulation_end_names.size()>& ends,
                std::vector<MetricSummary> summaries, std::vector<SweepRow> worst) {
     within_ = within;
     ends_ = ends;
-    runs_ = ends[0] + ends[1] + ends[2];
+    runs_ = std::accumulate(ends.begin(), ends.end(), std::uint64_t{0});
     summaries_ = std::move(summaries);
     worst_ = std::move(worst);
   }
@@ -115,7 +122,7 @@ class SweepResult {
   std::vector<std::pair<std::size_t, double>> limits_{};  ///< metric and its highest value
   std::size_t worst_metric_ = 0, worst_size_ = 0;
   std::vector<SweepRow> worst_{};
-  std::array<std::uint64_t, 3> ends_{};
+  std::array<std::uint64_t, simulation_end_names.size()> ends_{};
   std::uint64_t runs_ = 0, within_ = 0;
 };
 

@@ -10,6 +10,7 @@
 #include "articula/model/robot.hpp"
 #include "articula/sim/lost_commands.hpp"
 #include "articula/sim/simulator_options.hpp"
+#include "articula/sweep/joint_unit.hpp"
 #include "articula/sweep/variation.hpp"
 
 #include <algorithm>
@@ -18,6 +19,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -94,6 +96,17 @@ template <DynamicRobot R>
   result.places.push_back(link->body);
   result.point = link->placement.translation;
   return result;
+}
+
+/// The unit of a variation's values, of a joint that rotates or translates.
+/// Real-time: no (allocates).
+[[nodiscard]] std::string unit_of(const auto& model, const PlacedVariation& placed) {
+  const VariedTraits& traits = traits_of(placed.variation.quantity);
+  std::vector<JointType> types;
+  if (traits.subject == VariedSubject::joint) {
+    for (const int j : placed.places) types.push_back(model.joints[j].type);
+  }
+  return joint_unit(traits.unit, types);
 }
 
 /// Refuses a factor of numbers that are all 0: it would change nothing. (The factor 0 alone, which

@@ -2,7 +2,7 @@
 /// @file A question for the futures of a loop with other gains, and its answer.
 #pragma once
 
-#include "articula/futures/future_end.hpp"
+#include "articula/sim/simulation_end.hpp"
 #include "articula/futures/future_options.hpp"
 #include "articula/loop/stop_flag.hpp"
 #include "articula/remote/forecast/joint_margins.hpp"
@@ -73,7 +73,7 @@ struct FuturesQuestion {
 
 /// One simulated future.
 struct FutureTrajectory {
-  FutureEnd end = FutureEnd::stable;
+  SimulationEnd end = SimulationEnd::stable;
   std::vector<std::vector<double>> positions{};  ///< of each joint, at each sample [rad or m]
 };
 

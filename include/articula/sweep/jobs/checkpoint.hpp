@@ -66,11 +66,9 @@ inline void write_checkpoint(const std::filesystem::path& path, const SweepResul
     put(classes.size());
     classes.for_each([&](std::int32_t place, std::uint64_t count) { put(place), put(count); });
   };
-  file << "articula-sweep-checkpoint-1 " << identity;
+  file << "articula-sweep-checkpoint-2 " << identity;
   put(result.runs_within());
-  for (const auto end : {FutureEnd::stable, FutureEnd::unstable, FutureEnd::non_finite}) {
-    put(result.runs_with(end));
-  }
+  for (const std::uint64_t count : result.ends()) put(count);
   for (const MetricSummary& summary : result.summaries()) {
     file << "\nmetric";
     put(summary.undefined);
@@ -162,12 +160,12 @@ class CheckpointReader {
                                                                 std::string_view identity) {
   if (!std::filesystem::exists(path)) return {};
   detail::CheckpointReader in(path);
-  in.expect("articula-sweep-checkpoint-1");
+  in.expect("articula-sweep-checkpoint-2");
   if (in.word() != identity) {
     in.refuse("the checkpoint belongs to another sweep; remove it, or choose another folder");
   }
   const std::uint64_t within = in.count();
-  std::array<std::uint64_t, 3> ends{};
+  std::array<std::uint64_t, simulation_end_names.size()> ends{};
   for (std::uint64_t& count : ends) count = in.count();
   std::vector<MetricSummary> summaries(empty.metrics().size());
   for (MetricSummary& summary : summaries) {
@@ -187,7 +185,7 @@ class CheckpointReader {
   for (SweepRow& row : worst) {
     row.number = in.count();
     row.seed = in.count();
-    row.end = static_cast<FutureEnd>(in.count_up_to(2));
+    row.end = static_cast<SimulationEnd>(in.count_up_to(simulation_end_names.size() - 1));
     row.parameters.resize(in.count_up_to(10'000));
     row.metrics.resize(summaries.size());
     for (double& x : row.parameters) x = in.bits();

@@ -54,7 +54,7 @@ struct ChunkPacking {
                    .metrics = std::vector<double>(metrics)};
       double end = 0;
       take(&end, 1);
-      row.end = static_cast<FutureEnd>(static_cast<int>(end));
+      row.end = static_cast<SimulationEnd>(static_cast<int>(end));
       take(row.parameters.data(), row.parameters.size());
       take(row.metrics.data(), row.metrics.size());
       chunk.rows.push_back(std::move(row));

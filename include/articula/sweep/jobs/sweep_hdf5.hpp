@@ -7,6 +7,7 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
@@ -90,7 +91,8 @@ class Hdf5Column {
 }  // namespace detail
 
 /// Copies the rows of SweepCsv into an HDF5 file: a dataset for each column, with its unit as an
-/// attribute. /run and /seed are unsigned, /end is 0 (stable), 1 (unstable) or 2 (non_finite). HDF5
+/// attribute. /run and /seed are unsigned, /end is 0 (stable), 1 (unstable), 2 (non_finite) or
+/// 3 (refused). HDF5
 /// does not survive a crash while it writes; so rows are written as CSV, and copied in the end.
 /// @param csv         of a SweepCsv
 /// @param parameters  of the sweep
@@ -143,10 +145,10 @@ inline void write_hdf5(const std::filesystem::path& path, const std::filesystem:
     runs.push_back(take_number(std::uint64_t{}));
     seeds.push_back(take_number(std::uint64_t{}));
     const std::string_view word = take();
-    std::uint64_t code = 0;
-    while (code < 3 && to_string(static_cast<FutureEnd>(code)) != word) ++code;
-    if (code == 3) refuse();
-    ends.push_back(code);
+    const auto end_named =
+        std::find(simulation_end_names.begin(), simulation_end_names.end(), word);
+    if (end_named == simulation_end_names.end()) refuse();
+    ends.push_back(static_cast<std::uint64_t>(end_named - simulation_end_names.begin()));
     for (auto& column : values) column.push_back(take_number(0.0));
     if (runs.size() == 4096) flush();
   }

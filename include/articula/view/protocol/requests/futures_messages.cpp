@@ -122,7 +122,7 @@ Asked read_futures(const Json& call) {
 }
 
 Json futures_json(const remote::FuturesAnswer& answer, const remote::RobotSheet& robot) {
-  const auto ended = [&](FutureEnd end) {
+  const auto ended = [&](SimulationEnd end) {
     return std::count_if(answer.futures.begin(), answer.futures.end(),
                          [&](const auto& future) { return future.end == end; });
   };
@@ -130,8 +130,8 @@ Json futures_json(const remote::FuturesAnswer& answer, const remote::RobotSheet&
                {"horizon", answer.horizon},
                {"samples", answer.samples},
                {"count", answer.futures.size()},
-               {"unstable", ended(FutureEnd::unstable)},
-               {"non_finite", ended(FutureEnd::non_finite)},
+               {"unstable", ended(SimulationEnd::unstable)},
+               {"non_finite", ended(SimulationEnd::non_finite)},
                {"shares", shares},
                {"joints", Json::array()},
                {"margins", Json::array()}};
