@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps on many ranks: what a row costs the rank that computes it and rank 0, and a model of both
-// for more ranks than this machine has.
-//
-// The model has discrete events. A rank computes a chunk of 64 runs, whose time is random within 20 %
-// of its mean, and sends it. Rank 0 takes chunks one after the other, for the measured time, and sends
-// the next one. A message takes 20 us. Each rank has two chunks, as in continue_sweep_with_mpi. The
-// runs that rank 0 computes are left out. The efficiency is that of all ranks, 1 for a rank alone.
-#include <articula/sim/random_draw.hpp>
+// Sweeps on many ranks: what a row costs the rank that computes it, and rank 0. simulated_ranks/run.sh
+// has both for more ranks than this machine has.
 #include <articula/sweep/jobs/chunk_packing.hpp>
 #include <articula/sweep/run_chunk.hpp>
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
-#include <queue>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -88,59 +77,6 @@ class Rows {
   std::FILE* file_;
 };
 
-/// The least time of rank 0 for a chunk [s]: other programs make it longer, never shorter.
-double measured_collection() {
-  static const double least = [] {
-    Rows rows;
-    double seconds = 1;
-    for (int k = 0; k < 2000; ++k) {
-      const auto begin = std::chrono::steady_clock::now();
-      rows.collect();
-      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-      seconds = std::min(seconds, taken.count());
-    }
-    return seconds;
-  }();
-  return least;
-}
-
-/// @param ranks    that compute, and rank 0
-/// @param run      time of a run [s]
-/// @param collect  of rank 0 for a chunk [s]
-double modelled_efficiency(std::size_t ranks, double run, double collect) {
-  constexpr double message = 20e-6;
-  const std::size_t chunks = 200 * ranks;
-  std::size_t left = chunks;
-  std::uint64_t drawn = 0;
-  double work = 0;
-  const auto time_of_chunk = [&] {
-    const double share = detail::share_of_bits(detail::random_bits(1, drawn++));
-    const double time = run * static_cast<double>(chunk_size) * (0.8 + 0.4 * share);
-    work += time;
-    return time;
-  };
-  using Arrival = std::pair<double, std::size_t>;  // at rank 0, and from which rank
-  std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> arrivals;
-  std::vector<double> second(ranks, 0);  // when the next chunk is with a rank; < 0: never
-  for (std::size_t rank = 1; rank < ranks; ++rank) {
-    arrivals.emplace(time_of_chunk() + message, rank);
-    left -= 2;
-  }
-  double free = 0;  // when rank 0 is free
-  while (!arrivals.empty()) {
-    const auto [arrival, rank] = arrivals.top();
-    arrivals.pop();
-    free = std::max(free, arrival) + collect;
-    if (second[rank] >= 0) {
-      const double begin = std::max(arrival - message, second[rank]);
-      arrivals.emplace(begin + time_of_chunk() + message, rank);
-    }
-    second[rank] = left > 0 ? free + message : -1;
-    if (left > 0) --left;
-  }
-  return work / (static_cast<double>(ranks) * free);
-}
-
 void lines(benchmark::State& bench) {
   Rows rows;
   for (auto _ : bench) rows.write_lines();
@@ -151,22 +87,7 @@ void collection(benchmark::State& bench) {
   for (auto _ : bench) rows.collect();
   bench.SetItemsProcessed(bench.iterations() * static_cast<std::int64_t>(chunk_size));
 }
-void ranks(benchmark::State& bench) {
-  const double run = 1e-6 * static_cast<double>(bench.range(1)), collect = measured_collection();
-  double efficiency = 0;
-  for (auto _ : bench) {
-    efficiency = modelled_efficiency(static_cast<std::size_t>(bench.range(0)), run, collect);
-  }
-  bench.counters["efficiency"] = efficiency;
-  bench.counters["collect_us_per_row"] = 1e6 * collect / static_cast<double>(chunk_size);
-}
-
 BENCHMARK(lines)->Name("sweep_ranks/lines_of_64_rows");
 BENCHMARK(collection)->Name("sweep_ranks/collection_of_64_rows");
-BENCHMARK(ranks)
-    ->Name("sweep_ranks/model")
-    ->ArgNames({"ranks", "run_us"})
-    ->ArgsProduct({{16, 64, 256, 1024, 4096}, {100, 300, 1000, 10000}})
-    ->Iterations(1);
 
 }  // namespace

@@ -86,7 +86,7 @@ void check_alone(const auto& experiment, const std::vector<SweepRow>& rows) {
   for (const SweepRow& row : rows) {
     CAPTURE(row.number);
     std::vector<double> alone(row.metrics.size());
-    const auto loop = experiment.loop({row.number, row.seed, row.parameters});
+    const auto loop = experiment.loop(row.run());
     REQUIRE(experiment.run_alone(loop, alone) == row.end);
     if constexpr (tolerance == 0) {
       REQUIRE(same_bits(row.metrics, alone));
@@ -177,7 +177,7 @@ TEST_CASE("runs have the same numbers in lanes as alone, and the same bits in an
   REQUIRE(rows.size() == 50);
   std::set<int> substeps;
   for (const SweepRow& row : rows) {
-    substeps.insert(experiment.loop({row.number, row.seed, row.parameters}).simulation.substeps);
+    substeps.insert(experiment.loop(row.run()).simulation.substeps);
   }
   CHECK(substeps.size() > 1);
   check_alone(experiment, rows);
@@ -237,7 +237,7 @@ TEST_CASE("runs that no lane takes run one after the other behind the same call"
   CHECK(interleaved == 101);  // two runs in lanes, cycle by cycle
   CHECK(changes == 101 + 2);  // and two alone
   for (const SweepRow& row : rows) {
-    const auto loop = experiment.loop({row.number, row.seed, row.parameters});
+    const auto loop = experiment.loop(row.run());
     CHECK(loop.robot.has_value() == (row.parameters[0] == 0));
   }
   check_alone(experiment, rows);

@@ -22,7 +22,7 @@ cmp "$folder/whole/checkpoint" "$folder/other/checkpoint"
 if "$@" "$sweeper" "$folder/killed" 2 --kill 1500 2>"$folder/log"; then fail "it was not killed"; fi
 [ -e "$folder/killed/killed" ] || fail "no process has killed itself"
 cmp -s "$folder/whole/checkpoint" "$folder/killed/checkpoint" && fail "it was complete"
-begun=$(sed -n 1p "$folder/killed/checkpoint" | awk '{ print $4 + $5 + $6 }')
+begun=$(sed -n 1p "$folder/killed/checkpoint" | awk '{ print $4 + $5 + $6 + $7 }')
 [ "$begun" -ge 500 ] && [ "$begun" -le 1500 ] || fail "the checkpoint has $begun runs"
 # What a crash may leave of a line.
 printf '99,12' >>"$folder/killed/rows.csv"
@@ -35,7 +35,7 @@ if "$@" "$sweeper" "$folder/failed" 2 --fail 2>"$folder/log"; then fail "the fai
 grep -q 'run 990 (rate .*): it fails' "$folder/log" || fail "no reason: $(cat "$folder/log")"
 
 # Another sweep does not go on from this one's checkpoint.
-sed 's/checkpoint-1 [0-9]*/checkpoint-1 7/' "$folder/whole/checkpoint" >"$folder/other/checkpoint"
+sed 's/checkpoint-2 [0-9]*/checkpoint-2 7/' "$folder/whole/checkpoint" >"$folder/other/checkpoint"
 if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "another sweep's checkpoint was used"; fi
 grep -q 'belongs to another sweep' "$folder/log"
 awk 'NR == 1 { $4 += 9 } { print }' "$folder/whole/checkpoint" >"$folder/other/checkpoint"

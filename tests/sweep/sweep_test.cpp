@@ -96,11 +96,10 @@ TEST_CASE("a run is a loop of one's own, to the last bit") {
   const Samples samples(experiment.parameters(), {.runs = 20, .seed = 9});
   for (const std::uint64_t number : {std::uint64_t{3}, std::uint64_t{17}}) {
     const SweepRow row = run_once(experiment, samples, number);
-    const auto own = experiment.loop({number, row.seed, row.parameters});
-    using Robot = VariedRobot<Q2d>;
-    ControlLoop loop(DelayedCommands<Simulator<Robot>, EffortCommand<2>>(
-                         Simulator<Robot>(own.robot.value(), own.simulation), own.delay, own.lost),
-                     PidPlusGravity<Q2d>(own.gains));
+    const auto own = experiment.loop(row.run());
+    ControlLoop loop(
+        DelayedCommands(Simulator(own.robot.value(), own.simulation), own.delay, own.lost),
+        PidPlusGravity<Q2d>(own.gains));
     StepMetrics elbow(0, -0.2);
     double effort = 0;
     for (int k = 0; k <= 200; ++k) {

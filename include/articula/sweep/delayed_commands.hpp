@@ -18,7 +18,7 @@ namespace articula {
 /// loss it is the simulator, to the last bit.
 /// @tparam H        the simulator
 /// @tparam Command  that is delayed
-template <class H, class Command>
+template <class H, class Command = EffortCommand<H::joint_count, ScalarOf<H>>>
 class DelayedCommands {
  public:
   using RobotType = typename H::RobotType;

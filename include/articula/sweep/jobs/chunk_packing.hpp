@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct ChunkPacking {
 
   [[nodiscard]] std::size_t width() const noexcept {
     return 1 + samples.parameters().size() + metrics;
+  }
+  /// The largest size of a chunk [bytes].
+  /// @param runs  in it
+  [[nodiscard]] std::size_t largest(std::uint64_t runs) const noexcept {
+    constexpr std::size_t number = 25, start = 60;  // letters in a line of CSV
+    return 16 + static_cast<std::size_t>(runs) * ((8 + number) * width() + start);
   }
   [[nodiscard]] std::string pack(const ComputedChunk& chunk) const {
     std::string bytes;
@@ -37,7 +44,7 @@ struct ChunkPacking {
     }
     return bytes += chunk.lines;
   }
-  [[nodiscard]] ComputedChunk unpack(const std::string& bytes) const {
+  [[nodiscard]] ComputedChunk unpack(std::string_view bytes) const {
     const char* at = bytes.data();
     const auto take = [&](auto* values, std::size_t count) {
       std::memcpy(values, at, count * sizeof *values);

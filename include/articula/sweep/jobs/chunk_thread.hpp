@@ -17,6 +17,9 @@
 
 namespace articula::detail {
 
+/// The chunks that a rank has at once: one under way, and one to go on with.
+inline constexpr int chunks_of_rank = 2;
+
 /// Computes chunks, one after the other, while its owner does other things.
 class ChunkThread {
  public:
@@ -49,8 +52,10 @@ class ChunkThread {
     ++owed_;
     changed_.notify_all();
   }
-  /// The number of chunks that were given and not taken.
-  [[nodiscard]] std::size_t owed() const noexcept { return owed_; }
+  /// True if it has too few chunks to be busy for long.
+  [[nodiscard]] bool wants_chunk() const noexcept { return owed_ < chunks_of_rank; }
+  /// True if chunks were given and not taken.
+  [[nodiscard]] bool owes_chunk() const noexcept { return owed_ > 0; }
   /// The next outcome, if there is one.
   [[nodiscard]] std::optional<Outcome> take() {
     const std::lock_guard lock(mutex_);
@@ -92,7 +97,7 @@ class ChunkThread {
   std::condition_variable changed_{};
   std::deque<SweepChunk> given_{};
   std::deque<Outcome> done_{};
-  std::size_t owed_ = 0;
+  int owed_ = 0;  ///< chunks that were given and not taken
   bool ends_ = false;
   std::thread thread_;  // the last member: it uses all others
 };

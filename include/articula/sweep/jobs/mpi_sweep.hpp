@@ -6,6 +6,7 @@
 #include "articula/sweep/jobs/chunk_order.hpp"
 #include "articula/sweep/jobs/chunk_packing.hpp"
 #include "articula/sweep/jobs/chunk_thread.hpp"
+#include "articula/sweep/jobs/mpi_inbox.hpp"
 #include "articula/sweep/jobs/mpi_names.hpp"
 #include "articula/sweep/run_chunk.hpp"
 #include "articula/sweep/sweep.hpp"
@@ -14,11 +15,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace articula {
@@ -27,8 +30,8 @@ namespace detail {
 
 enum MpiTag : int { tag_rows = 1, tag_error = 2, tag_chunk = 3 };
 
-/// The chunks that a rank has at once: one under way, and one to go on with.
-inline constexpr int chunks_of_rank = 2;
+/// Of the text of an error [bytes].
+inline constexpr std::size_t longest_error = 4096;
 
 /// Computes chunks until there are no more.
 template <class Compute>
@@ -51,7 +54,7 @@ void work_for_mpi(const Compute& compute, const ChunkPacking& packing, MPI_Comm 
     try {
       next = packing.pack(compute({chunk[0], chunk[1]}));
     } catch (const std::exception& error) {
-      next = error.what();
+      next = std::string(error.what()).substr(0, longest_error);
       tag = tag_error;
     }
     if (is_sending) MPI_Wait(&sent, MPI_STATUS_IGNORE);
@@ -60,6 +63,48 @@ void work_for_mpi(const Compute& compute, const ChunkPacking& packing, MPI_Comm 
     is_sending = true;
   }
   if (is_sending) MPI_Wait(&sent, MPI_STATUS_IGNORE);
+}
+
+/// What rank 0 does while the others work: hands out chunks and collects rows, until there are no
+/// more.
+/// @param chunk  runs in it at most
+/// @param own    computes chunks of this rank, as ChunkThread does
+template <class OwnChunks>
+void hand_out_for_mpi(ChunkOrder& order, const ChunkPacking& packing, std::uint64_t chunk,
+                      int ranks, OwnChunks& own, MPI_Comm all) {
+  MpiInbox inbox(std::max(packing.largest(chunk), longest_error), all);
+  std::deque<int> idle;
+  int asking = chunks_of_rank * (ranks - 1);
+  constexpr std::chrono::microseconds shortest(20), longest(1000);
+  auto pause = shortest;
+  const auto read = [&](int rank, int tag, std::string_view bytes) {
+    idle.push_back(rank);
+    if (tag == tag_error) {
+      order.fail(std::make_exception_ptr(std::runtime_error(std::string(bytes))));
+    } else if (!bytes.empty()) {
+      order.collect(packing.unpack(bytes));
+    }
+  };
+  while (asking > 0 || own.owes_chunk() || !order.is_empty()) {
+    while (!idle.empty() && order.has_next()) {
+      const SweepChunk next = order.next();
+      const std::uint64_t numbers[2] = {next.first, next.count};
+      MPI_Send(numbers, 2, mpi_uint64(), idle.front(), tag_chunk, all);
+      idle.pop_front();
+      if (next.count == 0) --asking;
+    }
+    if (inbox.take(read)) {
+      pause = shortest;
+    } else if (auto done = own.take()) {
+      done->thrown ? order.fail(done->thrown) : order.collect(std::move(done->chunk));
+      pause = shortest;
+    } else if (own.wants_chunk() && !order.is_empty() && order.has_next()) {
+      own.give(order.next());
+    } else {  // a blocking call of MPI would take a whole processor
+      own.wait(pause);
+      pause = std::min(2 * pause, longest);
+    }
+  }
 }
 
 }  // namespace detail
@@ -84,8 +129,7 @@ void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, S
   const Samples samples(experiment.parameters(), options.sampling);
   validate(options, experiment.metrics());
   const detail::ChunkPacking packing{samples, experiment.metrics().size()};
-  if (options.chunk * packing.width() >
-      50'000'000) {  // of 8 bytes and 25 letters; MPI counts in int
+  if (packing.largest(options.chunk) > 1'000'000'000) {  // MPI counts in int
     detail::refuse({"sweep: chunk ", options.chunk, " is too large for one message"});
   }
   int with_lines = hooks.lines ? 1 : 0;
@@ -97,44 +141,7 @@ void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, S
 
   detail::ChunkOrder order(options, samples, result, hooks, ranks);
   detail::ChunkThread own(compute);
-  std::deque<int> idle;
-  int asking = detail::chunks_of_rank * (ranks - 1);
-  constexpr std::chrono::microseconds shortest(20), longest(1000);
-  auto pause = shortest;
-  while (asking > 0 || own.owed() > 0 || !order.is_empty()) {
-    while (!idle.empty() && order.has_next()) {
-      const SweepChunk next = order.next();
-      const std::uint64_t chunk[2] = {next.first, next.count};
-      MPI_Send(chunk, 2, detail::mpi_uint64(), idle.front(), detail::tag_chunk, all);
-      idle.pop_front();
-      if (next.count == 0) --asking;
-    }
-    MPI_Status status;
-    int is_there = 0;
-    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all, &is_there, &status);
-    if (is_there != 0) {
-      int size = 0;
-      MPI_Get_count(&status, detail::mpi_byte(), &size);
-      std::string bytes(static_cast<std::size_t>(size), '\0');
-      MPI_Recv(bytes.data(), size, detail::mpi_byte(), status.MPI_SOURCE, status.MPI_TAG, all,
-               MPI_STATUS_IGNORE);
-      idle.push_back(status.MPI_SOURCE);
-      if (status.MPI_TAG == detail::tag_error) {
-        order.fail(std::make_exception_ptr(std::runtime_error(bytes)));
-      } else if (!bytes.empty()) {
-        order.collect(packing.unpack(bytes));
-      }
-      pause = shortest;
-    } else if (auto done = own.take()) {
-      done->thrown ? order.fail(done->thrown) : order.collect(std::move(done->chunk));
-      pause = shortest;
-    } else if (own.owed() < detail::chunks_of_rank && !order.is_empty() && order.has_next()) {
-      own.give(order.next());
-    } else {  // a blocking call of MPI would take a whole processor
-      own.wait(pause);
-      pause = std::min(2 * pause, longest);
-    }
-  }
+  detail::hand_out_for_mpi(order, packing, options.chunk, ranks, own, all);
   order.rethrow();
 }
 
