@@ -5,7 +5,7 @@
 #include "articula/ros2/messages/action_msgs.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/messages/controller_manager_msgs.hpp"
-#include "articula/ros2/messages/diagnostic_msgs.hpp"
+#include "articula/ros2/messages/monitoring/diagnostic_msgs.hpp"
 #include "articula/ros2/messages/rcl_interfaces.hpp"
 #include "articula/ros2/messages/rmw_dds_common.hpp"
 #include "articula/ros2/messages/service_msgs.hpp"

@@ -34,6 +34,8 @@ inline constexpr QualityOfService tf{.transient_local = false, .depth = 100};
 /// Writers of static transforms. Readers keep 100 samples.
 inline constexpr QualityOfService tf_static{.transient_local = true, .depth = 1};
 inline constexpr QualityOfService activity{.transient_local = true, .depth = 1};
+/// Of introspection_data and statistics. Their readers ask for samples of before.
+inline constexpr QualityOfService numbers{.transient_local = true, .depth = 1};
 inline constexpr QualityOfService log{.transient_local = true, .depth = 1000};
 inline constexpr QualityOfService parameter_events{.transient_local = false, .depth = 1000};
 inline constexpr QualityOfService clock{.transient_local = false, .depth = 1};

@@ -6,12 +6,14 @@
 #include "articula/ros2/bridge/controllers/gripper_action.hpp"
 #include "articula/ros2/bridge/controllers/trajectory_action.hpp"
 #include "articula/ros2/bridge/core/bridge_core.hpp"
+#include "articula/ros2/bridge/introspection.hpp"
 #include "articula/ros2/bridge/manager_services.hpp"
 #include "articula/ros2/bridge/robot_topics.hpp"
 #include "articula/ros2/node/ros_time.hpp"
 #include "articula/ros2/node/subscription.hpp"
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,7 @@ struct BridgeNodes::Parts {
 
   Parts(remote::Port& port, Transport& transport, const BridgeOptions& options)
       : core(port, transport, options), robot(core), manager(make_manager_services(core)) {
+    if (options.distribution >= Distribution::jazzy) introspection.emplace(core);
     const auto sim_time = read_only("use_sim_time", to_value(options.use_sim_time),
                                     "Whether stamps have a simulator's time.");
     std::vector<NodeParameter> all{sim_time};
@@ -93,6 +96,7 @@ struct BridgeNodes::Parts {
   std::chrono::nanoseconds simulator_time{0};  ///< by the topic of the options
   RobotTopics robot;
   std::unique_ptr<ManagerServices> manager;
+  std::optional<Introspection> introspection{};  ///< not in Humble
   std::vector<std::unique_ptr<FixedNode>> fixed{};
   std::vector<std::unique_ptr<ControllerNode>> controllers{};
 };
@@ -113,6 +117,7 @@ void BridgeNodes::update(std::chrono::nanoseconds now) {
   parts_->log_events();
   parts_->robot.update();
   parts_->manager->update();
+  if (parts_->introspection) parts_->introspection->update();
   for (const auto& controller : parts_->controllers) controller->update();
 }
 

@@ -2,7 +2,7 @@
 #include "articula/ros2/bridge/manager_services.hpp"
 
 #include "articula/ros2/messages/controller_manager_msgs.hpp"
-#include "articula/ros2/messages/diagnostic_msgs.hpp"
+#include "articula/ros2/messages/monitoring/diagnostic_msgs.hpp"
 #include "articula/ros2/node/periodic.hpp"
 #include "articula/ros2/node/publisher.hpp"
 #include "articula/ros2/node/service.hpp"
