@@ -50,6 +50,12 @@ template <class R>
 constexpr auto one_for_each_run =
     [](const JointPidGains<joint_count<R>>& own) { return PidPlusGravity<R>(own); };
 
+/// The sum of all joints' viscous damping. The UR10 is described without.
+template <class R>
+double sum_of_damping() {
+  return joint_values(R(), [](const JointProperties& joint) { return joint.damping; }).sum();
+}
+
 template <class R>
 auto experiment_of(const auto& robot, const auto& make, double friction) {
   constexpr int n = joint_count<R>;
@@ -57,9 +63,9 @@ auto experiment_of(const auto& robot, const auto& make, double friction) {
   options.simulation.initial_position = middle<R>();
   options.target = middle<R>() + JointVector<n>::Constant(0.3);
   options.vary = {{VariedQuantity::mass, {}, 0.8, 1.2},
-                  {VariedQuantity::damping, {}, 0.8, 1.2},
                   {VariedQuantity::initial_position, {}, -0.1, 0.1},
                   {VariedQuantity::proportional, {}, 0.8, 1.2}};
+  if (sum_of_damping<R>() > 0) options.vary.push_back({VariedQuantity::damping, {}, 0.8, 1.2});
   if (friction > 0) {
     options.vary.push_back({VariedQuantity::added_friction, {}, 0, friction});
   }

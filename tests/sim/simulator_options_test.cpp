@@ -73,6 +73,8 @@ TEST_CASE("bad options are refused, naming option, joint, value and limit") {
        {"servo_bandwidth", "1e+09", shoulder, "at most 2e+08"}},
       {[](Options& o) { o.encoder_resolution[0] = -1e-5; },
        {"encoder_resolution", "-1e-05", shoulder}},
+      {[](Options& o) { o.encoder_resolution[0] = 4096; },
+       {"encoder_resolution", "4096", shoulder, "more than its range", "not a number of lines"}},
       {[](Options& o) { o.encoder_resolution[1] = infinity; },
        {"encoder_resolution", "inf", elbow}},
       {[](Options& o) { o.position_noise[0] = not_a_number; }, {"position_noise", "nan", shoulder}},

@@ -42,6 +42,7 @@ if command -v gnuplot >/dev/null; then
 fi
 "$articula" sweep "$folder/good.yaml" --output "$folder/threads" --threads 3 --chunk 7 >"$folder/log"
 cmp "$rows" "$folder/threads/rows.csv"
+[ ! -e "$folder/threads/rows.h5" ] || cmp "${rows%.csv}.h5" "$folder/threads/rows.h5"
 if [ $# -gt 0 ]; then
   "$@" "$articula" sweep "$folder/good.yaml" --output "$folder/ranks" --chunk 11 >"$folder/log"
   cmp "$rows" "$folder/ranks/rows.csv"

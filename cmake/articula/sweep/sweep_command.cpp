@@ -24,6 +24,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -168,6 +169,16 @@ void report(const Program& program, const SweepPlan& plan, const AnyExperiment& 
   program.print(all, text);
 }
 
+/// The experiment of a plan.
+/// @throws Refusal naming the file, if the plan's loops cannot be simulated
+AnyExperiment checked_experiment(const SweepPlan& plan, const std::string& file) {
+  try {
+    return experiment_of(plan);
+  } catch (const std::invalid_argument& error) {
+    throw Refusal(file + ": " + error.what());
+  }
+}
+
 /// The sweep in this process and those of mpirun.
 void run_sweep(const Program& program, const SweepCall& call, bool is_distributed, bool is_first,
                const auto& continues) {
@@ -175,14 +186,14 @@ void run_sweep(const Program& program, const SweepCall& call, bool is_distribute
   if (!call.output.empty()) plan.output = call.output;
   plan.options.threads = call.threads;
   plan.options.chunk = static_cast<std::uint64_t>(call.chunk);
-  check_names(plan, experiment_of(plan));
+  check_names(plan, checked_experiment(plan, call.file));
   SearchedPlan searched{.plan = plan};
   if (!plan.search.metric.empty()) {
     if (is_distributed) throw Refusal("a search runs in one process: start it without mpirun");
     searched = search_sweep(std::move(plan));
     plan = searched.plan;
   }
-  const AnyExperiment experiment = experiment_of(plan);
+  const AnyExperiment experiment = checked_experiment(plan, call.file);
   if (!is_first) {
     SweepResult none(experiment.metrics(), plan.options);
     return continues(experiment, plan.options, none, articula::SweepHooks{});
@@ -248,7 +259,7 @@ void add_sweep_command(CLI::App& app, Program& program) {
       ->check(within(0, 1024))
       ->capture_default_str();
   command->add_option("--chunk", call->chunk, "runs that a thread or process takes at once")
-      ->check(within(1, 1'000'000))
+      ->check(within(1, 10'000))
       ->capture_default_str();
   command->add_flag("--fresh", call->starts_again, "start again in place of going on");
 }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -103,6 +104,18 @@ template <Robot R>
   return 2.785 / 2 / rate;
 }
 
+namespace detail {
+
+/// The largest step of an encoder that tells anything: the range of a joint, a revolution of one
+/// without limits [rad or m].
+[[nodiscard]] inline double range_of_encoder(const JointProperties& joint) {
+  const double range = joint.limits.upper - joint.limits.lower;
+  if (is_finite(range)) return range;
+  return joint.type == JointType::prismatic ? range : 2 * std::numbers::pi;
+}
+
+}  // namespace detail
+
 /// Refuses options that cannot be simulated:
 /// - periods, steps, bandwidths, resolutions or deviations out of range
 /// - drives of no kind, or a start outside the joint limits
@@ -138,6 +151,13 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     if (options.encoder_resolution[j] != 0 && options.encoder_resolution[j] < smallest_step) {
       refuse({"encoder_resolution ", options.encoder_resolution[j], " of joint '", name,
               "' is neither 0 nor at least ", smallest_step});
+    }
+    const double range = detail::range_of_encoder(joint);
+    if (options.encoder_resolution[j] > range) {
+      refuse({"encoder_resolution ", options.encoder_resolution[j], " of joint '", name,
+              "' is more than its range, ", range,
+              "; it is a step of position, not a number of "
+              "lines"});
     }
     check_not_negative("position_noise", options.position_noise[j]);
     check_not_negative("velocity_noise", options.velocity_noise[j]);

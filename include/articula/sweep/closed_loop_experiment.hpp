@@ -55,6 +55,9 @@ class ClosedLoopExperiment {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
   using Gains = JointPidGains<joint_count>;
+  static_assert(std::is_invocable_v<const Make&, const Gains&>,
+                "The function that makes the controller must take const JointPidGains<N>&, N being "
+                "the number of joints.");
   using Controller = std::remove_cvref_t<std::invoke_result_t<const Make&, const Gains&>>;
 
   /// @param gains  nominal
@@ -84,6 +87,7 @@ class ClosedLoopExperiment {
       detail::refuse({"sweep: the disturbance of joint '", signal.joint.view(), "' is no effort"});
     }
     plan_.signals.emplace(robot_, options_.signals, JointReference<joint_count>{plan_.target});
+    plan_.has_signals = !options_.signals.empty();
     if (!options_.disturbances.empty()) {
       plan_.disturbances.emplace(robot_, options_.disturbances, JointReference<joint_count>{start});
     }
@@ -177,6 +181,8 @@ class ClosedLoopExperiment {
   void run_packs(std::span<SweepRow> rows) const {
     std::vector<VariedLoop<R>> loops;
     std::vector<SweepRow*> of_loops;
+    loops.reserve(rows.size());
+    of_loops.reserve(rows.size());
     for (SweepRow& row : rows) {
       try {
         loops.push_back(detail::set_up([&] { return loop(row.run()); }));

@@ -91,12 +91,14 @@ class LanesOfOwnLoops {
     }
   }
 
+  void set_reference(const JointReference<joint_count>& reference) noexcept {
+    for (auto& arm : arms_) arm.reference() = reference;
+  }
   /// One cycle of the lanes that move. A lane whose cycle is not good stops.
-  void update(const JointReference<joint_count>& reference) noexcept {
+  void update() noexcept {
     for (std::size_t k = 0; k < arms_.size(); ++k) {
       const int lane = static_cast<int>(k);
       if (!is_true(simulator_.moving(), lane)) continue;
-      arms_[k].reference() = reference;
       if (arms_[k].update() != Status::ok) simulator_.stop(lane);
     }
     static_cast<void>(simulator_.write(exchange_->command));

@@ -53,13 +53,13 @@ class LanesOfOneLoop {
   LanesOfOneLoop(const Loops& loops, const Make& make, double)
       : loop_(setups_of<R>(loops), make(gains_of(loops))) {}
 
-  /// One cycle of the lanes that move. A lane with a number that is not finite stops.
-  void update(const JointReference<joint_count>& reference) noexcept {
+  void set_reference(const JointReference<joint_count>& reference) noexcept {
     loop_.reference() = {in_all_lanes<S>(reference.position), in_all_lanes<S>(reference.velocity),
                          in_all_lanes<S>(reference.acceleration),
                          in_all_lanes<S>(reference.effort)};
-    loop_.update();
   }
+  /// One cycle of the lanes that move. A lane with a number that is not finite stops.
+  void update() noexcept { loop_.update(); }
   [[nodiscard]] LaneSimulator<R, S>& simulator() noexcept { return loop_.simulator(); }
 
  private:
@@ -89,9 +89,13 @@ template <DescribedRobot R, class Make, class S = LanePack<R>>
   Arms arms = set_up([&] { return Arms(loops, make, plan.period); });
   LaneSimulator<R, S>& simulator = arms.simulator();
   RunWatch<R, S> watch(plan, simulator.start(), simulator.effort_limits());
+  JointReference<n> reference;
   for (int cycle = 0; any_of(simulator.moving()); ++cycle) {
     const double time = plan.time(cycle);
-    const JointReference<n> reference = plan.signals->sample(time);
+    if (cycle == 0 || plan.has_signals) {
+      reference = plan.signals->sample(time);
+      arms.set_reference(reference);
+    }
     const MaskOf<S> moves = simulator.moving(),
                     lost = moves &
                            not_of(watch.begin(cycle, simulator.true_state(), reference, moves));
@@ -101,7 +105,7 @@ template <DescribedRobot R, class Make, class S = LanePack<R>>
       simulator.set_external_effort(in_all_lanes<S>(plan.disturbances->sample(time).effort));
     }
     const MaskOf<S> before = simulator.moving();
-    arms.update(reference);
+    arms.update();
     watch.fail(before & not_of(simulator.moving()));
     watch.finish(cycle, simulator.true_state());
   }

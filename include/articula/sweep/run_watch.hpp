@@ -29,6 +29,7 @@ struct RunPlan {
   JointVector<joint_count> target{};                   ///< [rad or m]
   std::array<bool, std::size_t{joint_count}> moves{};  ///< joints that make a step
   std::optional<JointSignals<R>> signals{};            ///< added to the target
+  bool has_signals = false;                            ///< so the reference changes
   std::optional<JointSignals<R>> disturbances{};       ///< none: no efforts
   std::vector<OwnMetric<joint_count>> own_metrics{};
   std::size_t standard_metrics = 0;  ///< those before the own ones

@@ -75,6 +75,7 @@ class Hdf5Column {
     const Hdf5Handle space(H5Screate_simple(1, &none, &any), H5Sclose, name);
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
     H5Pset_chunk(creation, 1, &chunk);
+    H5Pset_obj_track_times(creation, 0);  // the same rows give the same file
     return {H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
             H5Dclose, name};
   }
