@@ -16,7 +16,7 @@ packages=(
   libyaml-cpp-dev    # configuration files
   libfastrtps-dev    # Fast DDS, for topics and services of ROS 2
   cyclonedds-dev     # another vendor's DDS, as peer in their tests
-  libtbb-dev libhdf5-dev libopenmpi-dev openmpi-bin libnlopt-dev libsimgrid-dev # sweeps
+  libtbb-dev libhdf5-dev libopenmpi-dev openmpi-bin libnlopt-dev # sweeps
   catch2             # tests
   libxsimd-dev       # another library's packs, for tests of programs over them
   binutils           # nm, for the check of the object code

@@ -111,7 +111,8 @@ TEST_CASE("futures have the gains of the question, and the loop keeps its own") 
   const double before = value_of(arm.remote, shoulder_d);
   const FuturesQuestion question{.gains = {{shoulder_d, 1000}}, .options = {.count = 5}};
   const auto answer = arm.remote.futures(question);
-  for (const FutureTrajectory& future : answer.futures) CHECK(future.end == SimulationEnd::unstable);
+  for (const FutureTrajectory& future : answer.futures)
+    CHECK(future.end == SimulationEnd::unstable);
   CHECK(value_of(arm.remote, shoulder_d) == before);
   CHECK(arm.loop.controller().part<PidLaw<2>>().gains()[0].derivative == before);
 }

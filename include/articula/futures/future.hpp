@@ -4,8 +4,8 @@
 
 #include "articula/core/joint_reference.hpp"
 #include "articula/core/joint_state.hpp"
-#include "articula/sim/simulation_end.hpp"
 #include "articula/loop/command_history.hpp"
+#include "articula/sim/simulation_end.hpp"
 
 #include <algorithm>
 #include <cstddef>

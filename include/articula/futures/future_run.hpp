@@ -116,7 +116,8 @@ class FutureRun {
   /// The future, whose last true state this is.
   [[nodiscard]] Future<joint_count> end(const State& truth) {
     if (!is_finite(truth.position)) future_.end = SimulationEnd::non_finite;
-    if (future_.end == SimulationEnd::stable && swings_.many()) future_.end = SimulationEnd::unstable;
+    if (future_.end == SimulationEnd::stable && swings_.many())
+      future_.end = SimulationEnd::unstable;
     return std::move(future_);
   }
 

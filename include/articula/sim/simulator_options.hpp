@@ -155,9 +155,7 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
     const double range = detail::range_of_encoder(joint);
     if (options.encoder_resolution[j] > range) {
       refuse({"encoder_resolution ", options.encoder_resolution[j], " of joint '", name,
-              "' is more than its range, ", range,
-              "; it is a step of position, not a number of "
-              "lines"});
+              "' is more than its range, ", range, "; it is a step, not a number of lines"});
     }
     check_not_negative("position_noise", options.position_noise[j]);
     check_not_negative("velocity_noise", options.velocity_noise[j]);

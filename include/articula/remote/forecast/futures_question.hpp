@@ -2,11 +2,11 @@
 /// @file A question for the futures of a loop with other gains, and its answer.
 #pragma once
 
-#include "articula/sim/simulation_end.hpp"
 #include "articula/futures/future_options.hpp"
 #include "articula/loop/stop_flag.hpp"
 #include "articula/remote/forecast/joint_margins.hpp"
 #include "articula/remote/gains/parameter.hpp"
+#include "articula/sim/simulation_end.hpp"
 
 #include <optional>
 #include <string>
