@@ -10,6 +10,7 @@
 #include "articula/sweep/varied_loop.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <type_traits>
 #include <vector>

@@ -58,8 +58,8 @@ struct SweepHooks {
 /// Goes on with a sweep, from the first run that the result does not have. All threads take chunks
 /// of runs; memory does not grow with the number of runs.
 /// @param result  of the runs so far; gets the others
-/// @throws std::invalid_argument if an option is out of range; std::runtime_error if a run cannot be
-///         set up; and what the hooks throw
+/// @throws std::invalid_argument if an option is out of range; std::runtime_error if the
+///         experiment throws; and what the hooks throw
 /// Real-time: no (allocates, throws).
 template <SweepExperiment E>
 void continue_sweep(const E& experiment, const SweepOptions& options, SweepResult& result,
@@ -106,7 +106,7 @@ void continue_sweep(const E& experiment, const SweepOptions& options, SweepResul
 ///     result.summary("elbow_active_joint.overshoot").quantile(0.95);
 ///
 /// The result has the same bits for any number of threads and any chunk. A run that becomes unstable
-/// or not finite is counted, see SweepResult::runs_with.
+/// or not finite, or cannot be simulated, is counted, see SweepResult::runs_with.
 /// @param experiment  for example a ClosedLoopExperiment
 /// @throws as continue_sweep
 /// Real-time: no (allocates, throws).

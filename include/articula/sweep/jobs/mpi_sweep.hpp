@@ -33,6 +33,20 @@ enum MpiTag : int { tag_rows = 1, tag_error = 2, tag_chunk = 3 };
 /// Of the text of an error [bytes].
 inline constexpr std::size_t longest_error = 4096;
 
+/// The ranks of a communicator in one of their own, so that messages of the program are not taken
+/// for those of a sweep. All ranks make and end it.
+class OwnCommunicator {
+ public:
+  explicit OwnCommunicator(MPI_Comm all) { MPI_Comm_dup(all, &own_); }
+  OwnCommunicator(const OwnCommunicator&) = delete;
+  OwnCommunicator& operator=(const OwnCommunicator&) = delete;
+  ~OwnCommunicator() { MPI_Comm_free(&own_); }
+  [[nodiscard]] MPI_Comm get() const noexcept { return own_; }
+
+ private:
+  MPI_Comm own_{};
+};
+
 /// Computes chunks until there are no more.
 template <class Compute>
 void work_for_mpi(const Compute& compute, const ChunkPacking& packing, MPI_Comm all) {
@@ -132,16 +146,17 @@ void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, S
   if (packing.largest(options.chunk) > 1'000'000'000) {  // MPI counts in int
     detail::refuse({"sweep: chunk ", options.chunk, " is too large for one message"});
   }
+  const detail::OwnCommunicator own_ranks(all);
   int with_lines = hooks.lines ? 1 : 0;
-  MPI_Bcast(&with_lines, 1, detail::mpi_int(), 0, all);
+  MPI_Bcast(&with_lines, 1, detail::mpi_int(), 0, own_ranks.get());
   const auto compute = [&](const SweepChunk& chunk) {
     return compute_chunk(experiment, samples, chunk, with_lines != 0);
   };
-  if (rank != 0) return detail::work_for_mpi(compute, packing, all);
+  if (rank != 0) return detail::work_for_mpi(compute, packing, own_ranks.get());
 
   detail::ChunkOrder order(options, samples, result, hooks, ranks);
   detail::ChunkThread own(compute);
-  detail::hand_out_for_mpi(order, packing, options.chunk, ranks, own, all);
+  detail::hand_out_for_mpi(order, packing, options.chunk, ranks, own, own_ranks.get());
   order.rethrow();
 }
 
