@@ -91,11 +91,18 @@ if(TARGET articula::sweep AND ARTICULA_SWEPT_JOINTS)
                                                                 $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O2>)
     list(APPEND articula_sweep_files ${articula_loop_file})
   endforeach()
+  # The option --compile compiles this header with a robot.
+  set(articula_experiment_file ${articula_program_folder}/sweep/any_experiment.hpp)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${articula_experiment_file})
+  file(READ ${articula_experiment_file} articula_any_experiment)
+  configure_file(${articula_program_folder}/sweep/any_experiment_text.hpp.in
+                 ${PROJECT_BINARY_DIR}/articula_loops/sweep/any_experiment_text.hpp @ONLY)
   add_library(articula_sweep_command OBJECT ${articula_sweep_files})
   target_compile_options(articula_sweep_command PRIVATE $<$<BOOL:${ARTICULA_QUICK_BUILD}>:-O0>)
-  target_include_directories(articula_sweep_command PRIVATE ${articula_program_folder})
+  target_include_directories(articula_sweep_command PRIVATE ${articula_program_folder}
+                                                            ${PROJECT_BINARY_DIR}/articula_loops)
   target_link_libraries(articula_sweep_command PRIVATE articula::sweep articula::recording articula::config
-                                                       articula::urdf CLI11::CLI11)
+                                                       articula::urdf CLI11::CLI11 ${CMAKE_DL_LIBS})
   list(JOIN ARTICULA_SWEPT_JOINTS "," articula_swept_joints)
   target_compile_definitions(articula_sweep_command
                              PRIVATE "ARTICULA_SWEPT_JOINTS=${articula_swept_joints}")

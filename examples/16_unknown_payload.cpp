@@ -69,9 +69,9 @@ int main() {
                    });
   const SweepResult result = arms(best.parameters[0], best.parameters[1], 256,
                                   [&](double load, double by) { plot.add(load, {none, by}); });
-  std::printf("w %.0f rad/s, integral %.0f: 95 %% below %.5f rad; %llu of %llu arms unstable\n",
+  std::printf("w %.0f rad/s, integral %.0f: 95 %% below %.5f rad; %llu of %llu arms stable\n",
               best.parameters[0], best.parameters[1], result.summary(error).quantile(0.95),
-              static_cast<unsigned long long>(result.runs_with(SimulationEnd::unstable)),
+              static_cast<unsigned long long>(result.runs_with(SimulationEnd::stable)),
               static_cast<unsigned long long>(result.runs()));
   plot.save();
   return result.summary(error).quantile(0.95) < 0.2 * off.quantile(0.95) ? 0 : 1;

@@ -80,10 +80,10 @@ double error_of(const SweepResult& result) {
   return worst;
 }
 
-/// The share of torsos whose drives swing between their limits in the end.
+/// The share of torsos that do not end stable.
 double unstable_share(const SweepResult& result) {
-  return static_cast<double>(result.runs_with(SimulationEnd::unstable)) /
-         static_cast<double>(result.runs());
+  return 1 - static_cast<double>(result.runs_with(SimulationEnd::stable)) /
+                 static_cast<double>(result.runs());
 }
 
 void print(const char* name, const Tuning& t, const SweepResult& result) {

@@ -70,7 +70,7 @@ refused() {
 # A search finds better gains than those of the file, names them, and sweeps with them.
 cat >>"$folder/other.yaml" <<'YAML'
 search:
-  minimise: shoulder_active_joint.tracking_rms
+  minimise: elbow_active_joint.steady_error
   evaluations: 20
   over: [{quantity: proportional, low: 0.2, high: 5, spacing: logarithmic}]
 YAML
@@ -89,7 +89,8 @@ else
   grep -q 'without NLopt' "$folder/found" || fail "no search: $(cat "$folder/found")"
 fi
 
-refused 's/robot: .*//' "bad.yaml:.*'robot' is missing"
+refused 's/robot: .*//' "bad.yaml:.*'robot' is missing, expected it in this map$"
+refused 's/low: 0.5/levels: 3, low: 0.5/' 'bad.yaml:8:.*only a grid has levels'
 refused 's/robot: .*/robot: no.urdf/' 'no.urdf'
 refused 's/elbow_passive_link, low/elbow_pasive_link, low/' "bad.yaml:8:.*expected.*'elbow_passive_link'"
 refused 's/elbow_passive_link, low/base_link, low/' 'does not move'

@@ -32,6 +32,15 @@ constexpr auto make_strict = [](const JointPidGains<2>& gains) {
   return PidPlusGravity<Q2d>(gains);
 };
 
+/// The same for all lanes of a pack: one such lane refuses the pack.
+constexpr auto make_strict_pack = []<class S>(const JointPidGains<2, S>& gains) {
+  for (int lane = 0; lane < lanes<S>; ++lane) {
+    const double factor = lane_of(gains[1].proportional, lane) / Q2d::pid_gains[1].proportional;
+    if (is_refused(factor)) throw std::invalid_argument("these gains are not accepted");
+  }
+  return PidPlusGravity<Q2d, S>(gains);
+};
+
 auto experiment_of(const auto& robot, const auto& make, std::vector<OwnMetric<2>> own = {}) {
   ClosedLoopOptions<2> options;
   options.duration = 0.05;
@@ -78,6 +87,7 @@ void check_refused(const auto& experiment, std::uint64_t chunk) {
 
 TEST_CASE("a run between the corners that is refused is counted, and the sweep goes on") {
   check_refused(experiment_of(Q2d(), make_strict), 64);
+  check_refused(experiment_of(Q2d(), make_strict_pack), 64);
   check_refused(experiment_of(Q2d(), make_strict), 600);  // more than are in memory at once
   check_refused(experiment_of(support::model<Q2d>(), make_strict), 64);  // one after the other
 }

@@ -34,6 +34,12 @@ cmp "$folder/whole/checkpoint" "$folder/killed/checkpoint"
 if "$@" "$sweeper" "$folder/failed" 2 --fail 2>"$folder/log"; then fail "the failure was lost"; fi
 grep -q 'run 990 (rate .*): it fails' "$folder/log" || fail "no reason: $(cat "$folder/log")"
 
+# Ranks do not wait for ever for rank 0, if an exception keeps it from the sweep.
+if [ $# -gt 0 ]; then
+  if "$@" "$sweeper" "$folder/failed" 2 --leave 2>"$folder/log"; then fail "rank 0 was there"; fi
+  grep -q 'rank 0 ends by an exception' "$folder/log" || fail "no reason: $(cat "$folder/log")"
+fi
+
 # Another sweep does not go on from this one's checkpoint.
 sed 's/checkpoint-2 [0-9]*/checkpoint-2 7/' "$folder/whole/checkpoint" >"$folder/other/checkpoint"
 if "$sweeper" "$folder/other" 1 2>"$folder/log"; then fail "another sweep's checkpoint was used"; fi

@@ -281,15 +281,73 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
                    {{VariedQuantity::mass, {}, 0.02, 1}, {VariedQuantity::damping, {}, 1, 20}}));
              }),
              Catch::Contains("mass 0.02, damping 20"));
-  const auto experiment = arms();
+  CHECK_THAT(refused({VariedQuantity::delay, {}, 0, 9}),  // of 1 ms: a buffer of 9000 commands
+             Catch::Equals(""));
   CHECK_THAT(message([&] {
-               static_cast<void>(resumable_sweep(experiment, {}, {.checkpoint = "checkpoint"}));
+               static_cast<void>(
+                   experiment_of({{VariedQuantity::position_noise, {}, 0, 0.1},
+                                  {VariedQuantity::position_noise, "elbow_active_joint", 0, 0.2}}));
              }),
-             Catch::Contains("identity is empty"));
+             Catch::Contains("'position_noise' and 'position_noise.elbow_active_joint'"));
+  CHECK_THAT(message([&] {
+               static_cast<void>(experiment_of(
+                   {{VariedQuantity::mass, {}, 1, 2}, {VariedQuantity::mass, {}, 1, 3}}));
+             }),
+             Catch::Contains("'mass' varies twice"));
+  const auto experiment = arms();
   CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.worst_metric = "speed"})); }),
              Catch::Contains("'speed'") && Catch::Contains("elbow_active_joint.overshoot"));
   CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.sampling = {.runs = 0}})); }),
              Catch::Contains("runs 0"));
   CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.chunk = 0})); }),
              Catch::Contains("chunk 0"));
+}
+
+TEST_CASE("factors scale the described numbers, whatever the order of the list") {
+  const std::vector<Variation> all{{VariedQuantity::payload, "elbow_passive_link", 0.5, 0.5},
+                                   {VariedQuantity::added_friction, {}, 0.2, 0.2},
+                                   {VariedQuantity::mass, {}, 2, 2},
+                                   {VariedQuantity::friction, {}, 0, 0}};
+  const std::vector<double> values{0.5, 0.2, 2, 0};
+  const VariedLoop<Q2d> own = experiment_of(all).loop({0, 1, values});
+  const auto reversed = experiment_of({all.rbegin(), all.rend()});
+  const std::vector<double> other_values(values.rbegin(), values.rend());
+  const VariedLoop<Q2d> other = reversed.loop({0, 1, other_values});
+  double mass = 0, described = 0;
+  for (int b = 0; b < 2; ++b) {
+    mass += own.model.mechanism.bodies[b].inertia.mass;
+    described += model_of(Q2d()).mechanism.bodies[b].inertia.mass;
+    CHECK(own.model.mechanism.bodies[b].inertia.mass ==
+          other.model.mechanism.bodies[b].inertia.mass);
+    CHECK(own.model.joints[b].friction == 0.2);
+    CHECK(other.model.joints[b].friction == 0.2);
+  }
+  CHECK(mass == Approx(2 * described + 0.5));  // the payload itself is not doubled
+}
+
+TEST_CASE("a checkpoint is refused by an experiment whose first runs have other rows") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / "articula_sweep_identity";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const auto with_gains = [&](double factor) {
+    JointPidGains<2> gains = Q2d::pid_gains;
+    gains[1].derivative *= factor;
+    ClosedLoopOptions<2> options;
+    options.duration = 0.05;
+    options.target = JointVector<2>(0.3, -0.2);
+    options.vary = {{VariedQuantity::mass, {}, 1, 2}};
+    const ClosedLoopExperiment experiment(
+        Q2d(), gains, [](const JointPidGains<2>& own) { return PidPlusGravity<Q2d>(own); },
+        options);
+    return resumable_sweep(experiment, {.sampling = {.runs = 20}},
+                           {.rows = folder / "rows.csv", .checkpoint = folder / "checkpoint"});
+  };
+  CHECK(with_gains(1).runs() == 20);
+  CHECK(with_gains(1).runs() == 20);  // goes on
+  CHECK_THROWS_WITH(with_gains(1.0000001), Catch::Contains("belongs to another sweep"));
+  std::filesystem::remove(folder / "rows.csv");
+  CHECK_THROWS_WITH(with_gains(1), Catch::Contains("rows.csv cannot be read") &&
+                                       Catch::Contains("remove the checkpoint"));
+  std::filesystem::remove_all(folder);
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file A sweep for tests of resumption, MPI and memory:
 ///
-///     sweeper <folder> <threads> [--kill <run> | --fail | --runs <number>]
+///     sweeper <folder> <threads> [--kill <run> | --fail | --leave | --runs <number>]
 ///
 /// Writes rows.csv and checkpoint, and prints the number of runs and the most memory that the process
 /// had [kB]. With --kill, the process that computes this run kills itself, unless <folder>/killed
-/// exists. With --runs, there are so many runs, each of which is short.
+/// exists. With --leave, rank 0 does not come to the sweep. With --runs, there are so many runs, each
+/// of which is short.
 #include <articula/sweep/jobs/resumable_sweep.hpp>
 #ifdef ARTICULA_TEST_MPI
 #include <articula/sweep/jobs/mpi_session.hpp>
@@ -81,6 +82,8 @@ int main(int count, char** words) try {
   const SweepFiles files{chaos.folder / "rows.csv", chaos.folder / "checkpoint", interval, "chaos"};
 #ifdef ARTICULA_TEST_MPI
   const MpiSession mpi;
+  if (count > 3 && arguments[3] == "--leave" && mpi.rank() == 0)
+    throw std::runtime_error("no sweep");
   if (mpi.rank() > 0) {
     SweepResult none(chaos.metrics(), options);
     continue_sweep_with_mpi(chaos, options, none);

@@ -53,3 +53,10 @@ if(GENERATOR MATCHES Ninja) # the libraries have been built above
 else()
   run(${CMAKE_COMMAND} --build ${WORK}/on_can/build)
 endif()
+
+# `sweep --compile` has the runs of `sweep`.
+set(ENV{XDG_CACHE_HOME} ${WORK}/sweep_cache)
+if(HAS_SWEEP)
+  run(sh ${CMAKE_CURRENT_LIST_DIR}/compiled_sweep.sh ${WORK}/prefix/bin/articula
+      ${SWEEP} ${WORK}/sweep)
+endif()

@@ -8,7 +8,7 @@
 #include "files/within.hpp"
 #include "loops/loop_plan.hpp"
 #include "program.hpp"
-#include "project/compiled_run.hpp"
+#include "project/cached_build.hpp"
 #include "project/project.hpp"
 #include "ros2/ros2_options.hpp"
 #include "table.hpp"

@@ -90,34 +90,17 @@ std::string cmake_lists(const std::string& type, const std::string& program,
                         const ProjectOptions& options, bool has_visuals) {
   const ControllersPlan& plan = options.controllers;
   const bool is_on_bus = !options.drives.interface.empty();
-  std::string robot = "articula_add_robot(" + type + " URDF robot.urdf";
-  if (!plan.root.empty()) robot += " ROOT " + argument(plan.root);
-  if (!plan.tip.empty()) robot += " TIP " + argument(plan.tip);
-  if (plan.gravity) {
-    robot += " GRAVITY " + number_text(plan.gravity->x) + " " + number_text(plan.gravity->y) + " " +
-             number_text(plan.gravity->z);
-  }
-  if (options.allows_unphysical) robot += " ALLOW_UNPHYSICAL";
-  if (options.is_kinematic) robot += " KINEMATIC";
   std::string definitions;
   if (reads_file(plan)) {
     definitions += "\n  PRIVATE CONTROLLERS=\"${CMAKE_CURRENT_SOURCE_DIR}/controllers.yaml\"";
   }
   if (has_visuals) definitions += "\n  PRIVATE URDF=\"${CMAKE_CURRENT_SOURCE_DIR}/robot.urdf\"";
-  return "cmake_minimum_required(VERSION 3.25)\n"
-         "project(" +
-         program +
-         " LANGUAGES CXX)\n"
-         "if(NOT CMAKE_BUILD_TYPE)\n"
-         "  set(CMAKE_BUILD_TYPE Release)\n"
-         "endif()\n\n"
-         "find_package(articula " +
-         std::string(articula::library_version) + " REQUIRED COMPONENTS urdf view" +
-         (reads_file(plan) ? " config" : "") + (is_on_bus ? " socketcan" : "") + ")\n" + robot +
-         ")\n\n"
-         "add_executable(" +
-         program + " main.cpp)\n" + "target_link_libraries(" + program + " PRIVATE " + type +
-         " articula::view" + (reads_file(plan) ? " articula::config" : "") +
+  const std::string components = std::string("urdf view") + (reads_file(plan) ? " config" : "") +
+                                 (is_on_bus ? " socketcan" : "");
+  return project_lines(program, components, type, plan, options.allows_unphysical,
+                       options.is_kinematic) +
+         "add_executable(" + program + " main.cpp)\n" + "target_link_libraries(" + program +
+         " PRIVATE " + type + " articula::view" + (reads_file(plan) ? " articula::config" : "") +
          (is_on_bus ? " articula::socketcan" : "") + ")\n" +
          (definitions.empty() ? "" : "target_compile_definitions(" + program + definitions + ")\n");
 }
@@ -359,6 +342,30 @@ articula::UrdfDescription read_robot(const articula::UrdfSource& source,
   } catch (const articula::FileError&) {  // the masses are not the only fault
     throw Refusal(reason);
   }
+}
+
+std::string project_lines(const std::string& program, const std::string& components,
+                          const std::string& type, const ControllersPlan& plan,
+                          bool allows_unphysical, bool is_kinematic) {
+  std::string robot = "articula_add_robot(" + type + " URDF robot.urdf";
+  if (!plan.root.empty()) robot += " ROOT " + argument(plan.root);
+  if (!plan.tip.empty()) robot += " TIP " + argument(plan.tip);
+  if (plan.gravity) {
+    robot += " GRAVITY " + number_text(plan.gravity->x) + " " + number_text(plan.gravity->y) + " " +
+             number_text(plan.gravity->z);
+  }
+  if (allows_unphysical) robot += " ALLOW_UNPHYSICAL";
+  if (is_kinematic) robot += " KINEMATIC";
+  return "cmake_minimum_required(VERSION 3.25)\n"
+         "project(" +
+         program +
+         " LANGUAGES CXX)\n"
+         "if(NOT CMAKE_BUILD_TYPE)\n"
+         "  set(CMAKE_BUILD_TYPE Release)\n"
+         "endif()\n\n"
+         "find_package(articula " +
+         std::string(articula::library_version) + " REQUIRED COMPONENTS " + components + ")\n" +
+         robot + ")\n\n";
 }
 
 Project make_project(const ProjectOptions& options) {

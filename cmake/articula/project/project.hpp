@@ -44,6 +44,13 @@ struct Project {
   std::map<std::string, std::string> files{};
 };
 
+/// The first lines of a project's CMakeLists.txt: its name, the package, and the robot of robot.urdf.
+/// @param type        of the robot
+/// @param components  of the package
+[[nodiscard]] std::string project_lines(const std::string& program, const std::string& components,
+                                        const std::string& type, const ControllersPlan& plan,
+                                        bool allows_unphysical, bool is_kinematic);
+
 /// @throws Refusal if the controllers' file cannot be read
 [[nodiscard]] Project make_project(const ProjectOptions& options);
 

@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 struct SweepCall {
   std::string file{}, output{};
   int threads = 0, chunk = 64;
-  bool starts_again = false;
+  bool starts_again = false, compiles = false;
 };
 
 /// Refuses metrics and columns that there are not, with their place in the file.
@@ -182,7 +182,8 @@ AnyExperiment checked_experiment(const SweepPlan& plan, const std::string& file)
 /// The sweep in this process and those of mpirun.
 void run_sweep(const Program& program, const SweepCall& call, bool is_distributed, bool is_first,
                const auto& continues) {
-  SweepPlan plan = read_sweep(call.file);
+  SweepPlan plan = read_sweep(call.file, call.compiles);
+  if (call.compiles) plan.compiled = compiled_experiment(plan);
   if (!call.output.empty()) plan.output = call.output;
   plan.options.threads = call.threads;
   plan.options.chunk = static_cast<std::uint64_t>(call.chunk);
@@ -261,6 +262,8 @@ void add_sweep_command(CLI::App& app, Program& program) {
   command->add_option("--chunk", call->chunk, "runs that a thread or process takes at once")
       ->check(within(1, 10'000))
       ->capture_default_str();
+  command->add_flag("--compile", call->compiles,
+                    "compile the robot for the lanes of this processor, and keep it");
   command->add_flag("--fresh", call->starts_again, "start again in place of going on");
 }
 

@@ -34,19 +34,28 @@ namespace fs = std::filesystem;
 
 class SweepReader {
  public:
-  explicit SweepReader(const std::string& file)
-      : file_(file), root_(articula::detail::read_document(articula::ConfigSource(file))) {}
+  SweepReader(const std::string& file, bool compiles)
+      : file_(file),
+        compiles_(compiles),
+        root_(articula::detail::read_document(articula::ConfigSource(file))) {}
 
   SweepPlan read() {
     ConfigMap map(root_, plan_.notes);
     plan_.text = text_of(file_);
-    read_robot(map);
-    if (const auto* node = map.require("experiment")) read_experiment(*node);
-    if (const auto* node = map.require("vary")) {
-      for (const ConfigNode& item : node->list()) plan_.vary.push_back(variation(item));
+    const auto* experiment = map.require("experiment");
+    const auto* vary = map.require("vary");
+    for (const char* key :
+         {"search", "sampling", "specifications", "worst", "quantiles", "plots", "output"}) {
+      static_cast<void>(map.find(key));  // known before read_robot refuses unknown keys
     }
+    read_robot(map);
+    read_experiment(*experiment);
+    for (const ConfigNode& item : vary->list()) plan_.vary.push_back(variation(item));
     if (auto search = map.find_map("search")) read_search(*search);
     if (const auto* node = map.find("sampling")) read_sampling(*node);
+    if (levels_ != nullptr && plan_.options.sampling.method != articula::SamplingMethod::grid) {
+      levels_->refuse("only a grid has levels", "no levels, or the sampling method grid");
+    }
     if (const auto* node = map.find("specifications")) {
       if (!node->is_map()) node->refuse("a map of metrics and their highest values");
       for (const ConfigNode& item : node->items) {
@@ -68,7 +77,6 @@ class SweepReader {
     if (auto plots = map.find_map("plots")) read_plots(*plots);
     plan_.output = fs::path(file_).replace_extension().string() + "_results";
     if (const auto* node = map.find("output")) plan_.output = beside(node->word());
-    map.finish();
     return std::move(plan_);
   }
 
@@ -88,7 +96,7 @@ class SweepReader {
     const ConfigNode* controller = map.find("controller");
     articula::UrdfOptions options;
     map.read_truth("allow_unphysical", options.allow_unphysical);
-    if (robot == nullptr || controllers == nullptr) map.finish();  // throws
+    map.finish();  // throws if a key is missing or unknown
     const std::string file = beside(controllers->word());
     ControllersPlan& read = plan_.controllers;
     if (controller != nullptr) {
@@ -111,7 +119,9 @@ class SweepReader {
     if (read.gravity) options.gravity = *read.gravity;
     const std::string urdf = beside(robot->word());
     const articula::UrdfSource source = robot_source(urdf);
-    plan_.text += text_of(file) + source.text();
+    plan_.urdf = source.text();
+    plan_.allows_unphysical = options.allow_unphysical;
+    plan_.text += text_of(file) + plan_.urdf;
     plan_.robot = articula::read_urdf(source, options);
     plan_.substeps = default_substeps(read.period);
     for (const articula::Joint& joint : (*plan_.robot)->joints) {
@@ -120,13 +130,13 @@ class SweepReader {
     for (const articula::Link& link : (*plan_.robot)->links) links_.emplace_back(link.name.view());
     const articula::ModelSize size = articula::model_size((*plan_.robot)->joints);
     if (size.bodies != size.joints) robot->refuse("it has mimic joints", "a robot without");
-    if (std::ranges::find(swept_joints, size.joints) == swept_joints.end()) {
+    if (!compiles_ && std::ranges::find(swept_joints, size.joints) == swept_joints.end()) {
       std::string ready;
       for (const int joints : swept_joints) {
         ready += (ready.empty() ? "" : ", ") + std::to_string(joints);
       }
       robot->refuse("it has " + std::to_string(size.joints) + " joints",
-                    ready + "; CMake's ARTICULA_SWEPT_JOINTS lists these numbers");
+                    ready + " (CMake's ARTICULA_SWEPT_JOINTS), or the option --compile");
     }
   }
 
@@ -195,10 +205,15 @@ class SweepReader {
     }
     if (const auto* over = map.require("over")) {
       if (over->list().empty()) over->refuse("at least one quantity to search");
-      for (const ConfigNode& item : over->items) search.over.push_back(variation(item));
+      for (const ConfigNode& item : over->items) {
+        if (const auto* levels = item.find("levels")) {
+          levels->refuse("a search has no levels", "no levels");
+        }
+        search.over.push_back(variation(item));
+      }
     }
     if (const auto* evaluations = map.find("evaluations")) {
-      search.evaluations = evaluations->integer(1, 1'000'000);
+      search.evaluations = evaluations->integer(2, 1'000'000);
     }
     map.finish();
   }
@@ -230,7 +245,10 @@ class SweepReader {
       variation.spacing =
           static_cast<articula::Spacing>(spacing->index_in({"linear", "logarithmic"}));
     }
-    if (const auto* levels = map.find("levels")) variation.levels = levels->integer(1, 1'000'000);
+    if (const auto* levels = map.find("levels")) {
+      variation.levels = levels->integer(1, 1'000'000);
+      levels_ = levels;
+    }
     map.finish();
     try {
       validate(variation);
@@ -309,13 +327,17 @@ class SweepReader {
   }
 
   std::string file_;
+  bool compiles_;
   ConfigNode root_;
   SweepPlan plan_{};
   std::vector<std::string> joints_{}, links_{};
+  const ConfigNode* levels_ = nullptr;  ///< of an entry of vary that has them
 };
 
 }  // namespace
 
-SweepPlan read_sweep(const std::string& file) { return SweepReader(file).read(); }
+SweepPlan read_sweep(const std::string& file, bool compiles) {
+  return SweepReader(file, compiles).read();
+}
 
 }  // namespace terminal

@@ -4,20 +4,18 @@
 
 #include "files/controllers_file.hpp"
 #include "program.hpp"
+#include "sweep/any_experiment.hpp"
 
 #include <articula/config/yaml/source.hpp>
 #include <articula/reference/joint_signals.hpp>
-#include <articula/sweep/sweep_experiment.hpp>
 #include <articula/sweep/sweep_options.hpp>
 #include <articula/sweep/variation.hpp>
 #include <articula/text/file_error.hpp>
 #include <articula/urdf/description.hpp>
 
 #include <array>
-#include <functional>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,11 +37,17 @@ struct SweepSearch {
   int evaluations = 100;
 };
 
+/// Makes an experiment of the robot and the controller for which it was compiled. Its owner deletes it.
+using MakeExperiment = AnyExperiment*(const SweptLoop&);
+
 /// What a sweep from a file is made of.
 struct SweepPlan {
   std::optional<articula::UrdfDescription> robot{};  ///< always there after read_sweep
-  ControllersPlan controllers{};                     ///< the first one is swept
-  double duration = 1;                               ///< [s]
+  std::string urdf{};                                ///< the URDF
+  bool allows_unphysical = false;
+  MakeExperiment* compiled = nullptr;  ///< of `--compile`
+  ControllersPlan controllers{};       ///< the first one is swept
+  double duration = 1;                 ///< [s]
   int substeps = 1;
   std::map<std::string, double> start{}, target{};  ///< by joint [rad or m]
   std::vector<articula::JointSignal> disturbances{};
@@ -56,27 +60,29 @@ struct SweepPlan {
   std::string text{};                                  ///< of all files, for the checkpoint
   std::map<std::string, articula::FilePlace> names{};  ///< places of metrics and columns
   std::vector<std::string> notes{};
+
+  [[nodiscard]] SweptLoop loop() const {
+    return {.controllers = controllers.source,
+            .section = controllers.controllers.front().section,
+            .period = controllers.period,
+            .substeps = substeps,
+            .duration = duration,
+            .start = start,
+            .target = target,
+            .disturbances = disturbances,
+            .vary = vary};
+  }
 };
 
 /// Reads a file and those that it names, which are beside it.
 /// @throws articula::FileError with file, line, key and what was expected; Refusal
-[[nodiscard]] SweepPlan read_sweep(const std::string& file);
+/// @param compiles  the robot may have any number of joints
+[[nodiscard]] SweepPlan read_sweep(const std::string& file, bool compiles);
 
-/// An experiment whose robot's number of joints is not part of its type.
-struct AnyExperiment {
-  std::vector<articula::SweepParameter> all_parameters{};
-  std::vector<articula::SweepMetric> all_metrics{};
-  std::function<articula::SimulationEnd(const articula::SweepRun&, std::span<double>)> run_one{};
-
-  [[nodiscard]] const std::vector<articula::SweepParameter>& parameters() const {
-    return all_parameters;
-  }
-  [[nodiscard]] const std::vector<articula::SweepMetric>& metrics() const { return all_metrics; }
-  [[nodiscard]] articula::SimulationEnd run(const articula::SweepRun& run,
-                                            std::span<double> metrics) const {
-    return run_one(run, metrics);
-  }
-};
+/// Compiles the plan's robot and controller for the lanes of this processor, unless the user's cache
+/// has them.
+/// @throws Refusal if a compiler, CMake or the installed articula is not found
+[[nodiscard]] MakeExperiment* compiled_experiment(const SweepPlan& plan);
 
 /// The experiment of a robot with N joints.
 /// @throws articula::FileError, std::invalid_argument

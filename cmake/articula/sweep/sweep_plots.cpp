@@ -6,6 +6,7 @@
 #include <articula/text/numbers.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
@@ -29,10 +30,25 @@ std::string is_within(const SweepPlan& plan) {
   return condition + ")";
 }
 
-bool is_logarithmic(const SweepPlan& plan, const std::string& name) {
-  return std::ranges::any_of(plan.vary, [&](const articula::Variation& each) {
+/// gnuplot's commands for an axis whose column is spaced logarithmically; else nothing. gnuplot labels
+/// powers of ten only; a short range gets labels at 1, 2 and 5.
+std::string logarithmic_axis(const SweepPlan& plan, const std::string& name,
+                             const std::string& axis) {
+  const auto own = std::ranges::find_if(plan.vary, [&](const articula::Variation& each) {
     return each.spacing == articula::Spacing::logarithmic && each.parameter().name == name;
   });
+  if (own == plan.vary.end()) return "";
+  std::string text = "set logscale " + axis + "\nset format " + axis + " '%g'\n";
+  constexpr double short_range = 300;
+  if (own->high > short_range * own->low) return text;
+  std::string labels;
+  for (int decade = static_cast<int>(std::floor(std::log10(own->low)));
+       decade <= static_cast<int>(std::ceil(std::log10(own->high))); ++decade) {
+    for (const char* digit : {"1", "2", "5"}) {
+      labels += (labels.empty() ? "" : ", ") + std::string(digit) + "e" + std::to_string(decade);
+    }
+  }
+  return text + "set " + axis + "tics (" + labels + ")\n";
 }
 
 /// A column's name, and its unit unless it is a plain number.
@@ -58,9 +74,7 @@ std::string script_of(const SweepPlan& plan, const AnyExperiment& experiment, co
             label(experiment, plot.columns[k]) + "' noenhanced\n";
   }
   for (std::size_t k = 0; k < plot.columns.size(); ++k) {
-    if (!is_logarithmic(plan, plot.columns[k])) continue;
-    const std::string axis = k == 0 ? "x" : "y";
-    text += "set logscale " + axis + "\nset format " + axis + " '%g'\n";
+    text += logarithmic_axis(plan, plot.columns[k], k == 0 ? "x" : "y");
   }
   const std::string x = column(plot.columns[0]);
   switch (plot.kind) {
@@ -80,16 +94,30 @@ std::string script_of(const SweepPlan& plan, const AnyExperiment& experiment, co
     return "'rows.csv' using (" + condition + " ? " + x + " : NaN):" + y + points + "'" + color +
            "' title '" + title + "'";
   };
+  const bool has_specifications = !plan.options.specifications.empty();
   return text +
          "set key outside center top horizontal\nset autoscale xfix\nset autoscale yfix\nplot " +
-         drawn(is_within(plan), "#30a050", "within specifications") + ", \\\n  " +
-         drawn("!" + is_within(plan), "#c04040", "outside") + "\n";
+         drawn(is_within(plan), "#30a050",
+               has_specifications ? "within specifications" : "stable") +
+         ", \\\n  " +
+         drawn("!" + is_within(plan), "#c04040", has_specifications ? "outside" : "not stable") +
+         "\n";
+}
+
+/// Removes the plots of a folder from a number on.
+void remove_plots(const std::filesystem::path& folder, std::size_t number) {
+  for (;; ++number) {
+    const std::string name = "plot_" + std::to_string(number);
+    if (!std::filesystem::remove(folder / (name + ".gp"))) return;
+    for (const char* ending : {".svg", ".log"}) std::filesystem::remove(folder / (name + ending));
+  }
 }
 
 }  // namespace
 
 std::string draw_sweep(const SweepPlan& plan, const AnyExperiment& experiment) {
   const std::string& folder = plan.output;
+  remove_plots(folder, plan.plots.size() + 1);  // of another plan
   if (plan.plots.empty()) return "";
   const bool can_draw = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
   std::size_t number = 0;

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <limits>
+#include <memory>
 #include <utility>
 
 namespace terminal {
@@ -41,8 +42,12 @@ SweepPlan with_values(SweepPlan plan, const std::vector<double>& values) {
   return plan;
 }
 
+/// The seed is another than that of the plan's sweep, which judges the result by other arms. All
+/// costs of a search have the same arms.
 double cost_of(const SweepPlan& plan) {
-  const articula::SweepResult result = articula::sweep(experiment_of(plan), plan.options);
+  articula::SweepOptions options = plan.options;
+  ++options.sampling.seed;
+  const articula::SweepResult result = articula::sweep(experiment_of(plan), options);
   const auto runs = static_cast<double>(result.runs());
   const double stable = static_cast<double>(result.runs_with(articula::SimulationEnd::stable));
   // As the rank of the quantile: up to this share of the runs may do anything.
@@ -56,6 +61,10 @@ double cost_of(const SweepPlan& plan) {
 }  // namespace
 
 AnyExperiment experiment_of(const SweepPlan& plan) {
+  if (plan.compiled != nullptr) {
+    const std::unique_ptr<AnyExperiment> made(plan.compiled(plan.loop()));
+    return *made;
+  }
   const int joints = articula::model_size((*plan.robot)->joints).joints;
   return experiment_of_size(joints, plan, std::integer_sequence<int, ARTICULA_SWEPT_JOINTS>{});
 }
@@ -85,6 +94,10 @@ SearchedPlan search_sweep(SweepPlan plan) {
         return cost;
       });
   if (is_shown) std::fprintf(stderr, "\n");
+  std::string unit;
+  for (const articula::SweepMetric& each : experiment_of(plan).metrics()) {
+    if (each.name == plan.search.metric && each.unit != "1") unit = " " + each.unit;
+  }
   const std::string what = plan.search.metric + " at the quantile " +
                            articula::detail::number_text(plan.search.quantile);
   if (!std::isfinite(best.cost)) {
@@ -99,7 +112,7 @@ SearchedPlan search_sweep(SweepPlan plan) {
     parameters[name] = best.parameters[i];
     found += ", " + name + " " + articula::detail::rounded_text(best.parameters[i]);
   }
-  searched.line = "search: " + what + " is " + articula::detail::rounded_text(best.cost) +
+  searched.line = "search: " + what + " is " + articula::detail::rounded_text(best.cost) + unit +
                   " after " + std::to_string(best.evaluations) + " evaluations" + found;
   searched.json = {{"metric", plan.search.metric},
                    {"quantile", plan.search.quantile},

@@ -97,6 +97,7 @@ class ClosedLoopExperiment {
       parameters_.push_back(each.parameter());
       parameters_.back().unit = detail::unit_of(nominal_.model, varied_.back());
     }
+    detail::validate_apart(varied_);
     for (int j = 0; j < joint_count; ++j) {
       plan_.moves[static_cast<std::size_t>(j)] = plan_.target[j] != start[j];
     }
@@ -162,10 +163,9 @@ class ClosedLoopExperiment {
   /// @throws std::invalid_argument if the loop cannot be simulated
   /// Real-time: no (allocates).
   [[nodiscard]] SimulationEnd run_alone(const VariedLoop<R>& own, std::span<double> metrics) const {
-    if constexpr (DescribedRobot<R>) {
-      if (own.robot) return detail::run_simulated(plan_, *own.robot, own, make_).result(metrics);
-    }
-    return detail::run_simulated(plan_, own.model, own, make_).result(metrics);
+    return on_robot_of(own, [&](const auto& robot) {
+      return detail::run_simulated(plan_, robot, own, make_).result(metrics);
+    });
   }
 
  private:
@@ -175,6 +175,14 @@ class ClosedLoopExperiment {
   [[nodiscard]] static SimulationEnd refused(std::span<double> metrics) {
     std::ranges::fill(metrics, std::numeric_limits<double>::quiet_NaN());
     return SimulationEnd::refused;
+  }
+
+  /// Calls a function with the robot that a run simulates.
+  static auto on_robot_of(const VariedLoop<R>& own, const auto& use) {
+    if constexpr (DescribedRobot<R>) {
+      if (own.robot) return use(*own.robot);
+    }
+    return use(own.model);
   }
 
   /// Runs in packs, and one by one those that do not go into lanes.
@@ -216,10 +224,11 @@ class ClosedLoopExperiment {
         names +=
             detail::message_of({names.empty() ? "" : ", ", parameter.name, " ", values.back()});
       }
-      const VariedLoop<R> own = loop({0, 1, values});
       try {
-        validate(own.model, own.simulation);
-        static_cast<void>(make_(own.gains));
+        const VariedLoop<R> own = loop({0, 1, values});
+        on_robot_of(own, [&](const auto& robot) {
+          static_cast<void>(detail::simulated_loop(robot, own, make_));
+        });
       } catch (const std::invalid_argument& error) {
         detail::refuse({"sweep: with ", names, ": ", error.what()});
       }

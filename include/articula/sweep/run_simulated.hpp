@@ -13,23 +13,31 @@
 
 namespace articula::detail {
 
-/// Runs one loop.
-/// @param plan   must outlive the result
+/// The loop of one run, with a simulator of its own.
 /// @param robot  which is simulated
 /// @param make   makes the controller of gains
-/// @return       what was watched
-/// @throws LoopRefused if the loop cannot be simulated
+/// @throws LoopRefused if it cannot be simulated
 template <DynamicRobot R, Robot Simulated, class Make>
-[[nodiscard]] RunWatch<R> run_simulated(const RunPlan<R>& plan, const Simulated& robot,
-                                        const VariedLoop<R>& own, const Make& make) {
+[[nodiscard]] auto simulated_loop(const Simulated& robot, const VariedLoop<R>& own,
+                                  const Make& make) {
   using Controller = std::remove_cvref_t<decltype(make(own.gains))>;
   using Command = typename CheckedController<Controller, articula::joint_count<R>, double>::Command;
   using Delayed = DelayedCommands<Simulator<Simulated>, Command>;
-  ControlLoop arm = set_up([&] {
+  return set_up([&] {
     return ControlLoop(Delayed(Simulator<Simulated>(robot, own.simulation), own.delay, own.lost),
                        make(own.gains));
   });
-  Simulator<Simulated>& simulator = arm.hardware().simulator();
+}
+
+/// Runs one loop.
+/// @param plan  must outlive the result
+/// @return      what was watched
+/// @throws as simulated_loop
+template <DynamicRobot R, Robot Simulated, class Make>
+[[nodiscard]] RunWatch<R> run_simulated(const RunPlan<R>& plan, const Simulated& robot,
+                                        const VariedLoop<R>& own, const Make& make) {
+  ControlLoop arm = simulated_loop(robot, own, make);
+  auto& simulator = arm.hardware().simulator();
   RunWatch<R> watch(plan, simulator.true_state().position, effort_limits(robot));
   for (int cycle = 0;; ++cycle) {
     const double time = plan.time(cycle);

@@ -24,7 +24,7 @@ namespace articula {
 /// What to search, and for how long.
 struct SearchOptions {
   std::vector<SweepParameter> parameters{};  ///< with their ranges
-  int evaluations = 200;                     ///< of the cost, 1 .. 1 000 000
+  int evaluations = 200;                     ///< of the cost at most, 2 .. 1 000 000
 };
 
 /// What a search has found.
@@ -83,9 +83,10 @@ struct SearchedCost {
 /// Real-time: no (allocates, throws).
 [[nodiscard]] inline SearchResult search_gains(
     const SearchOptions& options, const std::function<double(const std::vector<double>&)>& cost) {
-  constexpr int most = 1'000'000;
-  if (options.evaluations < 1 || options.evaluations > most) {
-    detail::refuse({"search: evaluations ", options.evaluations, " are not within 1 .. ", most});
+  constexpr int least = 2, most = 1'000'000;
+  if (options.evaluations < least || options.evaluations > most) {
+    detail::refuse(
+        {"search: evaluations ", options.evaluations, " are not within ", least, " .. ", most});
   }
   if (options.parameters.empty()) detail::refuse({"search: there are no parameters"});
   for (const SweepParameter& parameter : options.parameters) validate(parameter);

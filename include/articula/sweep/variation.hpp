@@ -36,10 +36,14 @@ enum class VariedQuantity : unsigned char {
 /// The subject of a quantity.
 enum class VariedSubject : unsigned char { link, joint, loop };
 
+/// The effect of a value on the described number. Factors apply first.
+enum class VariedEffect : unsigned char { scales, adds, replaces };
+
 struct VariedTraits {
   std::string_view name{};
   std::string_view unit{};
   VariedSubject subject = VariedSubject::joint;
+  VariedEffect effect = VariedEffect::scales;
   bool of_all = true;  ///< may vary on all links or joints by one number
   double lowest = 0;
   double highest = std::numeric_limits<double>::infinity();
@@ -48,18 +52,33 @@ struct VariedTraits {
 /// All quantities in the order of VariedQuantity.
 inline constexpr auto varied_quantities = std::to_array<VariedTraits>({
     {.name = "mass", .unit = "1", .subject = VariedSubject::link, .lowest = 1e-3},
-    {.name = "payload", .unit = "kg", .subject = VariedSubject::link, .of_all = false},
+    {.name = "payload",
+     .unit = "kg",
+     .subject = VariedSubject::link,
+     .effect = VariedEffect::adds,
+     .of_all = false},
     {.name = "damping", .unit = "1"},
     {.name = "friction", .unit = "1"},
-    {.name = "added_friction", .unit = "N m"},
-    {.name = "added_reflected_inertia", .unit = "kg m^2"},
+    {.name = "added_friction", .unit = "N m", .effect = VariedEffect::adds},
+    {.name = "added_reflected_inertia", .unit = "kg m^2", .effect = VariedEffect::adds},
     {.name = "effort_limit", .unit = "1", .lowest = 1e-3},
-    {.name = "delay", .unit = "s", .subject = VariedSubject::loop, .highest = 10},
-    {.name = "lost_commands", .unit = "1", .subject = VariedSubject::loop, .highest = 1},
-    {.name = "position_noise", .unit = "rad"},
-    {.name = "velocity_noise", .unit = "rad/s"},
-    {.name = "encoder_resolution", .unit = "rad", .lowest = 0},
-    {.name = "initial_position", .unit = "rad", .lowest = -std::numeric_limits<double>::infinity()},
+    {.name = "delay",
+     .unit = "s",
+     .subject = VariedSubject::loop,
+     .effect = VariedEffect::replaces,
+     .highest = 10},
+    {.name = "lost_commands",
+     .unit = "1",
+     .subject = VariedSubject::loop,
+     .effect = VariedEffect::replaces,
+     .highest = 1},
+    {.name = "position_noise", .unit = "rad", .effect = VariedEffect::replaces},
+    {.name = "velocity_noise", .unit = "rad/s", .effect = VariedEffect::replaces},
+    {.name = "encoder_resolution", .unit = "rad", .effect = VariedEffect::replaces},
+    {.name = "initial_position",
+     .unit = "rad",
+     .effect = VariedEffect::adds,
+     .lowest = -std::numeric_limits<double>::infinity()},
     {.name = "proportional", .unit = "1"},
     {.name = "integral", .unit = "1"},
     {.name = "derivative", .unit = "1"},
@@ -100,8 +119,7 @@ inline void validate(const Variation& variation) {
   validate(parameter);
   if (!(variation.low >= traits.lowest && variation.high <= traits.highest)) {
     detail::refuse({"sweep: parameter '", parameter.name, "': its range ", variation.low, " .. ",
-                    variation.high, " is not within ", traits.lowest, " .. ", traits.highest, " ",
-                    traits.unit});
+                    variation.high, " is not within ", traits.lowest, " .. ", traits.highest});
   }
   if (traits.subject == VariedSubject::loop && !variation.where.empty()) {
     detail::refuse({"sweep: parameter '", parameter.name, "': it is of the whole loop, not of '",

@@ -137,6 +137,26 @@ void validate_factor(const Loop& nominal, const PlacedVariation& placed) {
   }
 }
 
+/// Refuses two variations of one name, and two that replace the same number.
+/// @throws std::invalid_argument naming both
+/// Real-time: no (throws).
+inline void validate_apart(std::span<const PlacedVariation> all) {
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Variation& own = all[k].variation;
+    for (const PlacedVariation& other : all.first(k)) {
+      if (other.variation.quantity != own.quantity) continue;
+      const std::string name = own.parameter().name, other_name = other.variation.parameter().name;
+      if (name == other_name) refuse({"sweep: parameter '", name, "' varies twice"});
+      const bool shares_places =
+          std::ranges::find_first_of(all[k].places, other.places) != all[k].places.end();
+      if (traits_of(own.quantity).effect == VariedEffect::replaces && shares_places) {
+        refuse({"sweep: parameters '", other_name, "' and '", name,
+                "' are the same number of a joint; expected one of them"});
+      }
+    }
+  }
+}
+
 /// Applies one variation.
 template <class Loop>
 void vary(Loop& loop, const PlacedVariation& placed, double value) {
@@ -212,7 +232,8 @@ void vary(Loop& loop, const PlacedVariation& placed, double value) {
   }
 }
 
-/// The nominal loop with all variations.
+/// The nominal loop with all variations. Factors scale the described numbers, whatever the order of
+/// the variations.
 /// @param values  one for each variation
 /// Real-time: no (allocates).
 template <DynamicRobot R>
@@ -221,10 +242,15 @@ template <DynamicRobot R>
                                         std::span<const double> values, std::uint64_t seed) {
   VariedLoop<R> loop = nominal;
   loop.simulation.seed = loop.lost.seed = seed;
+  for (const bool scales : {true, false}) {
+    for (std::size_t k = 0; k < variations.size(); ++k) {
+      const VariedEffect effect = traits_of(variations[k].variation.quantity).effect;
+      if ((effect == VariedEffect::scales) == scales) vary(loop, variations[k], values[k]);
+    }
+  }
   bool changes_bodies = false;
-  for (std::size_t k = 0; k < variations.size(); ++k) {
-    vary(loop, variations[k], values[k]);
-    const VariedQuantity quantity = variations[k].variation.quantity;
+  for (const PlacedVariation& each : variations) {
+    const VariedQuantity quantity = each.variation.quantity;
     changes_bodies = changes_bodies || traits_of(quantity).subject == VariedSubject::link ||
                      quantity == VariedQuantity::added_reflected_inertia;
   }

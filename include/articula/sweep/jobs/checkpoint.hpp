@@ -2,10 +2,15 @@
 /// @file A sweep's result so far in a file, from which the sweep goes on.
 #pragma once
 
+#include "articula/sweep/row_text.hpp"
+#include "articula/sweep/run_chunk.hpp"
+#include "articula/sweep/sampling/samples.hpp"
+#include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_options.hpp"
 #include "articula/sweep/sweep_result.hpp"
 #include "articula/text/numbers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -26,10 +31,18 @@ namespace articula {
 
 namespace detail {
 
-/// A text for the same sweep: all that decides its bits.
-[[nodiscard]] inline std::string identity_of(const std::vector<SweepParameter>& parameters,
-                                             const std::vector<SweepMetric>& metrics,
-                                             const SweepOptions& options, std::string_view own) {
+/// The first word of a checkpoint.
+inline constexpr std::string_view checkpoint_format = "articula-sweep-checkpoint-2";
+
+/// A text for the same sweep: all that decides its bits. The rows of its first runs show the robot,
+/// the gains and the program.
+/// @param own  text of the caller
+/// @throws as run_chunk
+template <SweepExperiment E>
+[[nodiscard]] std::string identity_of(const E& experiment, const SweepOptions& options,
+                                      std::string_view own) {
+  const std::vector<SweepParameter> parameters = experiment.parameters();
+  const std::vector<SweepMetric> metrics = experiment.metrics();
   std::string text(own);
   const auto add = [&](const auto&... parts) { ((text += '\n', text += parts), ...); };
   for (const SweepParameter& p : parameters) {
@@ -37,6 +50,12 @@ namespace detail {
         std::to_string(p.levels));
   }
   for (const SweepMetric& metric : metrics) add(metric.name);
+  constexpr std::uint64_t shown_runs = 4;
+  const Samples samples(parameters, options.sampling);
+  for (const SweepRow& row :
+       run_chunk(experiment, samples, {0, std::min(shown_runs, samples.runs())})) {
+    append_row(text, row);
+  }
   const Sampling& sampling = options.sampling;
   add(std::to_string(int(sampling.method)), std::to_string(sampling.runs),
       std::to_string(sampling.seed), options.worst_metric, std::to_string(options.worst));
@@ -66,7 +85,7 @@ inline void write_checkpoint(const std::filesystem::path& path, const SweepResul
     put(classes.size());
     classes.for_each([&](std::int32_t place, std::uint64_t count) { put(place), put(count); });
   };
-  file << "articula-sweep-checkpoint-2 " << identity;
+  file << detail::checkpoint_format << ' ' << identity;
   put(result.runs_within());
   for (const std::uint64_t count : result.ends()) put(count);
   for (const MetricSummary& summary : result.summaries()) {
@@ -160,9 +179,13 @@ class CheckpointReader {
                                                                 std::string_view identity) {
   if (!std::filesystem::exists(path)) return {};
   detail::CheckpointReader in(path);
-  in.expect("articula-sweep-checkpoint-2");
+  if (in.word() != detail::checkpoint_format) {
+    in.refuse("this is no checkpoint of this version of articula; remove it to start again");
+  }
   if (in.word() != identity) {
-    in.refuse("the checkpoint belongs to another sweep; remove it, or choose another folder");
+    in.refuse(
+        "the checkpoint belongs to another sweep; remove it to start again, or choose another "
+        "folder");
   }
   const std::uint64_t within = in.count();
   std::array<std::uint64_t, simulation_end_names.size()> ends{};

@@ -4,18 +4,26 @@
 #pragma once
 
 #include "articula/sweep/jobs/mpi_names.hpp"
+#include "articula/sweep/jobs/own_communicator.hpp"
 
 #include <mpi.h>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
+#include <exception>
+#include <optional>
+#include <thread>
 
 namespace articula {
 
 /// Initialises MPI where the program was started by mpirun or srun, and ends it in the destructor.
-/// Without them, it does nothing: there is one rank. A rank that fails while others work calls `abort`:
-/// the destructor waits for all ranks.
+/// Without them, it does nothing: there is one rank.
+///
+/// The destructor waits for all ranks. After an exception, it waits for a few seconds and then ends
+/// the program in all ranks, since they may wait for this one.
 class MpiSession {
  public:
   MpiSession() : is_active_(is_launched()) {
@@ -24,11 +32,30 @@ class MpiSession {
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &granted);
     MPI_Comm_rank(detail::mpi_world(), &rank_);
     MPI_Comm_size(detail::mpi_world(), &ranks_);
+    ranks_of_end_.emplace(detail::mpi_world());
   }
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
   ~MpiSession() {
-    if (is_active_) MPI_Finalize();
+    if (!is_active_) return;
+    MPI_Request others{};
+    MPI_Ibarrier(ranks_of_end_->get(), &others);
+    int have_come = 0;
+    constexpr auto pause = std::chrono::milliseconds(1);
+    constexpr int pauses = 3000;  // longer than ranks need that end at the same time
+    for (int k = 0; std::uncaught_exceptions() > exceptions_ && have_come == 0; ++k) {
+      MPI_Test(&others, &have_come, MPI_STATUS_IGNORE);
+      std::this_thread::sleep_for(pause);
+      if (k < pauses) continue;
+      std::fprintf(stderr,
+                   "articula: rank %d ends by an exception while others work; catch it in "
+                   "the scope of MpiSession to see its text\n",
+                   rank_);
+      abort(1);
+    }
+    if (have_come == 0) MPI_Wait(&others, MPI_STATUS_IGNORE);
+    ranks_of_end_.reset();
+    MPI_Finalize();
   }
 
   [[nodiscard]] bool is_active() const noexcept { return is_active_; }
@@ -50,6 +77,8 @@ class MpiSession {
 
   bool is_active_;
   int rank_ = 0, ranks_ = 1;
+  std::optional<detail::OwnCommunicator> ranks_of_end_{};  ///< in which the destructor waits
+  int exceptions_ = std::uncaught_exceptions();
 };
 
 }  // namespace articula

@@ -8,6 +8,7 @@
 #include "articula/sweep/jobs/chunk_thread.hpp"
 #include "articula/sweep/jobs/mpi_inbox.hpp"
 #include "articula/sweep/jobs/mpi_names.hpp"
+#include "articula/sweep/jobs/own_communicator.hpp"
 #include "articula/sweep/run_chunk.hpp"
 #include "articula/sweep/sweep.hpp"
 
@@ -33,26 +34,10 @@ enum MpiTag : int { tag_rows = 1, tag_error = 2, tag_chunk = 3 };
 /// Of the text of an error [bytes].
 inline constexpr std::size_t longest_error = 4096;
 
-/// The ranks of a communicator in one of their own, so that messages of the program are not taken
-/// for those of a sweep. All ranks make and end it.
-class OwnCommunicator {
- public:
-  explicit OwnCommunicator(MPI_Comm all) { MPI_Comm_dup(all, &own_); }
-  OwnCommunicator(const OwnCommunicator&) = delete;
-  OwnCommunicator& operator=(const OwnCommunicator&) = delete;
-  ~OwnCommunicator() { MPI_Comm_free(&own_); }
-  [[nodiscard]] MPI_Comm get() const noexcept { return own_; }
-
- private:
-  MPI_Comm own_{};
-};
-
-/// Computes chunks until there are no more.
+/// Computes chunks until there are no more. Rank 0 sends each rank as many as it may have at once,
+/// and another for each that comes back.
 template <class Compute>
 void work_for_mpi(const Compute& compute, const ChunkPacking& packing, MPI_Comm all) {
-  for (int k = 0; k < chunks_of_rank; ++k) {
-    MPI_Send(nullptr, 0, mpi_byte(), 0, tag_rows, all);  // asks for a chunk
-  }
   std::string bytes;  // of the last chunk, which MPI may still read
   MPI_Request sent{};
   bool is_sending = false;
@@ -87,25 +72,28 @@ template <class OwnChunks>
 void hand_out_for_mpi(ChunkOrder& order, const ChunkPacking& packing, std::uint64_t chunk,
                       int ranks, OwnChunks& own, MPI_Comm all) {
   MpiInbox inbox(std::max(packing.largest(chunk), longest_error), all);
-  std::deque<int> idle;
-  int asking = chunks_of_rank * (ranks - 1);
+  std::deque<int> idle;  // a rank for each chunk that it can have
+  for (int k = 0; k < chunks_of_rank; ++k) {
+    for (int rank = 1; rank < ranks; ++rank) idle.push_back(rank);
+  }
+  auto places = idle.size();  // of chunks, in the ranks that are not dismissed
   constexpr std::chrono::microseconds shortest(20), longest(1000);
   auto pause = shortest;
   const auto read = [&](int rank, int tag, std::string_view bytes) {
     idle.push_back(rank);
     if (tag == tag_error) {
       order.fail(std::make_exception_ptr(std::runtime_error(std::string(bytes))));
-    } else if (!bytes.empty()) {
+    } else {
       order.collect(packing.unpack(bytes));
     }
   };
-  while (asking > 0 || own.owes_chunk() || !order.is_empty()) {
+  while (places > 0 || own.owes_chunk() || !order.is_empty()) {
     while (!idle.empty() && order.has_next()) {
       const SweepChunk next = order.next();
       const std::uint64_t numbers[2] = {next.first, next.count};
       MPI_Send(numbers, 2, mpi_uint64(), idle.front(), tag_chunk, all);
       idle.pop_front();
-      if (next.count == 0) --asking;
+      if (next.count == 0) --places;
     }
     if (inbox.take(read)) {
       pause = shortest;

@@ -2,7 +2,6 @@
 /// @file A sweep with files: rows as CSV, and a checkpoint from which it goes on.
 #pragma once
 
-#include "articula/core/refuse.hpp"
 #include "articula/sweep/jobs/checkpoint.hpp"
 #include "articula/sweep/jobs/sweep_csv.hpp"
 #include "articula/sweep/sweep.hpp"
@@ -22,28 +21,22 @@ struct SweepFiles {
   std::filesystem::path rows{};        ///< CSV; empty: rows are not kept
   std::filesystem::path checkpoint{};  ///< empty: none
   double interval = 1;                 ///< shortest time between two checkpoints [s], >= 0
-  /// What decides the experiment's bits beside its parameters and the options: robot, gains, target,
-  /// duration, version of the program. A checkpoint of another identity is refused.
+  /// What decides the rows, and the first four may not show: limits that they do not reach, or a
+  /// version of the experiment. A checkpoint of another identity is refused.
   std::string identity{};
 };
 
 /// Runs the sweep that some threads or processes compute.
 /// @param run  callable with (options, result, hooks), goes on with the result
-/// @throws as `run`; std::runtime_error naming a file that cannot be used; std::invalid_argument for a
-///         checkpoint without an identity
+/// @throws as `run`; std::runtime_error naming a file that cannot be used
 template <SweepExperiment E, class Run>
 [[nodiscard]] SweepResult resumable_sweep_by(const E& experiment, const SweepOptions& options,
                                              const SweepFiles& files, const SweepHooks& hooks,
                                              const Run& run) {
-  if (!files.checkpoint.empty() && files.identity.empty()) {
-    detail::refuse(
-        {"sweep: SweepFiles::identity is empty; expected a text that changes with the "
-         "robot, its gains and the experiment"});
-  }
-  const std::string identity =
-      detail::identity_of(experiment.parameters(), experiment.metrics(), options, files.identity);
   SweepResult result(experiment.metrics(), options);
+  std::string identity;
   if (!files.checkpoint.empty()) {
+    identity = detail::identity_of(experiment, options, files.identity);
     if (auto before = read_checkpoint(files.checkpoint, result, identity)) {
       result = std::move(*before);
     }
@@ -80,7 +73,8 @@ template <SweepExperiment E, class Run>
 }
 
 /// A sweep that goes on from its checkpoint: after a crash or SIGKILL, the same call computes
-/// the runs that are missing. Its result and rows have the same bits as without interruption.
+/// the runs that are missing. Its result and rows have the same bits as without interruption. The
+/// first four runs are computed at each start: a checkpoint with other rows is refused.
 /// @throws as continue_sweep; std::runtime_error naming a file that cannot be used
 /// Real-time: no (writes files).
 template <SweepExperiment E>

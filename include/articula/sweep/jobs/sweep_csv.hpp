@@ -65,6 +65,11 @@ class SweepCsv {
   void keep(const std::string& header, std::uint64_t runs) const {
     std::ifstream file(path_);
     std::string line;
+    if (!file) {
+      throw std::runtime_error(
+          path_.string() + " cannot be read, and the checkpoint has its first " +
+          std::to_string(runs) + " runs; remove the checkpoint to start again");
+    }
     if (!std::getline(file, line) || line != header) {
       throw std::runtime_error(path_.string() + " does not have the columns of this sweep");
     }

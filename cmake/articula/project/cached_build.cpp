@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/compiled_run.hpp"
+#include "project/cached_build.hpp"
 
 #include "project/process.hpp"
 
 #include <articula/version.hpp>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 #include <cerrno>
 #include <cstdint>
@@ -60,9 +62,28 @@ void build_step(std::vector<std::string> words, const fs::path& log, const std::
   if (!end.is_done) throw Refusal(advice + "; " + log.string() + " has the reason");
 }
 
+/// A lock on a folder, which other processes wait for.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder)
+      : file_(open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
+    if (file_ >= 0 && flock(file_, LOCK_EX) == 0) return;
+    const std::string reason = std::strerror(errno);
+    if (file_ >= 0) close(file_);
+    throw Refusal("cannot lock " + (folder / "lock").string() + ": " + reason);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+  ~FolderLock() { close(file_); }
+
+ private:
+  int file_;
+};
+
 }  // namespace
 
-void run_compiled(const Project& project, std::vector<std::string> arguments) {
+fs::path cached_build(const Project& project, const std::string& product,
+                      const std::string& components) {
   const std::string compiler = variable("CXX").empty() ? "c++" : variable("CXX");
   const ProcessEnd version = run_process({compiler, "--version"}, true);
   if (!version.is_done) {
@@ -72,10 +93,13 @@ void run_compiled(const Project& project, std::vector<std::string> arguments) {
   std::string all = std::string(articula::library_version) + version.output;
   for (const auto& [name, text] : project.files) all += name + '\0' + text + '\0';
   const fs::path folder = cache_folder() / hash_of(all);
-  const fs::path build = folder / "build", program = build / project.name;
+  const fs::path build = folder / "build", made = build / product;
   const fs::path log = folder / "build.log";
   std::error_code error;
-  const bool is_new = !fs::exists(program, error);
+  fs::create_directories(folder, error);
+  if (error) throw Refusal(folder.string() + ": " + error.message());
+  const FolderLock lock(folder);
+  const bool is_new = !fs::exists(made, error);
   write_project(project, folder.string());  // the same files: nothing is compiled again for them
   fs::remove(log, error);
   if (is_new) {
@@ -89,12 +113,16 @@ void run_compiled(const Project& project, std::vector<std::string> arguments) {
       configure.push_back("-Darticula_ROOT=" + prefix.string());
     }
     build_step(std::move(configure), log,
-               "--compile needs the installed package articula with its components urdf, view and "
-               "config; install it (docs/installation.md), or name its place by the variable "
-               "CMAKE_PREFIX_PATH");
+               "--compile needs the installed package articula with its components " + components +
+                   "; install it (docs/installation.md), or name its place by the variable "
+                   "CMAKE_PREFIX_PATH");
   }
   build_step({"cmake", "--build", build.string()}, log, "the robot cannot be compiled");
+  return made;
+}
 
+void run_compiled(const Project& project, std::vector<std::string> arguments) {
+  const fs::path program = cached_build(project, project.name, "urdf, view and config");
   arguments.insert(arguments.begin(), program.string());
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
