@@ -6,7 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
+#include "plain_rows.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -18,25 +19,6 @@ namespace {
 using namespace articula;
 
 constexpr std::uint64_t chunk_size = 64;
-constexpr std::size_t metric_count = 19;  // of a Q2D whose two joints step
-
-/// Takes no time to run.
-struct Instant {
-  [[nodiscard]] std::vector<SweepParameter> parameters() const {
-    return {{"a", "1", 0, 1}, {"b", "1", 0, 1}, {"c", "1", 0, 1}, {"d", "1", 0, 1}};
-  }
-  [[nodiscard]] std::vector<SweepMetric> metrics() const {
-    std::vector<SweepMetric> all;
-    for (std::size_t k = 0; k < metric_count; ++k) all.push_back({std::to_string(k), "1"});
-    return all;
-  }
-  [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
-    for (std::size_t k = 0; k < metrics.size(); ++k) {
-      metrics[k] = std::exp(run.parameters[k % 4] * static_cast<double>(k + 1));
-    }
-    return SimulationEnd::stable;
-  }
-};
 
 /// The parts of the work beside the runs.
 class Rows {
@@ -67,9 +49,9 @@ class Rows {
   }
 
  private:
-  Instant experiment_{};
+  PlainRows experiment_{};
   Samples samples_{experiment_.parameters(), {.runs = 1'000'000}};
-  detail::ChunkPacking packing_{samples_, metric_count};
+  detail::ChunkPacking packing_{samples_, PlainRows::metric_count};
   SweepResult result_{experiment_.metrics(), {}};
   std::vector<ComputedChunk> computed_{};
   std::vector<std::string> packed_{};

@@ -10,46 +10,29 @@
 #include <articula/sim/random_draw.hpp>
 #include <articula/sweep/jobs/mpi_sweep.hpp>
 
+#include "../plain_rows.hpp"
+
 #include <mpi.h>
 #include <smpi/smpi.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace {
 
 using namespace articula;
 
-constexpr std::size_t metric_count = 19;  // of a Q2D whose two joints step
-
 /// Its runs take simulated time, and no other.
-struct Waiting {
+struct Waiting : PlainRows {
   double run_time;  ///< mean [s]
 
-  [[nodiscard]] std::vector<SweepParameter> parameters() const {
-    return {{"a", "1", 0, 1}, {"b", "1", 0, 1}, {"c", "1", 0, 1}, {"d", "1", 0, 1}};
-  }
-  [[nodiscard]] std::vector<SweepMetric> metrics() const {
-    std::vector<SweepMetric> all;
-    for (std::size_t k = 0; k < metric_count; ++k) all.push_back({std::to_string(k), "1"});
-    return all;
-  }
-  [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
-    for (std::size_t k = 0; k < metrics.size(); ++k) {
-      metrics[k] = std::exp(run.parameters[k % 4] * static_cast<double>(k + 1));
-    }
-    return SimulationEnd::stable;
-  }
   void run_together(std::span<SweepRow> rows) const {
     double time = 0;
     for (SweepRow& row : rows) {
@@ -76,12 +59,12 @@ int main(int argc, char** argv) {
   int rank = 0, ranks = 1;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-  const Waiting experiment{std::atof(argv[1])};
+  const Waiting experiment{{}, std::atof(argv[1])};
   SweepOptions options;
   options.sampling.runs =
       std::strtoull(argv[2], nullptr, 10) * options.chunk * static_cast<std::uint64_t>(ranks - 1);
   const Samples samples(experiment.parameters(), options.sampling);
-  const detail::ChunkPacking packing{samples, metric_count};
+  const detail::ChunkPacking packing{samples, Waiting::metric_count};
   const double begin = MPI_Wtime();
   if (rank != 0) {
     const auto compute = [&](const SweepChunk& chunk) {
