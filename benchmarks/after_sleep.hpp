@@ -11,10 +11,10 @@
 #include <thread>
 #include <vector>
 
-/// Measures calls each of which comes after a millisecond of sleep. Meanwhile the processor forgets:
-/// caches and branch predictors are used by others, and the clock may be lowered. The median and the
-/// 99th percentile are counters, [ns]; the time of reading the clock is in them and in the case
-/// `clock/after_sleep`.
+/// Measures calls each of which comes after a millisecond of sleep. Meanwhile the processor
+/// forgets: caches and branch predictors are used by others, and the clock may be lowered. The
+/// median and the 99th percentile are counters, [ns]; the time of reading the clock is in them and
+/// in the case `clock/after_sleep`.
 /// @param work  takes the number of the call
 template <class Work>
 void measure_after_sleep(benchmark::State& bench, const Work& work) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a Remote costs the loop: the same cycles with and without it, nobody asking, the rings emptied
-// by another thread's part in between, whose time is not counted.
+// What a Remote costs the loop: the same cycles with and without it, nobody asking, the rings
+// emptied by another thread's part in between, whose time is not counted.
 #include <articula/articula.hpp>
 #include <articula/loop/supervision/supervised_loop.hpp>
 #include <articula/remote/remote.hpp>

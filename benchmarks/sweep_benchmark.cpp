@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs of a sweep in one thread: under one controller for all lanes, under one for each run, and one
-// by one. /threads is a sweep of more runs in one thread and in two. Each run is a second at 1 kHz of
-// another robot under PID plus gravity: other masses, damping, start and gains. `cycles_per_second`
-// counts the cycles of all runs, set-up and metrics included.
+// Runs of a sweep in one thread: under one controller for all lanes, under one for each run, and
+// one by one. /threads is a sweep of more runs in one thread and in two. Each run is a second at 1
+// kHz of another robot under PID plus gravity: other masses, damping, start and gains.
+// `cycles_per_second` counts the cycles of all runs, set-up and metrics included.
 #include <articula/articula.hpp>
 #include <articula/robots/panda.hpp>
 #include <articula/robots/q2d.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sweeps on many ranks: what a row costs the rank that computes it, and rank 0. simulated_ranks/run.sh
-// has both for more ranks than this machine has.
+// Sweeps on many ranks: what a row costs the rank that computes it, and rank 0.
+// simulated_ranks/run.sh has both for more ranks than this machine has.
 #include <articula/sweep/jobs/chunk_packing.hpp>
 #include <articula/sweep/run_chunk.hpp>
 

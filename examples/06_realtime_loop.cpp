@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Q2D in real time: 1 kHz under SCHED_FIFO, supervised, operated and recorded. The run ends after
-// two seconds or by Ctrl-C.
+// The Q2D in real time: 1 kHz under SCHED_FIFO, supervised, operated and recorded. The run ends
+// after two seconds or by Ctrl-C.
 #include <articula/articula.hpp>
 #include <articula/loop/realtime/run_realtime.hpp>
 #include <articula/loop/realtime/stop_on_signal.hpp>

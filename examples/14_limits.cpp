@@ -55,6 +55,6 @@ int main() {
                     (hardest.array() <= 1.05 * limits.acceleration.array()).all();
   return held ? 0 : 1;
 }
-// shoulder_active_joint: limited by position in 365 cycles, by velocity in 5072, by acceleration in 551
-// elbow_active_joint: limited by position in 0 cycles, by velocity in 1496, by acceleration in 82
-// at most (1.5708, 1.0054) rad, (0.500, 2.000) rad/s, (9.97, 99.30) rad/s^2
+// shoulder_active_joint: limited by position in 365 cycles, by velocity in 5072, by acceleration in
+// 551 elbow_active_joint: limited by position in 0 cycles, by velocity in 1496, by acceleration in
+// 82 at most (1.5708, 1.0054) rad, (0.500, 2.000) rad/s, (9.97, 99.30) rad/s^2

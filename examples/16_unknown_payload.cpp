@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A UR10 under computed torque picks up a load that its controller does not know, of 0 to 10 kg. The
-// program shows how far the elbow is off, and searches the stiffness and the integral that bring 95 %
-// of the arms nearest. The plot has the error of each arm over its load.
+// A UR10 under computed torque picks up a load that its controller does not know, of 0 to 10 kg.
+// The program shows how far the elbow is off, and searches the stiffness and the integral that
+// bring 95 % of the arms nearest. The plot has the error of each arm over its load.
 #include <articula/articula.hpp>
 #include <articula/robots/ur10.hpp>
 #include <articula/sweep/closed_loop_experiment.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Both arms of a torso reach forward, one of them with a load of 0 to 1 kg that the controller does not
-// know. The program searches gains for all six joints by three numbers, so that 95 % of the torsos
-// follow best, and tries them on torsos that the search has not seen. The plot has the error of each
-// of these over its load.
+// Both arms of a torso reach forward, one of them with a load of 0 to 1 kg that the controller does
+// not know. The program searches gains for all six joints by three numbers, so that 95 % of the
+// torsos follow best, and tries them on torsos that the search has not seen. The plot has the error
+// of each of these over its load.
 #include <articula/articula.hpp>
 #include <articula/robots/two_arm_torso.hpp>
 #include <articula/sweep/closed_loop_experiment.hpp>

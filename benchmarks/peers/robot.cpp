@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot, PEERS_ROBOT with the link PEERS_LINK, in articula and in other libraries: first a check that all give the same,
-// then a case for each library and operation, named <operation>/<robot>/<library>.
+// A robot, PEERS_ROBOT with the link PEERS_LINK, in articula and in other libraries: first a check
+// that all give the same, then a case for each library and operation, named
+// <operation>/<robot>/<library>.
 #include "../after_sleep.hpp"
 #include "peer.hpp"
 

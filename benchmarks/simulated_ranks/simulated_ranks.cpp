@@ -4,9 +4,10 @@
 //
 //   simulated_ranks RUN_TIME CHUNKS
 //
-// RUN_TIME is the mean time of a run [s]. The time of each run is random within 20 % of it. CHUNKS is
-// the number of chunks for each rank but rank 0, which computes no runs here. Prints the efficiency:
-// the time of all runs in one rank, over the product of simulated time and number of ranks.
+// RUN_TIME is the mean time of a run [s]. The time of each run is random within 20 % of it. CHUNKS
+// is the number of chunks for each rank but rank 0, which computes no runs here. Prints the
+// efficiency: the time of all runs in one rank, over the product of simulated time and number of
+// ranks.
 #include <articula/sim/random_draw.hpp>
 #include <articula/sweep/jobs/mpi_sweep.hpp>
 

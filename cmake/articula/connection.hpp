@@ -32,12 +32,12 @@ class Connection {
   /// @param request   a JSON object
   /// @param patience  how long to wait for the answer [s]
   /// @return          its answer
-  /// @throws Refusal if it answers with success false; NoConnection if there is no such service, the
-  ///         connection breaks, or there is no answer in time
+  /// @throws Refusal if it answers with success false; NoConnection if there is no such service,
+  ///         the connection breaks, or there is no answer in time
   Json call(const std::string& service, const Json& request = Json::object(),
             double patience = default_patience);
-  /// The same for requests that move or change something. The controls are given back afterwards, so
-  /// that what was asked for goes on after this program's end.
+  /// The same for requests that move or change something. The controls are given back afterwards,
+  /// so that what was asked for goes on after this program's end.
   Json operate(const std::string& service, const Json& request = Json::object(),
                double patience = default_patience);
 

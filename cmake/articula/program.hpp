@@ -58,8 +58,8 @@ struct Program {
 CLI::App* add_command(CLI::App& parent, Program& program, const std::string& name,
                       const std::string& description, std::function<void()> function);
 
-/// The types of options and arguments whose names a shell completes from the running loop. An option
-/// gets its type by CLI::Option::type_name.
+/// The types of options and arguments whose names a shell completes from the running loop. An
+/// option gets its type by CLI::Option::type_name.
 inline const std::vector<std::string> named_values{"CONTROLLER", "GAIN",        "GAIN=VALUE",
                                                    "JOINT",      "JOINT=VALUE", "LINK"};
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Q2D as ROS 2 sees a robot under a controller_manager: `ros2 topic echo /joint_states`, `ros2
 // control list_controllers`, `ros2 param set`, trajectories from MoveIt. Controllers and parameters
-// have the names of the course. This program links no ROS. ROS_DOMAIN_ID names the domain, as for ROS
-// programs. Ctrl-C ends the program.
+// have the names of the course. This program links no ROS. ROS_DOMAIN_ID names the domain, as for
+// ROS programs. Ctrl-C ends the program.
 #include <articula/articula.hpp>
 #include <articula/loop/realtime/monotonic_clock.hpp>
 #include <articula/loop/realtime/stop_on_signal.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm with a gripper in a browser. One slider closes both fingers: their other five joints mimic
-// the joint of the drive. Ctrl-C ends the program, or the end of ARTICULA_VIEW_SECONDS.
+// The arm with a gripper in a browser. One slider closes both fingers: their other five joints
+// mimic the joint of the drive. Ctrl-C ends the program, or the end of ARTICULA_VIEW_SECONDS.
 #include <articula/articula.hpp>
 #include <articula/robots/gripper_arm.hpp>
 

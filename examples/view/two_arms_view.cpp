@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A torso with two arms in a browser: sliders, waves on a joint, key poses. Ctrl-C ends the program, or
-// the end of ARTICULA_VIEW_SECONDS.
+// A torso with two arms in a browser: sliders, waves on a joint, key poses. Ctrl-C ends the
+// program, or the end of ARTICULA_VIEW_SECONDS.
 #include <articula/articula.hpp>
 #include <articula/robots/two_arm_torso.hpp>
 

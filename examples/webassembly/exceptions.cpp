@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Exceptions for WebAssembly programs.
 ///
-/// Debian's C++ library for WebAssembly has no exceptions, but its compiler and all present browsers
-/// have them. Link this file with programs that are compiled with -fwasm-exceptions; see
+/// Debian's C++ library for WebAssembly has no exceptions, but its compiler and all present
+/// browsers have them. Link this file with programs that are compiled with -fwasm-exceptions; see
 /// docs/webassembly.md. Source: [Itanium C++ ABI, sections 2 and 2.9.5]; tables of the exception
 /// handling as LLVM writes them for WebAssembly.
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of ready robots in docs/notation.md lists their joints in the library's order, and their links.
+// The table of ready robots in docs/notation.md lists their joints in the library's order, and
+// their links.
 
 #include "articula/articula.hpp"
 #include "articula/robots/gripper_arm.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that a fuzzer makes up, for the decoders of the ROS 2 messages that come in, and for the check
-// of the packets that carry them.
+// Bytes that a fuzzer makes up, for the decoders of the ROS 2 messages that come in, and for the
+// check of the packets that carry them.
 #include <articula/ros2/cdr_decoder.hpp>
 #include <articula/ros2/cdr_encoder.hpp>
 #include <articula/ros2/dds/packets/packet_check.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gripper arms that differ, in lanes and one by one: effort limits, stops, friction, sensors, delay.
+// Gripper arms that differ, in lanes and one by one: effort limits, stops, friction, sensors,
+// delay.
 #include "lane_arms.hpp"
 
 #include <articula/robots/gripper_arm.hpp>

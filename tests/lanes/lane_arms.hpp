@@ -23,9 +23,10 @@ namespace support {
 
 using namespace articula;
 
-/// Both compute the same operations in the same order. Where the processor fuses multiplications and
-/// additions, compilers fuse other ones in packs: the motions then differ by some 1e-16 in a cycle,
-/// which the closed loop keeps from growing beyond 1e-7 of the motion, shifted impacts included.
+/// Both compute the same operations in the same order. Where the processor fuses multiplications
+/// and additions, compilers fuse other ones in packs: the motions then differ by some 1e-16 in a
+/// cycle, which the closed loop keeps from growing beyond 1e-7 of the motion, shifted impacts
+/// included.
 #if defined(__FMA__) || defined(__FP_FAST_FMA)
 inline constexpr double tolerance = 1e-7;
 #else

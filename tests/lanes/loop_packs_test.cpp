@@ -356,8 +356,8 @@ CommandLimits<2> tight_limits() {
   return limits;
 }
 
-/// Lets a controller of a pack and controllers of single arms follow measured arms whose motion does
-/// not depend on them, which serves every kind of command.
+/// Lets a controller of a pack and controllers of single arms follow measured arms whose motion
+/// does not depend on them, which serves every kind of command.
 template <class Single, class Packed>
 void follow(const Single& single, Packed together, const auto& disturb) {
   std::vector<Single> alone(Pack::lanes, single);

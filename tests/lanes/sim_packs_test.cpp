@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulator of a pack of robots against simulators of one robot each, under all kinds of commands.
-// Both do the same operations for each robot. They may differ by what compilers contract, which
-// grows with the motion: 1e-9 in two seconds.
+// A simulator of a pack of robots against simulators of one robot each, under all kinds of
+// commands. Both do the same operations for each robot. They may differ by what compilers contract,
+// which grows with the motion: 1e-9 in two seconds.
 #include <articula/robots/panda.hpp>
 #include <articula/robots/q2d.hpp>
 #include <articula/sim/simulator.hpp>

@@ -21,8 +21,8 @@ namespace {
 constexpr int n = 6;
 using Arm = std::remove_cvref_t<decltype(model_of(Ur10()))>;
 
-/// UR10s with other masses and an unknown load. MuJoCo has neither damping nor dry friction here, so
-/// the factor 0 takes those of the joints away.
+/// UR10s with other masses and an unknown load. MuJoCo has neither damping nor dry friction here,
+/// so the factor 0 takes those of the joints away.
 auto swept_arms() {
   JointPidGains<n> gains;
   gains.fill({.proportional = 100, .integral = 50, .derivative = 20});
@@ -46,9 +46,9 @@ auto swept_arms() {
 
 // MuJoCo gets the efforts of a run, and takes the same Runge-Kutta steps: the trajectories have the
 // same discretisation. MuJoCo turns inertias to their principal axes by an iteration that it ends
-// early, with a relative error of some 1e-8 to 1e-7 in accelerations of at most 100 rad/s^2. In half a
-// second, this is 1e-6 rad and 5e-6 rad/s; the tolerance is ten times as much. A load that is 1 % off
-// changes the positions by more than 1e-4 rad.
+// early, with a relative error of some 1e-8 to 1e-7 in accelerations of at most 100 rad/s^2. In
+// half a second, this is 1e-6 rad and 5e-6 rad/s; the tolerance is ten times as much. A load that
+// is 1 % off changes the positions by more than 1e-4 rad.
 TEST_CASE("a run of a sweep is what MuJoCo makes of its bodies and efforts") {
   const auto experiment = swept_arms();
   const Samples samples(experiment.parameters(),

@@ -265,7 +265,8 @@ TEST_CASE("a trajectory replaces two others without a jump") {
   for (int k = 0; k < 2100; ++k) {
     arm.cycles(1);
     for (int j = 0; j < 2; ++j) {
-      // In a period of 1 ms, the position changes by the mean velocity, and that by at most 50 rad/s^2.
+      // In a period of 1 ms, the position changes by the mean velocity, and that by at most 50
+      // rad/s^2.
       const double v = arm.reference().velocity[j], v_before = before.velocity[j];
       const double step = arm.reference().position[j] - before.position[j];
       REQUIRE(std::abs(step - 0.5e-3 * (v + v_before)) < 1e-6);

@@ -142,7 +142,8 @@ TEST_CASE("10^4 requests at random times do not make the reference jump") {
       const double passed = arm.loop.time() - time;
       if (!within_limits(reference)) ++bad;
       for (int j = 0; j < 2; ++j) {
-        // Trajectories between points may accelerate harder than profiles: 2 limits in 1 ms at most.
+        // Trajectories between points may accelerate harder than profiles: 2 limits in 1 ms at
+        // most.
         const double step = std::abs(reference.position[j] - before.position[j]);
         if (step > limits.velocity[j] * passed * (1 + 1e-6) + 1e-9) ++jumps;
       }

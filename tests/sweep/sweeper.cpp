@@ -3,10 +3,10 @@
 ///
 ///     sweeper <folder> <threads> [--kill <run> | --fail | --leave | --runs <number>]
 ///
-/// Writes rows.csv and checkpoint, and prints the number of runs and the most memory that the process
-/// had [kB]. With --kill, the process that computes this run kills itself, unless <folder>/killed
-/// exists. With --leave, rank 0 does not come to the sweep. With --runs, there are so many runs, each
-/// of which is short.
+/// Writes rows.csv and checkpoint, and prints the number of runs and the most memory that the
+/// process had [kB]. With --kill, the process that computes this run kills itself, unless
+/// <folder>/killed exists. With --leave, rank 0 does not come to the sweep. With --runs, there are
+/// so many runs, each of which is short.
 #include <articula/sweep/jobs/resumable_sweep.hpp>
 #ifdef ARTICULA_TEST_MPI
 #include <articula/sweep/jobs/mpi_session.hpp>

@@ -73,8 +73,8 @@ class FakePort final : public remote::Port {
   std::atomic<int> questions = 0;        ///< that were begun
   std::vector<double> answered_gains{};  ///< in their order
   remote::FuturesQuestion last_question{};
-  /// Future k of the elbow goes from 0 to its proposed gain times k + 1, and the last one of several
-  /// is unstable. A question of more than 5 s goes on until it is stopped.
+  /// Future k of the elbow goes from 0 to its proposed gain times k + 1, and the last one of
+  /// several is unstable. A question of more than 5 s goes on until it is stopped.
   [[nodiscard]] remote::FuturesAnswer futures(const remote::FuturesQuestion& question) override {
     ++questions;
     while (question.options.horizon > 5 && !(question.stop && question.stop->requested())) {

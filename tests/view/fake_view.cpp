@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A view of a fake arm, for clients that are programs of their own. Prints its address, and ends with
-// its standard input.
+// A view of a fake arm, for clients that are programs of their own. Prints its address, and ends
+// with its standard input.
 #include "fake_port.hpp"
 
 #include "articula/view/view.hpp"

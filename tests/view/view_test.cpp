@@ -360,7 +360,8 @@ TEST_CASE("a client that asks too fast is read slower, and the others feel nothi
   asking.join();
   CHECK(messages > 10);
   CHECK_FALSE(has_gap);
-  // 150 messages beyond the first hundred take 1.5 s, and the port makes a thousand cycles a second.
+  // 150 messages beyond the first hundred take 1.5 s, and the port makes a thousand cycles a
+  // second.
   CHECK(hasty.call("/statistics", Json::object())["cycles"] > begin + 1400);
 }
 

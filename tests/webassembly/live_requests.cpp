@@ -36,7 +36,8 @@ std::string number(std::uint32_t value) {
   return bytes;
 }
 
-/// Reads what the loop sends: learns its services, subscribes to its cycles, prints them and answers.
+/// Reads what the loop sends: learns its services, subscribes to its cycles, prints them and
+/// answers.
 void receive() {
   while (const int kind = articula_take()) {
     const std::string frame(articula_outgoing(), articula_outgoing_size());

@@ -29,8 +29,8 @@ Source source_of(const std::string& kind) {
   return {"/robot", kind == "LINK" ? "links" : "joints"};
 }
 
-/// Whether a shell leaves the name as it is. Shells expand what they complete, and a loop's names are
-/// not this user's: "$(...)" would be run.
+/// Whether a shell leaves the name as it is. Shells expand what they complete, and a loop's names
+/// are not this user's: "$(...)" would be run.
 bool is_plain(const std::string& name) {
   constexpr std::string_view others = "_-./:";
   return !name.empty() && std::ranges::all_of(name, [&](unsigned char c) {

@@ -53,8 +53,8 @@ std::string interface_of(const articula::detail::ConfigSections& all, const std:
   return "";
 }
 
-/// The class that a plugin's type, or if there is none a controller's name, means; nothing if there is
-/// no such class.
+/// The class that a plugin's type, or if there is none a controller's name, means; nothing if there
+/// is no such class.
 std::optional<ControllerKind> kind_of(const ControllerConfig& config,
                                       const std::string& interface) {
   const std::string& whole = config.type.empty() ? config.name : config.type;
@@ -129,8 +129,8 @@ bool is_broadcaster(const articula::ListedController& controller) {
          controller.type.ends_with("JointStateController");
 }
 
-/// Adds the controllers that the manager lists. Several of the same type with one joint each are one
-/// controller, with the type as its name, as load_pid_gains combines them.
+/// Adds the controllers that the manager lists. Several of the same type with one joint each are
+/// one controller, with the type as its name, as load_pid_gains combines them.
 void add_listed(Reading& reading, const articula::ControllerManagerConfig& manager) {
   const articula::ConfigSource& source = reading.plan.source;
   const auto all = articula::detail::find_sections(source);

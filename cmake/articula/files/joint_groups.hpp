@@ -20,8 +20,8 @@ struct PlannedGroup {
 
 /// The groups of a robot's joints. The first has the file's first controller. Joints that no
 /// controller names are the last group, which has no controllers.
-/// @throws articula::FileError if a controller names a joint that the robot does not have; Refusal if
-///         two controllers have some of their joints in common
+/// @throws articula::FileError if a controller names a joint that the robot does not have; Refusal
+///         if two controllers have some of their joints in common
 [[nodiscard]] std::vector<PlannedGroup> joint_groups(const articula::UrdfDescription& robot,
                                                      const ControllersPlan& plan);
 

@@ -36,7 +36,8 @@ struct LoopPlan {
   bool is_read_only = false;
   int priority = 0;    ///< of the loop's thread; 0: as any other
   double seconds = 0;  ///< of the run [s]; infinite: until Ctrl-C
-  /// Makes what else offers the loop, such as a bridge to ROS 2, until the run ends. Empty: nothing.
+  /// Makes what else offers the loop, such as a bridge to ROS 2, until the run ends. Empty:
+  /// nothing.
   std::function<std::shared_ptr<void>(articula::remote::Port&)> attach{};
   /// Called when the loop can be reached, with the address of its page.
   std::function<void(const std::string& url)> ready{};

@@ -24,7 +24,8 @@
 
 namespace terminal {
 
-/// The controllers that robots of one kind of drives may have, and the hardware that stands for them.
+/// The controllers that robots of one kind of drives may have, and the hardware that stands for
+/// them.
 template <articula::Robot R, Drives D>
 struct Family;
 

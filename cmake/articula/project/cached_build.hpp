@@ -11,12 +11,13 @@
 
 namespace terminal {
 
-/// Compiles a project in the user's cache, unless it is there already. If other processes do the same,
-/// one of them compiles, and the others wait.
+/// Compiles a project in the user's cache, unless it is there already. If other processes do the
+/// same, one of them compiles, and the others wait.
 /// @param product     file that the build makes
 /// @param components  of the package, which the project needs
 /// @return            the product
-/// @throws Refusal if CMake, a compiler or the installed articula is not found, or the compiler fails
+/// @throws Refusal if CMake, a compiler or the installed articula is not found, or the compiler
+///         fails
 [[nodiscard]] std::filesystem::path cached_build(const Project& project, const std::string& product,
                                                  const std::string& components);
 

@@ -44,7 +44,8 @@ struct Project {
   std::map<std::string, std::string> files{};
 };
 
-/// The first lines of a project's CMakeLists.txt: its name, the package, and the robot of robot.urdf.
+/// The first lines of a project's CMakeLists.txt: its name, the package, and the robot of
+/// robot.urdf.
 /// @param type        of the robot
 /// @param components  of the package
 [[nodiscard]] std::string project_lines(const std::string& program, const std::string& components,

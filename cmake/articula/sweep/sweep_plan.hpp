@@ -37,7 +37,8 @@ struct SweepSearch {
   int evaluations = 100;
 };
 
-/// Makes an experiment of the robot and the controller for which it was compiled. Its owner deletes it.
+/// Makes an experiment of the robot and the controller for which it was compiled. Its owner deletes
+/// it.
 using MakeExperiment = AnyExperiment*(const SweptLoop&);
 
 /// What a sweep from a file is made of.
@@ -79,8 +80,8 @@ struct SweepPlan {
 /// @param compiles  the robot may have any number of joints
 [[nodiscard]] SweepPlan read_sweep(const std::string& file, bool compiles);
 
-/// Compiles the plan's robot and controller for the lanes of this processor, unless the user's cache
-/// has them.
+/// Compiles the plan's robot and controller for the lanes of this processor, unless the user's
+/// cache has them.
 /// @throws Refusal if a compiler, CMake or the installed articula is not found
 [[nodiscard]] MakeExperiment* compiled_experiment(const SweepPlan& plan);
 
@@ -96,8 +97,8 @@ inline constexpr auto swept_joints = std::to_array<int>({ARTICULA_SWEPT_JOINTS})
 /// @throws as make_experiment
 [[nodiscard]] AnyExperiment experiment_of(const SweepPlan& plan);
 
-/// Searches what the plan wants. Each value of `over` that is tried makes a sweep over `vary`. If more
-/// runs than the quantile leaves out are not stable, its cost is infinite.
+/// Searches what the plan wants. Each value of `over` that is tried makes a sweep over `vary`. If
+/// more runs than the quantile leaves out are not stable, its cost is infinite.
 /// @return the plan of a sweep with what was found, and the search itself as JSON and as a line
 /// @throws Refusal without NLopt, or if nothing that was tried is stable
 struct SearchedPlan {

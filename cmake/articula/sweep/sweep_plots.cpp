@@ -30,8 +30,8 @@ std::string is_within(const SweepPlan& plan) {
   return condition + ")";
 }
 
-/// gnuplot's commands for an axis whose column is spaced logarithmically; else nothing. gnuplot labels
-/// powers of ten only; a short range gets labels at 1, 2 and 5.
+/// gnuplot's commands for an axis whose column is spaced logarithmically; else nothing. gnuplot
+/// labels powers of ten only; a short range gets labels at 1, 2 and 5.
 std::string logarithmic_axis(const SweepPlan& plan, const std::string& name,
                              const std::string& axis) {
   const auto own = std::ranges::find_if(plan.vary, [&](const articula::Variation& each) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file Masks: the truth values of a comparison, one for each robot of a pack.
 ///
-/// A mask of doubles is a bool. A mask of packs is a vector of integers, -1 for true and 0 for false.
+/// A mask of doubles is a bool. A mask of packs is a vector of integers, -1 for true and 0 for
+/// false.
 #pragma once
 
 #include <cstddef>

@@ -14,9 +14,10 @@ using LinkJacobian = Eigen::Matrix<double, 6, N>;
 
 namespace detail {
 
-/// Adds a body's contribution to the column of its joint. Let r lead from a point of the axis z to a
-/// point. A body that turns about the axis moves the point by z x r, and turns a frame there by z. A
-/// body that slides along z moves the point by z. Source: [Siciliano et al. 2009, section 3.1.3].
+/// Adds a body's contribution to the column of its joint. Let r lead from a point of the axis z to
+/// a point. A body that turns about the axis moves the point by z x r, and turns a frame there by
+/// z. A body that slides along z moves the point by z. Source: [Siciliano et al. 2009, section
+/// 3.1.3].
 /// @param jacobian  6 x N, column by column
 template <class S, int N, int B>
 [[gnu::always_inline]] constexpr void add_column(const Mechanism<N, B>& mechanism, int body,

@@ -27,8 +27,8 @@ struct JointLanes {
   S friction = 0;
 };
 
-/// Varied robots of one kind, one in each lane. The algorithms of dynamics take it in place of R for
-/// vectors over S, and compute each lane's robot with its own numbers.
+/// Varied robots of one kind, one in each lane. The algorithms of dynamics take it in place of R
+/// for vectors over S, and compute each lane's robot with its own numbers.
 /// @tparam R  the kind
 /// @tparam S  a pack
 template <DescribedRobot R, PackedScalar S>

@@ -57,9 +57,9 @@ template <DescribedRobot R>
 ///     Simulator<VariedRobot<Q2d>> simulator{VariedRobot<Q2d>(heavier)};
 ///
 /// The type knows which numbers can differ. The tree, the kinds and order of the joints, the
-/// directions of their axes, gravity, mimic joints and shared rotors are those of R. A number of the
-/// canonical mechanism (see canonical_form) that is 0 for R stays 0; damping, friction and limits
-/// may differ even then.
+/// directions of their axes, gravity, mimic joints and shared rotors are those of R. A number of
+/// the canonical mechanism (see canonical_form) that is 0 for R stays 0; damping, friction and
+/// limits may differ even then.
 template <DescribedRobot R>
 class VariedRobot : public detail::ModelOf<R> {
  public:
@@ -160,7 +160,8 @@ class VariedRobot : public detail::ModelOf<R> {
         "second moment yy",        "second moment yz",
         "second moment zz",        "reflected inertia"};
     constexpr auto is_input = detail::input_mask<R>();
-    // A number that must be 0 is a difference of others, as large as mass, length and their product.
+    // A number that must be 0 is a difference of others, as large as mass, length and their
+    // product.
     double length = 1, mass = 0;
     for (const Body& body : this->mechanism.bodies) {
       const Vector3<double>& t = body.placement.translation;

@@ -9,8 +9,8 @@
 
 namespace articula {
 
-/// How far simulated robots may differ from the described one. Each robot draws its own numbers, all
-/// equally probable within these bounds. All 0: no difference.
+/// How far simulated robots may differ from the described one. Each robot draws its own numbers,
+/// all equally probable within these bounds. All 0: no difference.
 struct FutureSpread {
   double mass = 0.2;             ///< of each body's mass and inertia, relative to it, 0 .. 0.9 [1]
   double friction = 0.2;         ///< of each joint's damping and dry friction, relative, 0 .. 1 [1]

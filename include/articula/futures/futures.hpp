@@ -29,8 +29,8 @@ struct ToTheEnd {
   constexpr bool operator()() const noexcept { return true; }
 };
 
-/// Simulates futures, of which as many as there are lanes at once. Parameters and exceptions are those
-/// of `future_of`; all parameters outlive it.
+/// Simulates futures, of which as many as there are lanes at once. Parameters and exceptions are
+/// those of `future_of`; all parameters outlive it.
 template <DynamicRobot R, class C, class Command, class GoesOn>
 class FutureSimulation {
  public:
@@ -101,8 +101,8 @@ class FutureSimulation {
     return Run(robot_, controller_, start_, options_, simulation_.period, key);
   }
 
-  /// Simulates those robots in lanes that are of R's kind and need no shorter steps. So a future does
-  /// not depend on the others.
+  /// Simulates those robots in lanes that are of R's kind and need no shorter steps. So a future
+  /// does not depend on the others.
   void simulate_together(std::uint64_t first, Some& all, std::vector<bool>& is_done) const {
     std::vector<std::size_t> indices;
     std::vector<LaneSetup<R>> setups;

@@ -15,8 +15,8 @@
 
 namespace articula::detail {
 
-/// The most joints of robots whose futures are simulated in lanes. The code for lanes of a robot with
-/// 47 joints takes longer to compile than a user saves (PR2: 47 s).
+/// The most joints of robots whose futures are simulated in lanes. The code for lanes of a robot
+/// with 47 joints takes longer to compile than a user saves (PR2: 47 s).
 inline constexpr int most_joints_in_lanes = 12;
 
 /// True if the futures of a robot are simulated in lanes. The robot must be known at compile time,

@@ -112,8 +112,8 @@ class LaneControlLoop {
   /// The same of all lanes. A lane that has ended has its start here. Real-time: yes.
   [[nodiscard]] Reference& reference() noexcept { return reference_; }
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
-  /// Measured at the beginning of the last update. A lane that has ended is at its start. Real-time:
-  /// yes.
+  /// Measured at the beginning of the last update. A lane that has ended is at its start.
+  /// Real-time: yes.
   [[nodiscard]] const State& state() const noexcept { return state_; }
   /// Written at the end of the last update; 0 for a lane that has ended. Real-time: yes.
   [[nodiscard]] const Command& command() const noexcept { return command_; }

@@ -15,7 +15,8 @@ struct LaneSetup {
   VariedRobot<R> robot{};
   /// Start, sensors and seed of this lane. Period and substeps are the same in all lanes.
   SimulatorOptions<joint_count<R>> simulation{};
-  /// Delay of the command, 0 .. 1 000 000 [cycles]. The drives give no effort before the first command.
+  /// Delay of the command, 0 .. 1 000 000 [cycles]. The drives give no effort before the first
+  /// command.
   int delay = 0;
   LostCommands lost{};  ///< before their delay
 };

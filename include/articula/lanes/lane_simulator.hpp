@@ -21,8 +21,8 @@
 namespace articula {
 
 /// Simulates a robot of its own in each lane: other masses, friction, stops, start, sensors, delay
-/// and lost commands. Each moves as `Simulator<VariedRobot<R>>` moves it alone, up to rounding. It is hardware of the
-/// described robot, which is what a controller knows. Drives take efforts.
+/// and lost commands. Each moves as `Simulator<VariedRobot<R>>` moves it alone, up to rounding. It
+/// is hardware of the described robot, which is what a controller knows. Drives take efforts.
 ///
 /// A step is computed for all lanes together. It is computed once more alone for each lane that has
 /// an event in it (a stop, friction that brings a joint to rest). No lane changes a bit of another
@@ -64,8 +64,8 @@ class LaneSimulator {
   }
 
   /// Holds efforts for one period in the lanes that move.
-  /// @param command  [N m or N], clamped to the limits of each lane's drives. A lane whose command is
-  ///                 not finite gets no effort.
+  /// @param command  [N m or N], clamped to the limits of each lane's drives. A lane whose command
+  ///                 is not finite gets no effort.
   /// @return         Status::ok; Status::inactive after `deactivate`; Status::non_finite_command if
   ///                 that of any lane is not finite
   /// Real-time: yes. Costs `substeps` Runge-Kutta steps, and more for each lane with an event.

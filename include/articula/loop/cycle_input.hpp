@@ -12,7 +12,8 @@ namespace articula {
 enum class LoopRequest : unsigned char { none, activation, deactivation, acknowledgement };
 
 /// What came into a cycle beside the state and the reference. With these, the command of the cycle
-/// can be computed once more: see Replay. A loop without supervision knows `read` and `write` alone.
+/// can be computed once more: see Replay. A loop without supervision knows `read` and `write`
+/// alone.
 struct CycleInput {
   Status read = Status::ok;  ///< the hardware's answer to `read`; under supervision with the limits
   Status write = Status::ok;                ///< the hardware's answer to `write`

@@ -108,9 +108,10 @@ constexpr void move_frame(CanonicalMechanism<N, Bodies>& canonical, int index,
   }
 }
 
-/// A rotation of a body's frame about its z axis that gives its rotation in the parent's more zeros.
-/// A rotation is Rz(a) Rx(b) Rz(c). If the axes are parallel, a and c are removed, which leaves the
-/// identity or a half turn about x. Otherwise c is removed, unless that row has a zero already.
+/// A rotation of a body's frame about its z axis that gives its rotation in the parent's more
+/// zeros. A rotation is Rz(a) Rx(b) Rz(c). If the axes are parallel, a and c are removed, which
+/// leaves the identity or a half turn about x. Otherwise c is removed, unless that row has a zero
+/// already.
 [[nodiscard]] constexpr Matrix3<double> untwist(const Matrix3<double>& rotation) {
   const Vector3<double>& last = rotation.rows[2];
   if (last.x == 0 && last.y == 0) {  // z alone would be 1 already at x = 1e-8

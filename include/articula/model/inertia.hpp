@@ -20,8 +20,8 @@ struct Inertia {
   }
 };
 
-/// 2 (a . b) 1 - (a b^T + b a^T): the contribution of a first moment a to the inertia about an origin
-/// at a distance b. With a = m b / 2 it is the parallel-axis term of a point mass m at b.
+/// 2 (a . b) 1 - (a b^T + b a^T): the contribution of a first moment a to the inertia about an
+/// origin at a distance b. With a = m b / 2 it is the parallel-axis term of a point mass m at b.
 template <class S>
 [[nodiscard]] constexpr Symmetric3<S> parallel_axis(const Vector3<S>& a, const Vector3<S>& b) {
   const Vector3<S> twice = b + b;

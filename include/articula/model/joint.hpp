@@ -46,8 +46,8 @@ struct Mimic {
   double offset = 0;      ///< [rad or m]
 };
 
-/// The inertia of rotors that two joints turn together, as in a four-bar transmission: an element of
-/// the mass matrix off its diagonal. One of the two joints names the other.
+/// The inertia of rotors that two joints turn together, as in a four-bar transmission: an element
+/// of the mass matrix off its diagonal. One of the two joints names the other.
 struct SharedRotors {
   Name joint{};  ///< name of the other joint; empty: none
   /// Sum of J n n' over the rotors of both joints, of either sign [kg m^2, kg m or kg]. A rotor of

@@ -9,7 +9,8 @@
 namespace articula {
 
 /// @param type  of a joint
-/// @return      its name in a URDF and in the source: `revolute`, `continuous`, `prismatic`, `fixed`
+/// @return      its name in a URDF and in the source: `revolute`, `continuous`, `prismatic`,
+///              `fixed`
 /// Real-time: yes.
 [[nodiscard]] constexpr std::string_view to_string(JointType type) noexcept {
   switch (type) {

@@ -21,8 +21,8 @@ struct Body {
   int sharing_body = -1;          ///< index of that joint's body
 };
 
-/// The motion of a body by a joint: q_body = multiplier q_joint + offset. A body on a mimic joint is
-/// moved by the mimicked joint, any other by its own joint with multiplier 1 and offset 0.
+/// The motion of a body by a joint: q_body = multiplier q_joint + offset. A body on a mimic joint
+/// is moved by the mimicked joint, any other by its own joint with multiplier 1 and offset 0.
 struct Coupling {
   int joint = -1;
   double multiplier = 1;

@@ -186,8 +186,8 @@ constexpr DescriptionFault element_fault(std::span<const Element> elements, bool
 
 namespace detail {
 
-/// Types that show a name in compiler errors: g++ prints a Name as text; clang prints it as numbers,
-/// but single characters as text.
+/// Types that show a name in compiler errors: g++ prints a Name as text; clang prints it as
+/// numbers, but single characters as text.
 template <Name Text>
 struct Named {};
 template <char... Characters>

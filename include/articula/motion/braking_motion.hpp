@@ -10,8 +10,8 @@
 
 namespace articula {
 
-/// A motion between two states (StateToStateMotion): up to six stretches of braking_motion(), then a
-/// mixture of two motions of seven stretches each.
+/// A motion between two states (StateToStateMotion): up to six stretches of braking_motion(), then
+/// a mixture of two motions of seven stretches each.
 using TransferMotion = JerkMotion<6 + 14>;
 
 /// Brings an acceleration beyond its limit back to the limit at full jerk. The motion takes no time
@@ -29,9 +29,9 @@ using TransferMotion = JerkMotion<6 + 14>;
 }
 
 /// Brings a joint to a state from which it can keep all limits, at full jerk. First, the
-/// acceleration returns to its limit. Then the joint decelerates if the velocity is beyond its limit
-/// or will pass it. It ends at the velocity limit, with a deceleration from which it can also keep
-/// the opposite limit. The motion takes no time if the joint can keep its limits already.
+/// acceleration returns to its limit. Then the joint decelerates if the velocity is beyond its
+/// limit or will pass it. It ends at the velocity limit, with a deceleration from which it can also
+/// keep the opposite limit. The motion takes no time if the joint can keep its limits already.
 /// @param start   the motion at the start
 /// @param bounds  limits that validate() accepts
 /// Real-time: yes.

@@ -16,8 +16,9 @@ inline constexpr std::array<double, 7> furthest_jerks{1, 0, -1, 0, -1, 0, 1};
 
 /// A motion from one velocity and acceleration to others that covers the largest distance in its
 /// time. The jerk is 1. The acceleration rises from a_0 to A, stays there, falls to B, stays there,
-/// and rises to a_1. Where it passes zero on its fall, the joint cruises. Any of these stretches may
-/// take no time. Values known exactly at a moment are stored, so that rounding does not accumulate.
+/// and rises to a_1. Where it passes zero on its fall, the joint cruises. Any of these stretches
+/// may take no time. Values known exactly at a moment are stored, so that rounding does not
+/// accumulate.
 struct FurthestMotion {
   /// The motion at the beginning of a stretch.
   struct Moment {

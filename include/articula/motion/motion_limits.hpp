@@ -59,8 +59,8 @@ inline void check_motion_velocity(const JointProperties& joint, double velocity)
 
 }  // namespace detail
 
-/// Checks limits for profiles: each lies between 1e-9 and 1e9, and no velocity is above the limit of
-/// the robot's joint.
+/// Checks limits for profiles: each lies between 1e-9 and 1e9, and no velocity is above the limit
+/// of the robot's joint.
 /// @throws std::invalid_argument naming limit, joint and value
 /// Real-time: no (throws).
 template <Robot R>
@@ -96,7 +96,8 @@ template <int N>
 
 /// Checks bounds for StateToStateProfile:
 ///
-/// - the size of each lies between 1e-9 and 1e9, the lowest ones are negative, the highest positive;
+/// - the size of each lies between 1e-9 and 1e9, the lowest ones are negative, the highest
+///   positive;
 /// - the bounds of the two directions differ by a factor of 100 at most;
 /// - V J / A^2 lies between 1e-6 and 1e6, with the smaller bound of the two directions. It is the
 ///   time from rest to the velocity limit over the time from zero to the acceleration limit. A

@@ -86,8 +86,8 @@ class StateToStateMotion {
     return next;
   }
 
-  /// The motion of a duration for which can_take() is true; of the least duration for a shorter one.
-  /// Real-time: yes.
+  /// The motion of a duration for which can_take() is true; of the least duration for a shorter
+  /// one. Real-time: yes.
   [[nodiscard]] TransferMotion motion(double duration) const noexcept {
     Mixture mixture{fastest_, fastest_, fastest_side_ > 0 ? 1.0 : 0.0, fastest_way_};
     if (duration > least_duration_) static_cast<void>(find(duration, mixture));

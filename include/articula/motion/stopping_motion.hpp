@@ -16,17 +16,17 @@ namespace articula {
 /// of s = J dt to a level p <= B. It stays there, and returns to 0 in such steps. A deceleration
 /// above B first returns to B.
 ///
-/// n steps lead to p = d + n s and reduce v/dt by n d + s n (n + 1)/2. The return to 0 reduces it by
-/// (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which the
-/// sum does not exceed v/dt. In continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri 2008,
-/// section 3.4]; sums over cycles turn this into J v + d (d + s)/2. One cycle at another level, at
-/// most s away from p, removes the rest of the velocity.
+/// n steps lead to p = d + n s and reduce v/dt by n d + s n (n + 1)/2. The return to 0 reduces it
+/// by (p - s) + (p - 2 s) + ... + (p - m s), m = ceil(p/s) - 1. n is the largest number for which
+/// the sum does not exceed v/dt. In continuous time p = sqrt(J v + d^2/2) [Biagiotti, Melchiorri
+/// 2008, section 3.4]; sums over cycles turn this into J v + d (d + s)/2. One cycle at another
+/// level, at most s away from p, removes the rest of the velocity.
 ///
-/// Every motion whose acceleration is within B has such a stop. As it begins with the largest steps,
-/// no other stop within the limits has a lower highest velocity.
+/// Every motion whose acceleration is within B has such a stop. As it begins with the largest
+/// steps, no other stop within the limits has a lower highest velocity.
 ///
-/// The class is a plain value: the present motion and the rest of the plan. advance() moves it on by
-/// one cycle.
+/// The class is a plain value: the present motion and the rest of the plan. advance() moves it on
+/// by one cycle.
 class StoppingMotion {
  public:
   /// At rest.

@@ -13,8 +13,8 @@
 namespace articula {
 
 /// The state, reference, command, status and timing of one cycle, for Recorder, RecordStream and
-/// their sinks, and what else its command depends on (see Replay). A plain value of about 50 doubles
-/// for six joints.
+/// their sinks, and what else its command depends on (see Replay). A plain value of about 50
+/// doubles for six joints.
 /// @tparam N            number of joints
 /// @tparam CommandType  of the loop
 template <int N, class CommandType>

@@ -62,8 +62,8 @@ struct JointStateSenderOptions {
 };
 
 /// Sends the joint states of every `divisor`-th record over UDP as JSON. It is a sink for
-/// RecordStream. In PlotJuggler, start "UDP Server" with the protocol "json" and the timestamp field
-/// "timestamp". JSON that exceeds a datagram is split into several with the same timestamp.
+/// RecordStream. In PlotJuggler, start "UDP Server" with the protocol "json" and the timestamp
+/// field "timestamp". JSON that exceeds a datagram is split into several with the same timestamp.
 /// Datagrams that the system refuses are counted and lost.
 /// @tparam R  the robot
 template <Robot R>

@@ -38,8 +38,8 @@ class McapReader {
   }
 
   /// Calls a function with each message.
-  /// @throws std::runtime_error naming the file, if a chunk is compressed or a record is broken; and
-  ///         what the sink throws
+  /// @throws std::runtime_error naming the file, if a chunk is compressed or a record is broken;
+  ///         and what the sink throws
   /// Real-time: no (throws).
   void read(const Sink& sink) const { read(std::string_view(bytes_).substr(magic.size()), sink); }
 

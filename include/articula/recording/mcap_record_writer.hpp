@@ -40,8 +40,8 @@ class McapRecordWriter {
     requires DescribedRobot<R>
       : McapRecordWriter(R(), path, contents) {}
 
-  /// Writes one record, with the changes of the loop that were made before this cycle, if any, as its
-  /// member "changes".
+  /// Writes one record, with the changes of the loop that were made before this cycle, if any, as
+  /// its member "changes".
   /// @throws std::runtime_error if it cannot be written
   void write(const Record& record, std::span<const LoopChange> changes = {}) {
     Json json = record_json(robot_, record, extras_);

@@ -108,8 +108,8 @@ class McapWriter {
     file_.check();
   }
 
-  /// Completes the file with its summary, the table of contents for readers. Does nothing if the file
-  /// is closed already.
+  /// Completes the file with its summary, the table of contents for readers. Does nothing if the
+  /// file is closed already.
   /// @throws std::runtime_error if not all could be written
   void close() {
     if (!file_.is_open()) return;

@@ -14,8 +14,8 @@
 
 namespace articula::detail {
 
-/// The file of a recording. Its functions keep the first error, which `check` throws. It is a stream
-/// of the C library because WebAssembly's C++ library has no file streams.
+/// The file of a recording. Its functions keep the first error, which `check` throws. It is a
+/// stream of the C library because WebAssembly's C++ library has no file streams.
 class OutputFile {
  public:
   /// Creates the file, or empties it.

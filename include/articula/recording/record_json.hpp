@@ -92,8 +92,8 @@ void add_extras(const R& robot, Json& json, const RecordExtras<R>& extras,
   }
 }
 
-/// A whole record: states, references, commands, mimic joints and link poses; status, timing [s] and
-/// input, with the numbers of CycleInput.
+/// A whole record: states, references, commands, mimic joints and link poses; status, timing [s]
+/// and input, with the numbers of CycleInput.
 /// @param robot   whose joints these are
 /// @param record  of one cycle
 /// @param extras  mimic joints and links to add

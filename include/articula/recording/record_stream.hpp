@@ -26,7 +26,8 @@ concept WriterOf = requires(W& writer, const Record& record) { writer.write(reco
 ///     stream.push(record_of(loop, report));  // after each cycle
 ///
 /// The loop never waits: if the ring is full, a record is dropped and counted. A sink that throws
-/// receives no further records; the others do. To keep only the cycles around a fault, use Recorder.
+/// receives no further records; the others do. To keep only the cycles around a fault, use
+/// Recorder.
 /// @tparam Record    type of the records
 /// @tparam Capacity  of the ring, a power of two: at 1 kHz, 4096 records last for four seconds
 template <class Record, std::size_t Capacity = 4096>
@@ -34,8 +35,8 @@ class RecordStream {
  public:
   using Sink = std::function<void(const Record&)>;
 
-  /// Starts the thread. It inherits the scheduling of the calling thread, so create the stream before
-  /// make_realtime.
+  /// Starts the thread. It inherits the scheduling of the calling thread, so create the stream
+  /// before make_realtime.
   /// @param sinks  called with each record, in order
   explicit RecordStream(std::vector<Sink> sinks)
       : sinks_(std::move(sinks)), thread_([this] { work(); }) {}

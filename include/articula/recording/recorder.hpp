@@ -12,7 +12,7 @@ namespace articula {
 
 /// Keeps the last records in a ring of fixed size, as a flight recorder does:
 ///
-///     Recorder<CycleRecordOf<Loop>, 2000> recorder(500);       // 1.5 s before a fault, 0.5 s after
+///     Recorder<CycleRecordOf<Loop>, 2000> recorder(500);  // 1.5 s before a fault, 0.5 s after
 ///     recorder.add(record_of(loop, report), status != Status::ok);  // after each cycle
 ///     if (recorder.frozen()) { recorder.for_each(write); recorder.resume(); }  // another thread
 ///
@@ -26,8 +26,8 @@ class Recorder {
  public:
   static_assert(Capacity > 0, "a recorder holds at least one record");
 
-  /// @param after  number of records after the one of the trigger; at most Capacity - 1, so that the
-  ///               record of the trigger is kept
+  /// @param after  number of records after the one of the trigger; at most Capacity - 1, so that
+  ///               the record of the trigger is kept
   explicit Recorder(std::size_t after = 0) : after_(after < Capacity ? after : Capacity - 1) {}
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
@@ -71,8 +71,8 @@ class Recorder {
     return missed_.load(std::memory_order_relaxed);
   }
 
-  /// Calls `sink(record)` for each, the oldest first. Only while it is frozen, or after the loop has
-  /// ended. Real-time: yes, if sink is.
+  /// Calls `sink(record)` for each, the oldest first. Only while it is frozen, or after the loop
+  /// has ended. Real-time: yes, if sink is.
   template <class Sink>
   void for_each(Sink&& sink) const {
     for (std::size_t i = count_ < Capacity ? 0 : count_ - Capacity; i < count_; ++i) {

@@ -20,9 +20,9 @@
 
 namespace articula {
 
-/// Writes cycles to an MCAP file as ROS 2's recorder does, without ROS: as sensor_msgs/msg/JointState in
-/// CDR on the topics /joint_states, /reference and /command. The message is the same in Humble, Jazzy
-/// and Rolling. Stamps are the loop's time, which begins at 0.
+/// Writes cycles to an MCAP file as ROS 2's recorder does, without ROS: as
+/// sensor_msgs/msg/JointState in CDR on the topics /joint_states, /reference and /command. The
+/// message is the same in Humble, Jazzy and Rolling. Stamps are the loop's time, which begins at 0.
 ///
 /// McapRecordWriter also writes status, timing and changes, from which a run can be computed again.
 /// Real-time: no (allocates, calls the system), all functions of this class.

@@ -85,9 +85,9 @@ class JerkLimitedProfile {
   }
 
   /// The fastest stop, at any position or within a range (stop_within). It begins with the position
-  /// and velocity of a reference. So does the acceleration, unless the velocity would exceed V while
-  /// it fades. A velocity beyond V only falls. The reference's effort stays, since it may carry the
-  /// robot's weight.
+  /// and velocity of a reference. So does the acceleration, unless the velocity would exceed V
+  /// while it fades. A velocity beyond V only falls. The reference's effort stays, since it may
+  /// carry the robot's weight.
   /// @param from    the last reference of the joints
   /// @param limits  that validate() accepts
   /// @param lower   range of positions [rad or m], N x 1; where the fastest stop would leave it,
@@ -112,8 +112,8 @@ class JerkLimitedProfile {
   /// The time at which all joints rest [s]. Real-time: yes.
   [[nodiscard]] double duration() const noexcept { return duration_; }
 
-  /// The reference at a time since the start [s]; before 0 as at 0, after duration() at rest. A time
-  /// that is not finite gives NaN, which a loop refuses.
+  /// The reference at a time since the start [s]; before 0 as at 0, after duration() at rest. A
+  /// time that is not finite gives NaN, which a loop refuses.
   /// Real-time: yes. O(N).
   [[nodiscard]] Reference sample(double time) const noexcept {
     if (!is_finite(time)) return detail::undefined_reference<joint_count>();

@@ -14,8 +14,8 @@
 
 namespace articula {
 
-/// A signal at one moment. Its unit depends on the quantity that it drives: rad or m for a position,
-/// N m or N for an effort.
+/// A signal at one moment. Its unit depends on the quantity that it drives: rad or m for a
+/// position, N m or N for an effort.
 struct SignalValue {
   double value = 0;         ///< [unit]
   double rate = 0;          ///< first derivative [unit/s]
@@ -116,8 +116,8 @@ struct SquareSignal {
   [[nodiscard]] SignalValue sample(double time) const noexcept {
     const double shift = phase / (2 * std::numbers::pi);
     const double turns = frequency * time + shift - std::floor(shift);
-    // The time of an edge is often a product of rounded numbers. A time that close to an edge counts
-    // as the edge, so that all halves have the same number of cycles.
+    // The time of an edge is often a product of rounded numbers. A time that close to an edge
+    // counts as the edge, so that all halves have the same number of cycles.
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * (1 + std::abs(turns));
     const double share = turns + rounding - std::floor(turns + rounding);
     return {offset + (share < 0.5 ? amplitude : -amplitude)};

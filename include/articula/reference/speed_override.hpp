@@ -35,8 +35,8 @@ class SpeedOverride {
     }
   }
 
-  /// Requests a speed, clamped to the highest one: 1 is the motion as planned, 0 a pause. A negative
-  /// number, and one that is not finite, is a pause. Real-time: yes.
+  /// Requests a speed, clamped to the highest one: 1 is the motion as planned, 0 a pause. A
+  /// negative number, and one that is not finite, is a pause. Real-time: yes.
   void set(double speed) noexcept {
     target_ = is_finite(speed) ? std::clamp(speed, 0.0, highest_) : 0.0;
   }

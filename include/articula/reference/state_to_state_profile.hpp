@@ -37,7 +37,8 @@ namespace articula {
 /// A motion of all joints from one state to another as a function of the time since its start. Both
 /// states may have velocities and accelerations:
 ///
-///     StateToStateProfile<Q2d> profile(loop.reference(), {.position = {-1, 1}}, both_ways(limits));
+///     StateToStateProfile<Q2d> profile(loop.reference(), {.position = {-1, 1}},
+///                                          both_ways(limits));
 ///     loop.reference() = profile.sample(time);
 ///
 /// All joints arrive together, as fast as possible or after a given duration (StateToStateMotion,

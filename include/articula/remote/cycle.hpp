@@ -12,8 +12,8 @@
 
 namespace articula::remote {
 
-/// What was measured, asked for and commanded in one cycle. The vectors have a number for each joint
-/// of the RobotSheet.
+/// What was measured, asked for and commanded in one cycle. The vectors have a number for each
+/// joint of the RobotSheet.
 struct Cycle {
   std::uint64_t number = 0;  ///< counts the cycles of the loop
   double time = 0;           ///< of the loop [s]

@@ -158,7 +158,8 @@ class ShapeMaker {
 
 /// Shapes of a robot of which only the motion is known. A bone leads from the frame of each body's
 /// own link to each joint that the body carries, or to its tool. Cylinders lie along the axes of
-/// revolute joints and boxes along those of prismatic ones. Their sizes follow from the robot's reach.
+/// revolute joints and boxes along those of prismatic ones. Their sizes follow from the robot's
+/// reach.
 /// @param tree  link_tree(robot)
 /// @return      shapes by link, in the order of the tree
 /// Real-time: no (allocates).

@@ -28,9 +28,9 @@ struct TreeLink {
 }
 
 /// The links of a robot as a tree, in the order of Model::links. A model does not tell to which of
-/// several welded links a joint is attached; the motion is the same for each. The tree gives the same
-/// order again when it is read: each link is attached as deep as the order of joint names allows.
-/// Real-time: no (allocates).
+/// several welded links a joint is attached; the motion is the same for each. The tree gives the
+/// same order again when it is read: each link is attached as deep as the order of joint names
+/// allows. Real-time: no (allocates).
 template <Robot R>
 [[nodiscard]] std::vector<TreeLink> link_tree(const R& robot) {
   const auto& model = model_of(robot);

@@ -20,8 +20,8 @@
 
 namespace articula::remote {
 
-/// Makes tasks of requests for motion: profiles, set-points, trajectories and signals. All functions
-/// throw std::invalid_argument, naming joint, value and limit.
+/// Makes tasks of requests for motion: profiles, set-points, trajectories and signals. All
+/// functions throw std::invalid_argument, naming joint, value and limit.
 template <Robot R>
 class MotionTaskMaker {
  public:
@@ -161,8 +161,8 @@ class MotionTaskMaker {
  private:
   using Path = Trajectory<R, trajectory_capacity>;
 
-  /// A plan that uses all of a velocity limit exceeds it by rounding, or by a percent or so between its
-  /// points, where the planner has not looked. Up to this factor it is followed more slowly.
+  /// A plan that uses all of a velocity limit exceeds it by rounding, or by a percent or so between
+  /// its points, where the planner has not looked. Up to this factor it is followed more slowly.
   static constexpr double most_excess = 1.05;
 
   [[nodiscard]] std::unique_ptr<const Path> arranged(const NamedTrajectory& named,

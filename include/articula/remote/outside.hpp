@@ -27,8 +27,8 @@
 
 namespace articula::remote {
 
-/// The part of a Remote that the threads outside the loop share, under a mutex. Whoever asks empties
-/// the rings of the loop and distributes what is in them.
+/// The part of a Remote that the threads outside the loop share, under a mutex. Whoever asks
+/// empties the rings of the loop and distributes what is in them.
 /// @tparam LoopType  a ControlLoop or SupervisedControlLoop
 template <class LoopType>
 class Outside {

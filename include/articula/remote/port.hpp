@@ -33,8 +33,8 @@ struct Situation {
   LoopMode mode = LoopMode::active;
   Status fault = Status::ok;  ///< the last fault; ok before the first
   std::string advice{};       ///< the cure of the fault, a sentence
-  /// The source of the reference: "rest", "go", "set", "trajectory", "signals", "stop"; if joints have
-  /// several, that which was begun last.
+  /// The source of the reference: "rest", "go", "set", "trajectory", "signals", "stop"; if joints
+  /// have several, that which was begun last.
   std::string motion{};
   std::vector<std::string> joint_motions{};  ///< of each joint, in the order of RobotSheet::joints
   std::string operator_name{};  ///< of the session that has the controls; empty: nobody

@@ -29,14 +29,14 @@ namespace articula::remote {
 ///     });
 ///     remote.run(clock);
 ///
-/// Everything is found from the types: joints, limits and links of the robot, controllers, gains, and
-/// whether it is simulated. A Remote is a loop itself. In its thread `update` takes requests, makes
-/// the reference, makes the cycles of the loop and publishes them. That thread never waits for
-/// another. The functions of Port and its sessions are for any other threads.
+/// Everything is found from the types: joints, limits and links of the robot, controllers, gains,
+/// and whether it is simulated. A Remote is a loop itself. In its thread `update` takes requests,
+/// makes the reference, makes the cycles of the loop and publishes them. That thread never waits
+/// for another. The functions of Port and its sessions are for any other threads.
 ///
-/// A program that computes its references itself may do so around a plain loop while nobody operates.
-/// While there is a Remote, gains are changed by it alone. It outlives its sessions, and the loop
-/// outlives it.
+/// A program that computes its references itself may do so around a plain loop while nobody
+/// operates. While there is a Remote, gains are changed by it alone. It outlives its sessions, and
+/// the loop outlives it.
 /// @tparam LoopType  a ControlLoop or SupervisedControlLoop
 template <class LoopType>
 class Remote final : public Port {

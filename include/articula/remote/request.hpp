@@ -36,13 +36,13 @@ struct Deactivate {};
 /// Acknowledges the fault of a supervised loop, which then is inactive.
 struct AcknowledgeFault {};
 
-// A request for motion moves the joints that it names. Others go on with what they do: the arm follows
-// a trajectory while a request opens the gripper. A trajectory, and signals, end as a whole: if another
-// request takes one of their joints, their other joints stop.
+// A request for motion moves the joints that it names. Others go on with what they do: the arm
+// follows a trajectory while a request opens the gripper. A trajectory, and signals, end as a
+// whole: if another request takes one of their joints, their other joints stop.
 
-/// Moves the reference of some joints along a jerk-limited profile. Joints that are still on their way
-/// by a request of this kind arrive together with them, at the new speed. Its answer comes when the
-/// motion has begun.
+/// Moves the reference of some joints along a jerk-limited profile. Joints that are still on their
+/// way by a request of this kind arrive together with them, at the new speed. Its answer comes when
+/// the motion has begun.
 struct Go {
   std::vector<JointValue> positions{};  ///< [rad or m]
   double speed = 1;                     ///< share of the velocity limits, 0.01 .. 1
@@ -63,22 +63,22 @@ struct NamedTolerance {
   double velocity = 0;  ///< [rad/s or m/s]
 };
 
-/// Follows a trajectory from the present reference. Its answer comes when the trajectory has ended. Up
-/// to four trajectories can be followed at once, each by joints of its own.
+/// Follows a trajectory from the present reference. Its answer comes when the trajectory has ended.
+/// Up to four trajectories can be followed at once, each by joints of its own.
 struct PlayTrajectory {
   NamedTrajectory trajectory{};
   std::vector<NamedTolerance> path_tolerances{};  ///< before the end
   std::vector<NamedTolerance> goal_tolerances{};  ///< at the end
   double goal_time =
       0;  ///< time to arrive after the last point [s]; 0: as configured, -1: unlimited
-  /// When it begins, after the request has come to the loop [s]. Until then a trajectory of the same
-  /// joints goes on; any other motion of theirs stops. Negative: the points before are skipped. Without
-  /// it, the trajectory begins at once.
+  /// When it begins, after the request has come to the loop [s]. Until then a trajectory of the
+  /// same joints goes on; any other motion of theirs stops. Negative: the points before are
+  /// skipped. Without it, the trajectory begins at once.
   std::optional<double> delay{};
 };
 
-/// How fast trajectories are followed, the present one and later ones. It holds until the next request
-/// of this kind. Tolerances of time are in the trajectory's time.
+/// How fast trajectories are followed, the present one and later ones. It holds until the next
+/// request of this kind. Tolerances of time are in the trajectory's time.
 struct SetTrajectorySpeed {
   double factor = 1;  ///< 0 (pause) .. 1 (as planned)
 };

@@ -17,9 +17,10 @@
 
 namespace articula::remote {
 
-/// Makes tasks of requests. Refuses unknown names, numbers that are not finite or beyond the robot's
-/// limits, and requests that this loop does not understand. So nothing unchecked reaches the loop.
-/// For the outside. All functions throw std::invalid_argument, naming joint, value and limit.
+/// Makes tasks of requests. Refuses unknown names, numbers that are not finite or beyond the
+/// robot's limits, and requests that this loop does not understand. So nothing unchecked reaches
+/// the loop. For the outside. All functions throw std::invalid_argument, naming joint, value and
+/// limit.
 /// @tparam LoopType  a ControlLoop or SupervisedControlLoop
 template <class LoopType>
 class TaskMaker {

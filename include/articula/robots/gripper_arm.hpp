@@ -68,8 +68,8 @@ constexpr std::array<Link, 3> gripper_finger_links(Side side) {
   }};
 }
 
-/// The joints of one half of the gripper. Positive positions close it. The fingertip's joint rotates
-/// the other way, so that the tip keeps its direction.
+/// The joints of one half of the gripper. Positive positions close it. The fingertip's joint
+/// rotates the other way, so that the tip keeps its direction.
 /// @param mimicked  the joint that the others mimic
 constexpr std::array<Joint, 3> gripper_finger_joints(Side side, const Name& mimicked) {
   const auto finger_joint = [&](std::string_view name, const Name& parent, std::string_view child,

@@ -157,7 +157,8 @@ class CdrDecoder {
 }  // namespace detail
 
 /// Decodes a message in plain CDR (XCDR1) of either byte order, with its header of four bytes. Any
-/// bytes give a message or an error. The memory that is taken is proportional to the number of bytes.
+/// bytes give a message or an error. The memory that is taken is proportional to the number of
+/// bytes.
 /// @param bytes    from anywhere
 /// @param message  filled from them; unspecified after an error
 /// @return `none`, or what is wrong with the bytes

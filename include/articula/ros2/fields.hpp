@@ -18,8 +18,8 @@ namespace articula::ros2 {
 template <std::size_t count>
 using FieldNames = std::array<std::string_view, count>;
 
-/// A ROS message: an aggregate with the name of its type, as "std_msgs/msg/Header", and the names of
-/// its fields.
+/// A ROS message: an aggregate with the name of its type, as "std_msgs/msg/Header", and the names
+/// of its fields.
 template <class M>
 concept Message = std::is_aggregate_v<M> && requires {
   { M::ros_type.view() } -> std::convertible_to<std::string_view>;

@@ -21,8 +21,8 @@ struct CycloneMessage {
   static constexpr FieldNames<3> ros_fields{"client", "sequence", "message"};
 };
 
-/// What rmw_fastrtps sends beside a request or reply, as an RTPS parameter of 24 bytes. A request has
-/// the reader that waits for its reply. A reply has that reader and the number of the request.
+/// What rmw_fastrtps sends beside a request or reply, as an RTPS parameter of 24 bytes. A request
+/// has the reader that waits for its reply. A reply has that reader and the number of the request.
 struct RelatedSampleIdentity {
   /// Numbers of the parameter: of Humble and of DDS-RPC. Jazzy's clients read and write both.
   static constexpr std::uint16_t humble_parameter = 0x800f, standard_parameter = 0x0083;

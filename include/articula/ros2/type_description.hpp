@@ -109,8 +109,8 @@ constexpr void collect_types(ReferencedTypes<Sink>& types) {
 
 }  // namespace detail
 
-/// Writes the description of a message type, with all types that it refers to, as the JSON text from
-/// which ROS computes type hashes. Source: [REP 2011].
+/// Writes the description of a message type, with all types that it refers to, as the JSON text
+/// from which ROS computes type hashes. Source: [REP 2011].
 /// @tparam M   a message struct
 /// @param sink  takes the text in parts by add(std::string_view)
 /// @throws std::length_error if the type refers to more than 63 others (in a constant: does not

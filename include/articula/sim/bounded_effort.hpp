@@ -39,8 +39,8 @@ struct BoundedEffort {
 /// load = M v it is an inelastic impact. For positive definite M there is exactly one solution. The
 /// method is principal pivoting: the first joint that violates a condition changes sides, until
 /// none does [Murty 1974]. It usually takes a few rounds.
-/// @tparam S           double, or a pack: each robot changes sides as it would alone, and takes part
-///                     in the rounds of the slowest without a change
+/// @tparam S           double, or a pack: each robot changes sides as it would alone, and takes
+///                     part in the rounds of the slowest without a change
 /// @param parents      elimination tree of M
 /// @param mass_matrix  M, N x N, positive definite
 /// @param load         all other efforts (or momenta), N x 1

@@ -126,8 +126,8 @@ class JointDynamics {
     return any;
   }
 
-  /// The motion after impacts at the stops. Without rebound, all joints at a stop come to rest, which
-  /// takes more energy.
+  /// The motion after impacts at the stops. Without rebound, all joints at a stop come to rest,
+  /// which takes more energy.
   [[nodiscard]] State<> after_impact(State<> motion, Rebound rebound) const noexcept {
     EffortBounds<joint_count> impulse;
     bool hits = false;
@@ -202,8 +202,8 @@ class JointDynamics {
   }
 
   /// The accelerations with joints held still as far as bounds allow. The load on the joints is M
-  /// times the acceleration without bounds, for which no further program has to be compiled. A robot
-  /// of a pack without bounds has that acceleration itself, to the last bit.
+  /// times the acceleration without bounds, for which no further program has to be compiled. A
+  /// robot of a pack without bounds has that acceleration itself, to the last bit.
   template <class S, class Drives>
   [[nodiscard]] BoundedEffort<joint_count, S> held_within(
       const EffortBounds<joint_count, S>& bounds, const Phase<S>& phase,

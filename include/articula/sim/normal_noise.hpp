@@ -23,8 +23,8 @@ struct NormalPair {
 };
 
 /// Standard normal numbers that depend on their place alone: the noise of a joint in a cycle is the
-/// same in any lane, thread or process, and whatever else is drawn. They are the same on every machine
-/// up to rounding of its mathematical library. Real-time: yes.
+/// same in any lane, thread or process, and whatever else is drawn. They are the same on every
+/// machine up to rounding of its mathematical library. Real-time: yes.
 ///
 /// Sources: Philox, see detail::philox; Box and Muller: A note on the generation of random normal
 /// deviates, 1958.

@@ -73,9 +73,9 @@ template <Robot R>
 
 /// The longest step of the simulation at a position, by the joints' damping: infinite without
 /// damping, 0 if it decays too fast for a number. Damped joints decay with the eigenvalues of
-/// M^-1 D. Power iteration computes the largest one. The Runge-Kutta method is stable on the negative
-/// real axis up to 2.785 per step [Hairer, Wanner 1996, section IV.2]. Half of it is the limit here:
-/// M changes with the position, and the iteration may underestimate.
+/// M^-1 D. Power iteration computes the largest one. The Runge-Kutta method is stable on the
+/// negative real axis up to 2.785 per step [Hairer, Wanner 1996, section IV.2]. Half of it is the
+/// limit here: M changes with the position, and the iteration may underestimate.
 /// @param q  joint positions [rad or m], N x 1
 /// @return   [s]
 /// Real-time: no (set-up).
@@ -207,8 +207,8 @@ void validate(const R& robot, const SimulatorOptions<joint_count<R>>& options) {
 
 namespace detail {
 
-/// More substeps where a robot that differs from its description needs them: light bodies and strong
-/// damping do. `validate` refuses robots that need more than a hundred times as many.
+/// More substeps where a robot that differs from its description needs them: light bodies and
+/// strong damping do. `validate` refuses robots that need more than a hundred times as many.
 /// @param options  with an initial position
 /// Real-time: no (set-up).
 template <Robot R>

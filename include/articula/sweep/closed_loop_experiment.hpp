@@ -40,8 +40,8 @@ struct ClosedLoopOptions {
   std::vector<OwnMetric<N>> own_metrics{};  ///< beside those of RunMeasures
 };
 
-/// A closed loop for `sweep`: a ControlLoop of a simulated robot that differs from run to run, and a
-/// controller that knows the described robot.
+/// A closed loop for `sweep`: a ControlLoop of a simulated robot that differs from run to run, and
+/// a controller that knows the described robot.
 ///
 ///     const ClosedLoopExperiment experiment(
 ///         Q2d(), Q2d::pid_gains,
@@ -122,8 +122,8 @@ class ClosedLoopExperiment {
   }
 
   /// One run, as a sweep runs it. It ends early if the motion or a command is not finite; then all
-  /// metrics are undefined. They are likewise if the loop cannot be simulated; `run_alone` throws the
-  /// reason.
+  /// metrics are undefined. They are likewise if the loop cannot be simulated; `run_alone` throws
+  /// the reason.
   /// @throws what the own metrics throw
   /// Real-time: no (allocates).
   [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
@@ -141,8 +141,9 @@ class ClosedLoopExperiment {
     }
   }
 
-  /// Some runs: those that have `VariedLoop::robot`, under a controller that commands efforts, in the
-  /// lanes of packs; the others one after the other. Each gives what `run` gives, to the last bit.
+  /// Some runs: those that have `VariedLoop::robot`, under a controller that commands efforts, in
+  /// the lanes of packs; the others one after the other. Each gives what `run` gives, to the last
+  /// bit.
   /// @param rows  with number, seed and parameters; get metrics and end
   /// @throws what the own metrics throw
   /// Real-time: no (allocates).
@@ -208,8 +209,8 @@ class ClosedLoopExperiment {
         [&](std::size_t place) { of_loops[place]->end = refused(of_loops[place]->metrics); });
   }
 
-  /// Sets up a loop at each corner of the ranges, of many parameters at the lowest and highest only.
-  /// A light body and a strongly damped joint are at different ends.
+  /// Sets up a loop at each corner of the ranges, of many parameters at the lowest and highest
+  /// only. A light body and a strongly damped joint are at different ends.
   void check_ends() const {
     constexpr std::size_t most = 10;
     const std::size_t count = parameters_.size();

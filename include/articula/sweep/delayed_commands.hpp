@@ -14,8 +14,8 @@
 namespace articula {
 
 /// A simulator whose drives get each command some periods later. Until the first one arrives, they
-/// get a command of zeros. In the place of a lost command they get the one before. Without delay and
-/// loss it is the simulator, to the last bit.
+/// get a command of zeros. In the place of a lost command they get the one before. Without delay
+/// and loss it is the simulator, to the last bit.
 /// @tparam H        the simulator
 /// @tparam Command  that is delayed
 template <class H, class Command = EffortCommand<H::joint_count, ScalarOf<H>>>

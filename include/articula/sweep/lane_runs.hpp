@@ -32,8 +32,8 @@ inline constexpr bool can_run_in_lanes<R, C> =
     std::same_as<typename CheckedController<C, articula::joint_count<R>, double>::Command,
                  EffortCommand<articula::joint_count<R>>>;
 
-/// True if a factory also makes one controller of efforts for all lanes, which cannot fail, of gains
-/// that differ from lane to lane.
+/// True if a factory also makes one controller of efforts for all lanes, which cannot fail, of
+/// gains that differ from lane to lane.
 template <class Make, int N, class S>
 concept MakesLaneController =
     requires(const Make& make, const JointPidGains<N, S>& gains,
@@ -133,8 +133,8 @@ void run_pack(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops,
   }
 }
 
-/// Runs all loops that have a robot, as many at once as there are lanes. The loops of a pack have the
-/// same substeps. `done` and `refused` are those of run_pack.
+/// Runs all loops that have a robot, as many at once as there are lanes. The loops of a pack have
+/// the same substeps. `done` and `refused` are those of run_pack.
 template <DescribedRobot R, class Make, class Done, class Refused>
 void run_in_packs(const RunPlan<R>& plan, std::span<const VariedLoop<R>> loops, const Make& make,
                   const Done& done, const Refused& refused) {

@@ -6,8 +6,8 @@
 
 namespace articula::detail {
 
-/// A run's numbers are refused by the simulator or the controller. It differs from other errors of a
-/// run, such as those of one's own metrics: the sweep counts the run, and goes on.
+/// A run's numbers are refused by the simulator or the controller. It differs from other errors of
+/// a run, such as those of one's own metrics: the sweep counts the run, and goes on.
 struct LoopRefused : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };

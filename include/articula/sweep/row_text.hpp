@@ -10,8 +10,8 @@
 
 namespace articula {
 
-/// Appends a run as a line of CSV: number, seed, end, parameters, metrics. Each number reads back as
-/// the same double; an undefined metric is nan.
+/// Appends a run as a line of CSV: number, seed, end, parameters, metrics. Each number reads back
+/// as the same double; an undefined metric is nan.
 /// Real-time: no (allocates).
 inline void append_row(std::string& text, const SweepRow& row) {
   char digits[32];

@@ -105,8 +105,8 @@ void continue_sweep(const E& experiment, const SweepOptions& options, SweepResul
 ///     const SweepResult result = sweep(experiment, {.sampling = {.runs = 10'000}});
 ///     result.summary("elbow_active_joint.overshoot").quantile(0.95);
 ///
-/// The result has the same bits for any number of threads and any chunk. A run that becomes unstable
-/// or not finite, or cannot be simulated, is counted, see SweepResult::runs_with.
+/// The result has the same bits for any number of threads and any chunk. A run that becomes
+/// unstable or not finite, or cannot be simulated, is counted, see SweepResult::runs_with.
 /// @param experiment  for example a ClosedLoopExperiment
 /// @throws as continue_sweep
 /// Real-time: no (allocates, throws).

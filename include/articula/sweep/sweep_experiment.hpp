@@ -29,12 +29,12 @@ struct SweepRun {
 /// Something that a sweep runs many times:
 ///
 /// - `parameters()` are the numbers that vary, `metrics()` what each run measures.
-/// - `run(run, metrics)` runs once, fills in the metrics, and returns how the run has ended. Metrics
-///   that are not finite are undefined in this run. Several threads call it at the same time. The
-///   result depends on the run alone. What it throws ends the sweep.
+/// - `run(run, metrics)` runs once, fills in the metrics, and returns how the run has ended.
+///   Metrics that are not finite are undefined in this run. Several threads call it at the same
+///   time. The result depends on the run alone. What it throws ends the sweep.
 ///
-/// If there is `run_together(std::span<SweepRow>)`, a sweep calls it with some rows that have number,
-/// seed and parameters. It gives each what `run` gives, to the last bit.
+/// If there is `run_together(std::span<SweepRow>)`, a sweep calls it with some rows that have
+/// number, seed and parameters. It gives each what `run` gives, to the last bit.
 ///
 /// ClosedLoopExperiment is a robot under a controller.
 template <class E>

@@ -32,8 +32,8 @@ struct SweepRow {
   [[nodiscard]] SweepRun run() const noexcept { return {number, seed, parameters}; }
 };
 
-/// A sweep's runs, summarised. Its size does not grow with their number. Rows are added in the order
-/// of their numbers.
+/// A sweep's runs, summarised. Its size does not grow with their number. Rows are added in the
+/// order of their numbers.
 class SweepResult {
  public:
   /// A result without runs.

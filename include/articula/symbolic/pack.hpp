@@ -127,8 +127,8 @@ class Pack {
   }
 
   /// Sines and cosines of K packs of angles [rad], within three units in the last place; NaN for
-  /// angles that are not finite. If an angle of a lane is large, <cmath> computes those of this lane.
-  /// One check of all costs less than K checks.
+  /// angles that are not finite. If an angle of a lane is large, <cmath> computes those of this
+  /// lane. One check of all costs less than K checks.
   template <std::size_t K>
   [[gnu::always_inline]] friend void sincos(const std::array<Pack, K>& angle,
                                             std::array<Pack, K>& sine,

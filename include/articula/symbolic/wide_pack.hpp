@@ -15,8 +15,8 @@ namespace articula::symbolic {
 
 /// Doubles in several registers as one scalar. An operation has a latency of some cycles of the
 /// processor, which could begin others meanwhile. In an algorithm of few operations each waits for
-/// the one before. With two registers, those of one fill the gaps of the other. An algorithm of many
-/// operations has no gaps, and needs all registers for itself: use Pack there.
+/// the one before. With two registers, those of one fill the gaps of the other. An algorithm of
+/// many operations has no gaps, and needs all registers for itself: use Pack there.
 ///
 /// Each lane has the bits that it has in a Pack.
 /// @tparam Registers  number of registers of the target processor

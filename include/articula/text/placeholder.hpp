@@ -15,8 +15,8 @@ namespace articula::detail {
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> placeholder_brackets =
     {{{"{{", "}}"}, {"{%", "%}"}, {"<%", "%>"}, {"${", "}"}, {"$(", ")"}}};
 
-/// The placeholder in brackets at the beginning of a text; empty if there is none. Without a closing
-/// bracket it is the whole text.
+/// The placeholder in brackets at the beginning of a text; empty if there is none. Without a
+/// closing bracket it is the whole text.
 [[nodiscard]] inline std::string_view bracketed_placeholder_at(std::string_view text) {
   for (const auto& [open, close] : placeholder_brackets) {
     if (!text.starts_with(open)) continue;

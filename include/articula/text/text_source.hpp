@@ -28,7 +28,8 @@ class TextSource {
 
   /// The whole text.
   /// @param capacity  largest size accepted [byte]
-  /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL character
+  /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL
+  ///         character
   [[nodiscard]] std::string read(std::size_t capacity) const {
     std::string text = text_ ? *text_ : file_contents(capacity);
     if (text.size() > capacity) {

@@ -51,8 +51,8 @@ template <Robot R, class Joint>
 ///     I = M_jj               the other joints locked
 ///     I = 1 / (M^-1)_jj      the other joints free, at most the former
 ///
-/// Both follow from M(q) a = effort [Featherstone 2008, section 6.1]: only the acceleration of joint
-/// j, or only its effort, is not zero.
+/// Both follow from M(q) a = effort [Featherstone 2008, section 6.1]: only the acceleration of
+/// joint j, or only its effort, is not zero.
 ///
 ///     equivalent_inertia(Ur10(), q, "elbow_joint", OtherJoints::free)
 ///

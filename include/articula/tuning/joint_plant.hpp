@@ -17,8 +17,8 @@ namespace articula {
 ///
 ///     P(s) = (1/I) / (s (s + 1/T)),   T = I/D.
 ///
-/// In the time T a coasting joint slows down to 37 % of its speed. Without damping T is infinite and
-/// P(s) = 1/(I s^2).
+/// In the time T a coasting joint slows down to 37 % of its speed. Without damping T is infinite
+/// and P(s) = 1/(I s^2).
 struct JointPlant {
   static constexpr double undamped = std::numeric_limits<double>::infinity();
 

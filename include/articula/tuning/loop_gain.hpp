@@ -26,8 +26,8 @@ class LoopGain {
  public:
   /// @param plant  the joint
   /// @param gains  of the PID; p, i, d >= 0, at least one of them > 0
-  /// @param delay  from measurement to effort [s], >= 0: half a period for an effort that is held for
-  ///               a period, and the time that its computation takes
+  /// @param delay  from measurement to effort [s], >= 0: half a period for an effort that is held
+  ///               for a period, and the time that its computation takes
   /// @throws std::invalid_argument naming the parameter and its value
   /// Real-time: no (set-up).
   LoopGain(const JointPlant& plant, const PidGains& gains, double delay = 0)
@@ -59,8 +59,8 @@ class LoopGain {
            std::hypot(w, plant_.decay_rate()) / std::hypot(1.0, filter_time_ * w);
   }
 
-  /// The phase of L [rad], continuous in the frequency. With an integral term it starts at -pi, or at
-  /// -3 pi/2 without damping. Real-time: no.
+  /// The phase of L [rad], continuous in the frequency. With an integral term it starts at -pi, or
+  /// at -3 pi/2 without damping. Real-time: no.
   /// @param frequency  w [rad/s], > 0
   [[nodiscard]] double phase(double frequency) const {
     const double w = frequency;

@@ -78,21 +78,21 @@ struct ControllerValue {
 ///
 ///     phi = phase_margin - pi/2 + atan(w T) + w delay,   K = 1/|P(j w)| = I w sqrt(w^2 + 1/T^2),
 ///
-/// so that p = K cos phi and d w - i/w = K sin phi. The third condition is the ratio r of the integral
-/// time p/i to the derivative time d/p:
+/// so that p = K cos phi and d w - i/w = K sin phi. The third condition is the ratio r of the
+/// integral time p/i to the derivative time d/p:
 ///
 ///     d/p = x/w,   p/i = r x/w,   x = (tan phi + sqrt(tan^2 phi + 4/r))/2.
 ///
-/// r = 4 gives the controller two equal real zeros and is the ratio of Ziegler and Nichols. A larger
-/// one gives less integral and derivative action, less overshoot and slower correction of steady
-/// errors. For r >= 2 there is no second crossover, and the closed loop is stable.
+/// r = 4 gives the controller two equal real zeros and is the ratio of Ziegler and Nichols. A
+/// larger one gives less integral and derivative action, less overshoot and slower correction of
+/// steady errors. For r >= 2 there is no second crossover, and the closed loop is stable.
 /// Source: [Åström, Murray 2021, chapter 12], for this plant.
 /// @param plant       the joint
 /// @param target      crossover and phase margin
 /// @param time_ratio  r [1], >= 2
 /// @return            p, i and d; set the clamps of the integral to the drive's limits
-/// @throws std::invalid_argument naming the parameter, its value and the limit, if one is out of range
-///         or this phase margin is impossible at this crossover frequency
+/// @throws std::invalid_argument naming the parameter, its value and the limit, if one is out of
+///         range or this phase margin is impossible at this crossover frequency
 /// Real-time: no (set-up).
 [[nodiscard]] inline PidGains design_pid(const JointPlant& plant, const LoopTarget& target,
                                          double time_ratio = 4) {
@@ -109,9 +109,9 @@ struct ControllerValue {
                                 p * derivative / target.crossover);
 }
 
-/// The gains of a PI: p = K cos phi, i = -w K sin phi with phi and K of design_pid. An integral term
-/// reduces the phase, -pi/2 < phi < 0, so the phase margin is less than that of a proportional gain
-/// alone. The closed loop is stable.
+/// The gains of a PI: p = K cos phi, i = -w K sin phi with phi and K of design_pid. An integral
+/// term reduces the phase, -pi/2 < phi < 0, so the phase margin is less than that of a proportional
+/// gain alone. The closed loop is stable.
 /// @throws std::invalid_argument as design_pid
 /// Real-time: no (set-up).
 [[nodiscard]] inline PidGains design_pi(const JointPlant& plant, const LoopTarget& target) {
@@ -120,9 +120,9 @@ struct ControllerValue {
   return detail::designed_gains(p, -rest * target.crossover, 0);
 }
 
-/// The gains of a PD: p = K cos phi, d = K sin phi/w with phi and K of design_pid. A derivative term
-/// adds phase, 0 < phi < pi/2, so the phase margin exceeds that of a proportional gain alone. The
-/// closed loop is stable.
+/// The gains of a PD: p = K cos phi, d = K sin phi/w with phi and K of design_pid. A derivative
+/// term adds phase, 0 < phi < pi/2, so the phase margin exceeds that of a proportional gain alone.
+/// The closed loop is stable.
 /// @throws std::invalid_argument as design_pid
 /// Real-time: no (set-up).
 [[nodiscard]] inline PidGains design_pd(const JointPlant& plant, const LoopTarget& target) {

@@ -64,8 +64,8 @@ template <class IsFirst>
   }
 }
 
-/// The positive numbers at which a polynomial changes its sign, in ascending order. Between two such
-/// numbers of its derivative it is monotone, so bisection finds the one that may be there.
+/// The positive numbers at which a polynomial changes its sign, in ascending order. Between two
+/// such numbers of its derivative it is monotone, so bisection finds the one that may be there.
 /// @throws std::invalid_argument if a coefficient or a root has overflowed
 [[nodiscard]] inline std::vector<double> positive_roots(Polynomial p) {
   std::vector<double>& c = p.coefficients;

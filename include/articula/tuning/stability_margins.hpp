@@ -34,15 +34,16 @@ struct StabilityMargins {
 
 namespace detail {
 
-/// A loop gain in units in which its crossovers are near 1, so that its polynomials neither overflow
-/// nor underflow.
+/// A loop gain in units in which its crossovers are near 1, so that its polynomials neither
+/// overflow nor underflow.
 class ScaledLoop {
  public:
   explicit ScaledLoop(const LoopGain& loop) {
     const double inertia = loop.plant().inertia, rate = loop.plant().decay_rate();
     const auto& n = loop.numerator();
     const double g0 = n[0] / inertia, g1 = n[1] / inertia, g2 = n[2] / inertia;
-    // The frequency at which |L| = 1 for one term of C alone, with the inertia or the damping alone.
+    // The frequency at which |L| = 1 for one term of C alone, with the inertia or the damping
+    // alone.
     unit_ = std::max({g2, std::sqrt(g1), std::cbrt(g0)});
     if (rate > unit_) unit_ = std::max(g1 / rate, std::sqrt(g0 / rate));
     if (!(unit_ > 0)) unit_ = rate;  // a derivative alone
@@ -67,7 +68,8 @@ class ScaledLoop {
     return positive_roots(x_ * x_ * a_ * b_ - n_);
   }
 
-  /// Checks the crossovers: |L| is 1 there, and their number is odd if |L| falls from infinity to 0.
+  /// Checks the crossovers: |L| is 1 there, and their number is odd if |L| falls from infinity to
+  /// 0.
   /// @throws std::invalid_argument if not, because the gains are too far apart for the precision
   void require_found(const LoopGain& loop, const std::vector<double>& squares) const {
     const auto& n = loop.numerator();
@@ -144,9 +146,9 @@ class ScaledLoop {
 
 }  // namespace detail
 
-/// The margins of a loop, without a grid of frequencies. Crossovers are roots of a polynomial in w^2.
-/// Between these and the extrema of |L| and of the phase, bisection finds each frequency at which the
-/// phase is an odd multiple of pi.
+/// The margins of a loop, without a grid of frequencies. Crossovers are roots of a polynomial in
+/// w^2. Between these and the extrema of |L| and of the phase, bisection finds each frequency at
+/// which the phase is an odd multiple of pi.
 ///
 /// A loop with delay counts as stable if it is stable without delay and its delay is less than the
 /// first that makes it unstable. Longer delays can make a loop with three crossovers stable again;

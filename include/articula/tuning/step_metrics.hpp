@@ -19,9 +19,9 @@ namespace articula {
 ///     while (...) metrics.add(loop.time(), loop.state().position[0]);
 ///     if (metrics.overshoot() > 0.1) ...
 ///
-/// An undefined metric is empty. All are undefined without a step, without a sample, or after a sample
-/// that is not finite or earlier than the one before. Between samples the response is interpolated
-/// linearly.
+/// An undefined metric is empty. All are undefined without a step, without a sample, or after a
+/// sample that is not finite or earlier than the one before. Between samples the response is
+/// interpolated linearly.
 /// @tparam S  type of a number: double, or a pack with the joint of several robots; the metrics are
 ///            those of one lane
 template <class S>

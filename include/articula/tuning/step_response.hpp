@@ -27,9 +27,9 @@ struct StepOptions {
 };
 
 /// The metrics of a step of the reference from 0, where the joint is at rest before. JointPid
-/// computes the effort once per period from the exact position and velocity; the joint moves exactly
-/// under the held effort (zero-order hold). The result includes sampling, clamps, weights, filter
-/// and the limit of the drive. A short period gives the continuous loop.
+/// computes the effort once per period from the exact position and velocity; the joint moves
+/// exactly under the held effort (zero-order hold). The result includes sampling, clamps, weights,
+/// filter and the limit of the drive. A short period gives the continuous loop.
 /// @param plant    the joint
 /// @param gains    of the PID
 /// @param options  of the step

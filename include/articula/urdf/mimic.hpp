@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Chains of mimic joints, and limits that contradict others: the mimicked joint's, or <limit>.
+/// @file Chains of mimic joints, and limits that contradict others: the mimicked joint's, or
+/// <limit>.
 #pragma once
 
 #include "articula/model/joint.hpp"

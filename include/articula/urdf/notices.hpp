@@ -108,8 +108,8 @@ class UrdfNotices {
         rounded_text(rpy.z) + " rad is more than a turn; are these degrees?");
   }
 
-  /// An <inertial> in other units. An inertia in kg mm^2 makes a body seem a thousand times as large
-  /// as it is. For comparison, a crane's jib has a radius of gyration of 20 m.
+  /// An <inertial> in other units. An inertia in kg mm^2 makes a body seem a thousand times as
+  /// large as it is. For comparison, a crane's jib has a radius of gyration of 20 m.
   void add_odd_units(const Link& link) {
     constexpr double largest_radius = 50;  // of gyration [m]
     const std::string where = "link '" + std::string(link.name) + "': <inertial>: ";

@@ -124,8 +124,8 @@ class UrdfReader {
     }
   }
 
-  /// Adds a notice about branches with mass that leave the moving part of a chain. Branches from its
-  /// resting part do not change the dynamics.
+  /// Adds a notice about branches with mass that leave the moving part of a chain. Branches from
+  /// its resting part do not change the dynamics.
   void note_excluded_branches() {
     std::vector<std::string> joints;
     double mass = 0;

@@ -91,8 +91,8 @@ template <int N, int Bodies = N>
 ///     const auto arm = articula::load_kinematic_urdf<6>("scara.urdf");
 ///     articula::forward_kinematics(arm, q, "tool");
 ///
-/// Kinematics, profiles, loops of positions and velocities, and mocks accept such a robot. Functions
-/// that need dynamics do not compile with it.
+/// Kinematics, profiles, loops of positions and velocities, and mocks accept such a robot.
+/// Functions that need dynamics do not compile with it.
 /// @copydetails load_urdf(const UrdfSource&, const UrdfOptions&)
 template <int N, int Bodies = N>
 [[nodiscard]] KinematicModel<N, Bodies> load_kinematic_urdf(const UrdfSource& source,

@@ -23,8 +23,8 @@ struct ShowOptions {
   ViewOptions view{.operates = true};
   RunOptions run{};                                          ///< `stop` is set by `show`
   double seconds = std::numeric_limits<double>::infinity();  ///< after which the run ends [s]
-  /// The robot's URDF, whose visuals the view shows: a file's name, or XML. `view.mesh_folders` has the
-  /// folders of its meshes. Empty: the view shows links as bones.
+  /// The robot's URDF, whose visuals the view shows: a file's name, or XML. `view.mesh_folders` has
+  /// the folders of its meshes. Empty: the view shows links as bones.
   std::string urdf{};
   ThreadOptions thread{.priority = 0, .lock_memory = false};  ///< of the loop
   bool opens_browser = false;  ///< opens the address on this machine, if it has a screen
@@ -37,11 +37,12 @@ struct ShowOptions {
 ///       return articula::show(arm);  // http://127.0.0.1:8765/
 ///     }
 ///
-/// Prints the address on standard output, and the loop's notices on standard error. A robot with drives
-/// needs real-time priority: `{.thread = {.priority = 80}}`. For a recorder or an own thread, use
-/// Remote, View and `run` as this function does.
+/// Prints the address on standard output, and the loop's notices on standard error. A robot with
+/// drives needs real-time priority: `{.thread = {.priority = 80}}`. For a recorder or an own
+/// thread, use Remote, View and `run` as this function does.
 /// @param options         of the view and the run
-/// @param remote_options  of the operation, as tolerances of trajectories; `options.urdf` comes before its URDF
+/// @param remote_options  of the operation, as tolerances of trajectories; `options.urdf` comes
+///                        before its URDF
 /// @return the exit status of a program: 0, or 1 with a line on standard error if the view cannot
 ///         start or the URDF cannot be read
 template <class LoopType>

@@ -26,7 +26,8 @@ namespace articula {
 /// | --read-only | clients watch only |
 /// | --view | opens the address on this machine |
 /// | --seconds 10 | ShowOptions::seconds |
-/// | --priority 80 | ShowOptions::thread: its priority, with the program's memory locked; 0: as any other |
+/// | --priority 80 | ShowOptions::thread: its priority, with the program's memory locked; 0: as any
+/// other |
 ///
 /// Without --token the variable ARTICULA_TOKEN is used, which other users cannot read.
 /// @param options  what neither names

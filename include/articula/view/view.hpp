@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A running loop in browsers and other programs, by HTTP and WebSocket. Target articula::view.
+/// @file A running loop in browsers and other programs, by HTTP and WebSocket. Target
+/// articula::view.
 #pragma once
 
 #include "articula/remote/port.hpp"
@@ -20,9 +21,9 @@ namespace articula {
 ///     MonotonicClock clock;
 ///     run(remote, clock, {});
 ///
-/// The data are those of the Foxglove WebSocket protocol. Other programs that speak it connect to the
-/// same address; see docs/view.md for what was tried. Everything happens in a thread of the view's
-/// own, which the loop never waits for.
+/// The data are those of the Foxglove WebSocket protocol. Other programs that speak it connect to
+/// the same address; see docs/view.md for what was tried. Everything happens in a thread of the
+/// view's own, which the loop never waits for.
 class View {
  public:
   /// Opens the port and starts the thread.

@@ -22,14 +22,14 @@ struct ViewOptions {
   /// loopback needs one of at least 16 letters, digits, '-', '.', '_' or '~'.
   std::string token{};
 
-  /// Origins of other pages that may connect, as "https://app.foxglove.dev". The view's own page and
-  /// programs that are no browser always may.
+  /// Origins of other pages that may connect, as "https://app.foxglove.dev". The view's own page
+  /// and programs that are no browser always may.
   std::vector<std::string> origins{};
 
   /// Folder of the page's files. Default: the page that the build made, if it made one.
   std::string page_folder{};
-  /// Folders that the meshes of `package://<package>/<path>` are served from, by the package's name.
-  /// Every file in them can be read by every client.
+  /// Folders that the meshes of `package://<package>/<path>` are served from, by the package's
+  /// name. Every file in them can be read by every client.
   std::map<std::string, std::string> mesh_folders{};
 
   std::size_t client_limit = 32;           ///< WebSocket clients at a time

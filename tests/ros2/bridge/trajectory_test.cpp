@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// ROS 2's clients move a loop's robot: by trajectories as goals or messages, by references, by commands.
+// ROS 2's clients move a loop's robot: by trajectories as goals or messages, by references, by
+// commands.
 #include "articula/ros2/bridge/controllers/trajectory_messages.hpp"
 #include "articula/ros2/messages/action_msgs.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
@@ -581,7 +582,8 @@ TEST_CASE("trajectories are slowed down by a factor, which the state shows") {
   const auto begin = arm.now;
   CHECK(arm.wait_for(1).status == GoalState::succeeded);
   const auto took = arm.now - begin;
-  // 2 s, or 0.125 s less if the speed falls only when the trajectory begins: from 1 by 2 in a second.
+  // 2 s, or 0.125 s less if the speed falls only when the trajectory begins: from 1 by 2 in a
+  // second.
   CHECK((took > std::chrono::milliseconds(1850) && took < std::chrono::milliseconds(2200)));
   CHECK(set(0) == 0);
   REQUIRE(arm.send(2, goal_to(0, 0, 1)).accepted);

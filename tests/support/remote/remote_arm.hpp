@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A loop with a Remote that a test drives cycle by cycle, and a session that waits for answers.
+/// @file A loop with a Remote that a test drives cycle by cycle, and a session that waits for
+/// answers.
 #pragma once
 
 #include <articula/articula.hpp>

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated Q2D under two controllers with the view on any free port, for the tests of the page.
-// It prints the address and runs until SIGTERM. SIGUSR1 breaks the sensors until SIGUSR2 mends them.
+// The simulated Q2D under two controllers with the view on any free port, for the tests of the
+// page. It prints the address and runs until SIGTERM. SIGUSR1 breaks the sensors until SIGUSR2
+// mends them.
 //
-//   simulated_q2d [port [folder]]   a folder has robot.urdf, which looks in package q2d for its meshes;
+//   simulated_q2d [port [folder]]   a folder has robot.urdf, which looks in package q2d for its
+//   meshes;
 //                                   the view has a token then
-//   simulated_q2d --replay <file>   computes the commands of an MCAP file once more and compares them
+//   simulated_q2d --replay <file>   computes the commands of an MCAP file once more and compares
+//   them
 #include <articula/articula.hpp>
 #include <articula/loop/realtime/monotonic_clock.hpp>
 #include <articula/loop/realtime/stop_on_signal.hpp>

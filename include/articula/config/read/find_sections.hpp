@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The parameters of each controller in a configuration file, sections with wildcards included.
+/// @file The parameters of each controller in a configuration file, sections with wildcards
+/// included.
 #pragma once
 
 #include "articula/config/read/section.hpp"

@@ -58,8 +58,8 @@ inline void read_all_clamps(ConfigMap& map, PidGains& gains, GainSigns signs) {
   }
 }
 
-/// Reads control_toolbox's anti-windup: a truth value in its older versions, a strategy in its newer
-/// ones.
+/// Reads control_toolbox's anti-windup: a truth value in its older versions, a strategy in its
+/// newer ones.
 inline void read_anti_windup(ConfigMap& map, PidGains& gains) {
   if (const auto value = map.find("antiwindup"); value && !value->truth()) {
     map.note(*value,

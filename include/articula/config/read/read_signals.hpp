@@ -85,8 +85,8 @@ class SignalReader {
     }
   }
 
-  /// @throws FileError if there was no waveform, or the sum of a joint's waveforms exceeds the limit
-  ///         of its drive
+  /// @throws FileError if there was no waveform, or the sum of a joint's waveforms exceeds the
+  ///         limit of its drive
   void finish() {
     constexpr const char* wanted = "waveforms, such as <joint>: {amplitude: ..., frequency: ...}";
     for (const auto& [place, what] : empty_) {

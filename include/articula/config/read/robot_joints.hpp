@@ -101,7 +101,8 @@ template <Robot R>
                   one_of_words(name, names));
 }
 
-/// @throws FileError if the chain's root moves, or the chain leaves out a joint of the configuration
+/// @throws FileError if the chain's root moves, or the chain leaves out a joint of the
+///         configuration
 template <Robot R>
 void check_chain(const ControllerConfig& config, const R& robot) {
   const std::string &root = config.chain_root, &tip = config.chain_tip;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The sections of a configuration file as written, before wildcards in their names are resolved.
+/// @file The sections of a configuration file as written, before wildcards in their names are
+/// resolved.
 #pragma once
 
 #include "articula/config/read/section.hpp"

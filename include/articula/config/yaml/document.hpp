@@ -70,8 +70,8 @@ inline void check_line(const std::string& file, int number, std::string_view lin
   return hint;
 }
 
-/// Parses the one document of a YAML file, with values in place of placeholders. Refuses equal keys,
-/// deep nesting and aliases that multiply.
+/// Parses the one document of a YAML file, with values in place of placeholders. Refuses equal
+/// keys, deep nesting and aliases that multiply.
 /// @throws FileError with line and column
 /// Real-time: no (reads a file, allocates, throws).
 [[nodiscard]] inline ConfigNode read_document(const ConfigSource& source) {

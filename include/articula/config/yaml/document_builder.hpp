@@ -27,8 +27,8 @@
 namespace articula::detail {
 
 /// Builds the tree of a document from yaml-cpp's events. yaml-cpp's own tree silently drops one of
-/// two equal keys, and grows without bound with aliases. This class refuses both. Only sections with
-/// ros__parameters are combined, because ROS 2 takes those that a file repeats for one.
+/// two equal keys, and grows without bound with aliases. This class refuses both. Only sections
+/// with ros__parameters are combined, because ROS 2 takes those that a file repeats for one.
 class ConfigBuilder final : public YAML::EventHandler {
  public:
   static constexpr std::size_t deepest = 32;        ///< levels of lists and maps

@@ -63,8 +63,8 @@ inline void replace_entries(ConfigNode& map, const ConfigNode& replacements,
   }
 }
 
-/// Inserts a value into a map. Dots in the key are levels: ROS 2 reads the key `gravity.z` as `z` in
-/// the map `gravity`.
+/// Inserts a value into a map. Dots in the key are levels: ROS 2 reads the key `gravity.z` as `z`
+/// in the map `gravity`.
 /// @param place  of the map
 /// @throws FileError if the map already has a value there
 inline void insert_dotted(const FilePlace& place, ConfigNode& map, std::string_view key,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The source of a configuration: a YAML file or a string of YAML, and values of placeholders.
+/// @file The source of a configuration: a YAML file or a string of YAML, and values of
+/// placeholders.
 #pragma once
 
 #include "articula/text/text_source.hpp"
@@ -50,7 +51,8 @@ class ConfigSource : public detail::TextSource {
   [[nodiscard]] const ConfigValues& values() const noexcept { return values_; }
 
   /// The YAML, with its placeholders.
-  /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL character
+  /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL
+  ///         character
   /// Real-time: no (reads a file).
   [[nodiscard]] std::string contents() const { return read(capacity); }
 

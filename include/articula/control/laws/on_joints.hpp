@@ -15,8 +15,8 @@
 
 namespace articula {
 
-/// A law that acts on some of a robot's joints only. With it each joint of a robot, or each group of
-/// joints, can have its own law:
+/// A law that acts on some of a robot's joints only. With it each joint of a robot, or each group
+/// of joints, can have its own law:
 ///
 ///     EffortController<Arm, OnJoints<7, PidLaw<7>>, OnJoints<7, ImpedanceLaw<7>>>
 ///

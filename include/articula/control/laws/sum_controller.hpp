@@ -18,8 +18,8 @@
 
 namespace articula {
 
-/// Adds up laws and limits the total: command = clamp(sum of laws), within the limits of the robot's
-/// description. A controller of terms that act on the same joints is written in one line:
+/// Adds up laws and limits the total: command = clamp(sum of laws), within the limits of the
+/// robot's description. A controller of terms that act on the same joints is written in one line:
 ///
 ///     template <class R>
 ///     using PidAndFriction =
@@ -74,12 +74,13 @@ class SumController {
     for_each_law([&](auto& law) noexcept { total += law.output(inner); });
     Vector command;
     for (int j = 0; j < joint_count; ++j) {
-      // A NaN passes, so that the loop finds it, and does not turn into a limit. A sum that overflows
-      // has a direction, as any that is too large.
+      // A NaN passes, so that the loop finds it, and does not turn into a limit. A sum that
+      // overflows has a direction, as any that is too large.
       command[j] = range_.clamp(total[j], j);
       clip_[j] = total[j] - command[j];
     }
-    // A law integrates what was cut: neither a failed command nor an overflow may stay in its memory.
+    // A law integrates what was cut: neither a failed command nor an overflow may stay in its
+    // memory.
     const MaskOf<Scalar> finite = is_finite(clip_);
     if (!all_of(finite)) {
       for (int j = 0; j < joint_count; ++j) clip_[j] = select(finite, clip_[j], Scalar(0));

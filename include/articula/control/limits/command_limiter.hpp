@@ -135,8 +135,8 @@ class CommandLimiter<R, EffortCommand<joint_count<R>>> : public LimiterOfEfforts
   }
 };
 
-/// The total effort keeps the limits. Where it is too much, the drive's references are drawn towards
-/// the state.
+/// The total effort keeps the limits. Where it is too much, the drive's references are drawn
+/// towards the state.
 template <Robot R>
 class CommandLimiter<R, MultiModeCommand<joint_count<R>>> : public LimiterOfEfforts<R> {
   using typename LimiterOfEfforts<R>::Vector;

@@ -24,8 +24,8 @@ struct JointCommandLimits {
   double deceleration = 1e15;                            ///< B; above A, steps count it as A
   double jerk = 1e30;                                    ///< J [rad/s^3 or m/s^3]
 
-  /// The limits that steps compute with. B is at most A. Unlimited acceleration and jerk are so large
-  /// that they never limit, and their powers do not overflow. Real-time: yes.
+  /// The limits that steps compute with. B is at most A. Unlimited acceleration and jerk are so
+  /// large that they never limit, and their powers do not overflow. Real-time: yes.
   [[nodiscard]] JointCommandLimits bounded() const noexcept {
     JointCommandLimits limits = *this;
     limits.acceleration = std::min(acceleration, 1e15);
@@ -70,8 +70,8 @@ struct CommandLimits {
   }
 };
 
-/// The limits in a robot's description: position, velocity, effort, and optionally acceleration, jerk
-/// and soft limits. Real-time: yes.
+/// The limits in a robot's description: position, velocity, effort, and optionally acceleration,
+/// jerk and soft limits. Real-time: yes.
 template <Robot R>
 [[nodiscard]] CommandLimits<joint_count<R>> command_limits(const R& robot) noexcept {
   const auto of = [&](double JointLimits::* limit) {

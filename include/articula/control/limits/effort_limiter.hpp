@@ -80,8 +80,8 @@ class EffortLimiter {
     }
   }
 
-  /// Limits the efforts of the coming cycle. Without a finite state they are zero. If the request is
-  /// not finite, the joints brake.
+  /// Limits the efforts of the coming cycle. Without a finite state they are zero. If the request
+  /// is not finite, the joints brake.
   /// @param last    the state after the last cycle; at the start, `effort` alone
   /// @param state   measured joints
   /// @param asked   the request [N m or N], N x 1

@@ -12,8 +12,9 @@
 namespace articula {
 
 /// The amounts by which differences of positions may exceed limits of velocity, acceleration and
-/// jerk. Positions are rounded by up to 1.1e-16 of their size, and divided by the period once, twice
-/// and three times. The amounts are twice that, for callers that apply the same limits themselves.
+/// jerk. Positions are rounded by up to 1.1e-16 of their size, and divided by the period once,
+/// twice and three times. The amounts are twice that, for callers that apply the same limits
+/// themselves.
 struct CommandSlack {
   double velocity = 0;      ///< [rad/s or m/s]
   double acceleration = 0;  ///< [rad/s^2 or m/s^2]

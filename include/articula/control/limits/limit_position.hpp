@@ -39,16 +39,16 @@ namespace detail {
 }
 
 /// The velocity of the coming cycle with which a joint approaches a position without crossing it.
-/// The joint moves as fast as velocity, acceleration and jerk allow, as long as it can still stop at
-/// the position (StoppingMotion). Position limits are those of limit_motion().
+/// The joint moves as fast as velocity, acceleration and jerk allow, as long as it can still stop
+/// at the position (StoppingMotion). Position limits are those of limit_motion().
 ///
 /// A requested position that moves within the limits of velocity and acceleration is approached in
 /// its own motion. The request is assumed to continue with the velocity and acceleration of its
 /// last three values. The difference must then come to rest. Jerk is not checked: differentiating
 /// rounded positions three times amplifies rounding error.
 ///
-/// - A joint that is already at the requested position follows it. A step below about 2 J dt^3 looks
-///   like the beginning of such a motion, and is crossed by that much at most.
+/// - A joint that is already at the requested position follows it. A step below about 2 J dt^3
+///   looks like the beginning of such a motion, and is crossed by that much at most.
 /// - A request that jumps counts as one at rest. So does one that changes only every other cycle;
 ///   the joint follows it late by its braking distance.
 /// - If the request turns round or approaches the joint, limits may enforce a small crossing.
@@ -107,8 +107,8 @@ namespace detail {
 /// @param state     after the last cycle; at the start
 ///                  {.stop = {{.position = q}, limits.deceleration, limits.jerk, period}}
 ///                  with limits that are `bounded()`
-/// @param position  the request [rad or m]; if it is not finite, the joint brakes, and approaches the
-///                  next request as after a start
+/// @param position  the request [rad or m]; if it is not finite, the joint brakes, and approaches
+///                  the next request as after a start
 /// @param joint_limits  of the joint
 /// @param period    dt > 0 of the coming cycle [s]
 /// Real-time: yes. At most 95 stops are computed.

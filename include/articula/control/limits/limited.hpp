@@ -36,8 +36,8 @@ namespace articula {
 ///
 /// Limits of effort alone need no Limited: loops and SumController keep those.
 ///
-/// The robots of a pack have the same limits, and each keeps them by itself. They share the verdict:
-/// where the controller fails for one robot, all robots brake.
+/// The robots of a pack have the same limits, and each keeps them by itself. They share the
+/// verdict: where the controller fails for one robot, all robots brake.
 /// @tparam R  the robot
 /// @tparam C  the controller, satisfies Controller
 /// @tparam S  type of a number: double, or a pack with the numbers of several robots

@@ -70,8 +70,8 @@ template <class Algorithm, DescribedRobot R, class S, class... Inputs, std::size
 
 /// Runs an algorithm's program. The result is that of Algorithm::evaluate for the robot's mechanism
 /// up to rounding. Where axes are parallel, their angles are added. That has the effect of an error
-/// of some units in the last place of an angle, 2e-9 rad each at 1e7 rad. Inputs on which the result
-/// does not depend are not read, so a NaN there has no effect.
+/// of some units in the last place of an angle, 2e-9 rad each at 1e7 rad. Inputs on which the
+/// result does not depend are not read, so a NaN there has no effect.
 /// @param q       joint positions [rad or m]: q[i] is that of joint i, a number or a pack. An array
 ///                or a pointer to N numbers
 /// @param inputs  the algorithm's other inputs, of the same type

@@ -80,8 +80,8 @@ template <class S, int N, int B>
 /// The elimination tree of the mass matrix: for each joint its parent, -1 if there is none.
 /// Elements of the mass matrix and of its factors are zero unless one joint is an ancestor of the
 /// other. Joint i is an ancestor of joint j if one of them moves a body that carries a body of the
-/// other. It also is if they share a rotor, or if both are ancestors of a joint further out (fill-in
-/// of the factors). Mimic joints and shared rotors so join branches.
+/// other. It also is if they share a rotor, or if both are ancestors of a joint further out
+/// (fill-in of the factors). Mimic joints and shared rotors so join branches.
 /// Source: [Liu 1990]; for joints [Featherstone 2008, section 6.4].
 template <int N, int B>
 [[nodiscard]] constexpr JointArray<int, N> elimination_tree(

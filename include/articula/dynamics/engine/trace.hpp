@@ -57,8 +57,8 @@ template <DescribedRobot R>
 }
 
 /// Runs an algorithm on symbols and assembles a program from the resulting graph. Inputs are
-/// numbered through the positions, then through the algorithm's other arrays, see Concatenated, then
-/// through the numbers of the bodies that are inputs.
+/// numbered through the positions, then through the algorithm's other arrays, see Concatenated,
+/// then through the numbers of the bodies that are inputs.
 /// @tparam Capacity  the largest program
 template <class Algorithm, DescribedRobot R, Frames frames, symbolic::ProgramSize Capacity>
 [[nodiscard]] constexpr symbolic::Program<Capacity> trace() {

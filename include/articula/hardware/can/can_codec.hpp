@@ -67,9 +67,10 @@ enum class [[nodiscard]] CanSetUp : unsigned char {
 ///
 /// - `subscription()` lists the frames that it receives.
 /// - `restart()` clears its state: the condition of the drives is unknown from then on.
-/// - `set_up(elapsed, batch)` appends the frames of the next step towards enabled drives. The driver
-///   calls it about once a cycle, with the time since `restart`, until it returns CanSetUp::done and
-///   the reports are young enough. Once all drives are enabled, each call begins a cycle.
+/// - `set_up(elapsed, batch)` appends the frames of the next step towards enabled drives. The
+///   driver calls it about once a cycle, with the time since `restart`, until it returns
+///   CanSetUp::done and the reports are young enough. Once all drives are enabled, each call begins
+///   a cycle.
 /// - `encode(command, batch)` begins a cycle: appends the frames of the commands.
 /// - `encode_stop(batch)` begins a cycle that disables all drives.
 /// - `decode(frame)` enters a frame into the reports. It accepts any frame.
@@ -79,14 +80,15 @@ enum class [[nodiscard]] CanSetUp : unsigned char {
 ///
 /// - `cancel_output()`: the bus did not take all frames of the last `set_up`, `encode` or
 ///   `encode_stop`. For codecs that count the frames that they expect in return.
-/// - `all_off()`: whether all drives have reported that they exert no effort, where they report that
-///   by other means than feedback. Without this function, the reports decide.
+/// - `all_off()`: whether all drives have reported that they exert no effort, where they report
+///   that by other means than feedback. Without this function, the reports decide.
 /// - `release(elapsed, batch)` appends the frames that switch off watchdogs, which would report a
 ///   fault after a clean end. The driver calls it once the drives are disabled, about once a cycle,
 ///   with `elapsed` from zero on, until it returns CanSetUp::done.
 /// - `set_up_fault()` is the CanFault that explains why the set-up has not succeeded.
 ///
-/// All functions but `subscription` are noexcept and real-time. Examples: QuanserCodec, Cia402Codec.
+/// All functions but `subscription` are noexcept and real-time. Examples: QuanserCodec,
+/// Cia402Codec.
 /// @tparam C  the codec
 template <class C>
 concept CanCodec =

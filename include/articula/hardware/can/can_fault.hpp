@@ -58,8 +58,8 @@ struct CanFault {
   return index < texts.size() ? texts[index] : "unknown fault";
 }
 
-/// A fault in words: cause, joint, the drive's code, and at activation the object that the drive has
-/// refused or not answered for. Real-time: no (allocates).
+/// A fault in words: cause, joint, the drive's code, and at activation the object that the drive
+/// has refused or not answered for. Real-time: no (allocates).
 [[nodiscard]] inline std::string describe(const CanFault& fault) {
   std::string text(to_string(fault.cause));
   if (fault.joint >= 0) text += ": joint " + std::to_string(fault.joint);

@@ -17,8 +17,8 @@ namespace articula::detail {
 /// other, else one that is faulty or silent, else one that is not enabled.
 /// @param reports      in the order of the joints
 /// @param stale_after  age from which a drive's figures are not used [cycles]
-/// @return             CanCause::encoder_mismatch; else CanCause::no_activation, with joint -1 if no
-///                     drive is the reason
+/// @return             CanCause::encoder_mismatch; else CanCause::no_activation, with joint -1 if
+///                     no drive is the reason
 /// Real-time: yes. O(N).
 [[nodiscard]] constexpr CanFault find_activation_fault(std::span<const DriveReport> reports,
                                                        std::uint32_t stale_after) noexcept {

@@ -30,8 +30,8 @@ namespace articula {
 /// - A lasting fault (see CanCause) while the drives are active disables them in every cycle, until
 ///   `activate` succeeds again. Nothing starts to move by itself.
 ///
-/// docs/hardware.md has a table of all faults. For drives on EtherCAT or a serial line, write a type
-/// that satisfies Hardware instead.
+/// docs/hardware.md has a table of all faults. For drives on EtherCAT or a serial line, write a
+/// type that satisfies Hardware instead.
 /// @tparam R          the robot
 /// @tparam Codec      language of its drives
 /// @tparam Transport  access to the bus
@@ -179,7 +179,8 @@ class CanHardware {
     return Status::ok;
   }
 
-  /// Waits until the feedback of all joints for the last cycle has arrived, as tests in lockstep do.
+  /// Waits until the feedback of all joints for the last cycle has arrived, as tests in lockstep
+  /// do.
   /// @param time  longest time to wait
   /// @return      Status::ok, or Status::stale_state if it did not arrive in time
   /// Real-time: yes, but for the wait.

@@ -57,8 +57,8 @@ class CanSocket {
     if (socket_ >= 0) ::close(std::exchange(socket_, -1));
   }
 
-  /// Opens a new socket and binds it to the interface. It receives the subscribed frames, the end of
-  /// each own cycle, and error frames.
+  /// Opens a new socket and binds it to the interface. It receives the subscribed frames, the end
+  /// of each own cycle, and error frames.
   /// @return what has failed; nullptr on success
   /// @throws std::bad_alloc if there is no memory
   /// Real-time: no (system calls, allocates).

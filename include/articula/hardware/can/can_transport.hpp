@@ -36,7 +36,8 @@ enum class CanLink : unsigned char {
   return link == CanLink::bus_off ? CanCause::bus_off : CanCause::link_gone;
 }
 
-/// The result of sending a cycle's frames. Frames that were not taken are dropped, never sent later.
+/// The result of sending a cycle's frames. Frames that were not taken are dropped, never sent
+/// later.
 enum class [[nodiscard]] CanSending : unsigned char {
   sent,         ///< All taken, and the frames of the cycle before have been on the bus.
   unconfirmed,  ///< All taken, but there is no sign that the frames before were on the bus.
@@ -48,13 +49,14 @@ enum class [[nodiscard]] CanSending : unsigned char {
 
 /// Access to a CAN bus. Example: SocketCan.
 ///
-/// - `open(subscription)` makes it ready to receive these frames. A second call opens it again, also
-///   after the interface was gone. It belongs to set-up and may wait.
-/// - `receive(frames)` returns frames that have arrived, and never waits. Fewer frames than the span
-///   holds mean that there are no more.
-/// - `send(batch)` sends the frames of a cycle, and never waits. It drops frames that are not taken.
-/// - `wait(time)` waits until a frame arrives, at most that long. For set-up, and for loops that the
-///   bus paces.
+/// - `open(subscription)` makes it ready to receive these frames. A second call opens it again,
+///   also after the interface was gone. It belongs to set-up and may wait.
+/// - `receive(frames)` returns frames that have arrived, and never waits. Fewer frames than the
+///   span holds mean that there are no more.
+/// - `send(batch)` sends the frames of a cycle, and never waits. It drops frames that are not
+///   taken.
+/// - `wait(time)` waits until a frame arrives, at most that long. For set-up, and for loops that
+///   the bus paces.
 /// - `now()` is the time of a monotonic clock.
 /// - `link()` is the state of the link.
 /// @tparam T  the transport

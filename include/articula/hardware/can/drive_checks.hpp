@@ -13,8 +13,8 @@
 
 namespace articula::detail {
 
-/// Checks of one drive's description against its joint. Each check throws std::invalid_argument with
-/// the joint, the value and the limit. Real-time: no (throws).
+/// Checks of one drive's description against its joint. Each check throws std::invalid_argument
+/// with the joint, the value and the limit. Real-time: no (throws).
 struct DriveChecks {
   std::string_view kind;         ///< of the drive, for messages
   const JointProperties& joint;  ///< that the drive moves

@@ -9,8 +9,8 @@
 #include <optional>
 
 /// Network management, SYNC, heartbeat, emergency, and expedited access to the object dictionary
-/// [CiA 301]. Encoding returns the frame. Decoding accepts any frame and returns a value, or nothing
-/// if it is another frame. All functions are real-time.
+/// [CiA 301]. Encoding returns the frame. Decoding accepts any frame and returns a value, or
+/// nothing if it is another frame. All functions are real-time.
 namespace articula::canopen {
 
 // Identifiers of the predefined connection set; those of a node n = 1 .. 127 are the base plus n.
@@ -97,8 +97,8 @@ namespace detail {
   return frame;
 }
 
-/// Command byte of an expedited transfer. Bit 0: the size is indicated. Bits 2 and 3: number of empty
-/// bytes then.
+/// Command byte of an expedited transfer. Bit 0: the size is indicated. Bits 2 and 3: number of
+/// empty bytes then.
 [[nodiscard]] constexpr std::uint8_t expedited(std::uint8_t specifier, std::uint8_t size) noexcept {
   if (size == 0) return static_cast<std::uint8_t>(specifier | 0x02);
   return static_cast<std::uint8_t>(specifier | (4 - size) << 2 | 0x03);
@@ -151,8 +151,8 @@ namespace detail {
   return read_request(detail::address_in(frame));
 }
 
-/// Decodes a node's answer, at the host. Segmented transfers are not supported: the objects that the
-/// codec accesses have at most four bytes.
+/// Decodes a node's answer, at the host. Segmented transfers are not supported: the objects that
+/// the codec accesses have at most four bytes.
 [[nodiscard]] constexpr std::optional<Sdo> decode_answer(const CanFrame& frame) noexcept {
   if (!detail::is(frame, sdo_answer_base, 8)) return {};
   const ObjectAddress address = detail::address_in(frame);

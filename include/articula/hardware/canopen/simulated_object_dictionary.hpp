@@ -21,8 +21,8 @@ struct SimulatedObject {
   std::uint32_t value = 0;
 };
 
-/// The object dictionary of a simulated CANopen node: at most 128 objects of at most four bytes. All
-/// functions are real-time and linear in the number of objects.
+/// The object dictionary of a simulated CANopen node: at most 128 objects of at most four bytes.
+/// All functions are real-time and linear in the number of objects.
 class SimulatedObjectDictionary {
  public:
   /// Adds an object with a new address.

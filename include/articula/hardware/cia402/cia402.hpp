@@ -101,8 +101,8 @@ inline constexpr std::uint16_t switch_on = 0x07;
 inline constexpr std::uint16_t enable_operation = 0x0f;
 inline constexpr std::uint16_t fault_reset = 0x80;
 
-/// The controlword for the next transition towards operation enabled; disable_voltage in states that
-/// the drive leaves by itself. Real-time: yes.
+/// The controlword for the next transition towards operation enabled; disable_voltage in states
+/// that the drive leaves by itself. Real-time: yes.
 [[nodiscard]] constexpr std::uint16_t towards_operation(State state) noexcept {
   if (state == State::switch_on_disabled) return shutdown;
   if (state == State::ready_to_switch_on) return switch_on;

@@ -30,8 +30,8 @@ namespace articula {
 /// - With SyncProducer::another_node the codec sends no SYNC. A drive or a master (objects 1005h,
 ///   1006h) sends it, at the loop's period. Each SYNC begins a cycle.
 /// - The stop uses RPDOs and access to objects, because RPDOs need SYNC and the operational state.
-/// - Without torque and error code in a drive, they are 0. Without velocity, it is the difference of
-///   two positions. Mappings that a drive does not let change are used as they are, see
+/// - Without torque and error code in a drive, they are 0. Without velocity, it is the difference
+///   of two positions. Mappings that a drive does not let change are used as they are, see
 ///   Cia402PdoSetUp.
 /// - The watchdog of a drive watches RPDOs or the host's heartbeats, see Cia402Watchdog.
 /// - Switch off other process data objects in the drives' configuration: they load the bus.
@@ -126,8 +126,8 @@ class Cia402Codec {
     if (sends_sync) end_output(batch);
     return drives_.all_ready(elapsed) ? CanSetUp::done : CanSetUp::in_progress;
   }
-  /// Switches the drives' watchdogs off, so that no drive faults when commands end. A drive that may
-  /// still exert effort keeps its watchdog.
+  /// Switches the drives' watchdogs off, so that no drive faults when commands end. A drive that
+  /// may still exert effort keeps its watchdog.
   /// @param elapsed  since the release began; zero in the first call
   /// Real-time: yes. O(N).
   [[nodiscard]] CanSetUp release(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {

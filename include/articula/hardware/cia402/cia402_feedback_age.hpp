@@ -28,9 +28,10 @@ namespace articula {
 ///   before a frame that has arrived is lost.
 /// - A mark. It is a request to read an object. A drive answers it later than every SYNC before it.
 ///   So feedback to a SYNC before the request that is missing when the answer arrives is lost. A
-///   drive takes some cycles to answer and sends feedback meanwhile. So a mark covers later SYNCs as
-///   well, by the time of the fastest answer. One cycle stays unknown, because times are counted in
-///   whole cycles. The set-up reads object 1018h, so that the time is known before feedback begins.
+///   drive takes some cycles to answer and sends feedback meanwhile. So a mark covers later SYNCs
+///   as well, by the time of the fastest answer. One cycle stays unknown, because times are counted
+///   in whole cycles. The set-up reads object 1018h, so that the time is known before feedback
+///   begins.
 ///
 /// All functions are real-time.
 class Cia402FeedbackAge {
@@ -83,8 +84,8 @@ class Cia402FeedbackAge {
     known_lag_ = 0;
     has_answered_ = is_still_operational_ = false;
   }
-  /// Whether the node has sent feedback after the answer to a request that came after the command to
-  /// leave the operational state. So it has not got that command, or not yet.
+  /// Whether the node has sent feedback after the answer to a request that came after the command
+  /// to leave the operational state. So it has not got that command, or not yet.
   [[nodiscard]] bool is_still_operational() const noexcept { return is_still_operational_; }
   /// Notes a command to the node to start now. Without feedback since end_feedback(), it was not
   /// operational, so that it does not answer the SYNCs until now.

@@ -31,8 +31,8 @@ struct ReceiveLayout {
   std::uint8_t target = 2;
 };
 
-/// The first bytes of the parts of a drive's frame; `absent` for parts that are not in it. The length
-/// is 0 if the frame is not used.
+/// The first bytes of the parts of a drive's frame; `absent` for parts that are not in it. The
+/// length is 0 if the frame is not used.
 struct TransmitLayout {
   static constexpr std::uint8_t absent = canopen::PdoMapping::absent;
   std::uint8_t length = 0;
@@ -69,8 +69,8 @@ struct ProcessData {
 /// @param node     1 .. 127
 /// @param mode     of operation
 /// @param mapping  of the RPDO
-/// @return a layout of length 0 if controlword or target are missing, or if zero might not be a safe
-///         value of another object; object 6060h gets the mode
+/// @return a layout of length 0 if controlword or target are missing, or if zero might not be a
+///         safe value of another object; object 6060h gets the mode
 /// Real-time: yes.
 [[nodiscard]] constexpr ReceiveLayout receive_layout(std::size_t number, std::uint8_t node,
                                                      Mode mode,

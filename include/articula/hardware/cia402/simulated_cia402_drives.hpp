@@ -18,12 +18,13 @@
 
 namespace articula {
 
-/// CiA 402 drives in the cyclic synchronous modes on a simulated arm. Frames go in and out; there is
-/// no bus. Each SYNC of the host simulates one period. At SYNC the drives measure, and put received
-/// commands into force. So feedback shows the arm at SYNC, one period before the host can answer it.
+/// CiA 402 drives in the cyclic synchronous modes on a simulated arm. Frames go in and out; there
+/// is no bus. Each SYNC of the host simulates one period. At SYNC the drives measure, and put
+/// received commands into force. So feedback shows the arm at SYNC, one period before the host can
+/// answer it.
 ///
-/// In position and velocity mode the drives close their own loop. Its stiffness and damping give the
-/// joint's own inertia a natural frequency of 10 Hz, critically damped.
+/// In position and velocity mode the drives close their own loop. Its stiffness and damping give
+/// the joint's own inertia a natural frequency of 10 Hz, critically damped.
 template <Robot R>
 class SimulatedCia402Drives {
  public:

@@ -8,8 +8,8 @@
 
 namespace articula {
 
-/// The state machine of a simulated CiA 402 drive [CiA 402-2, controlword]. A quick stop switches the
-/// power off at once. All functions are real-time.
+/// The state machine of a simulated CiA 402 drive [CiA 402-2, controlword]. A quick stop switches
+/// the power off at once. All functions are real-time.
 class SimulatedCia402Machine {
  public:
   SimulatedCia402Machine() = default;

@@ -13,8 +13,8 @@
 
 namespace articula {
 
-/// The objects of a simulated CiA 402 drive, the rules for writing them, and the process data objects
-/// that are mapped from them. All functions are real-time.
+/// The objects of a simulated CiA 402 drive, the rules for writing them, and the process data
+/// objects that are mapped from them. All functions are real-time.
 class SimulatedCia402Objects : public SimulatedObjectDictionary {
  public:
   static constexpr std::uint32_t off = 0x8000'0000U;  ///< in the identifier of a PDO

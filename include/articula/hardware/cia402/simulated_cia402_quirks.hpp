@@ -9,8 +9,8 @@ namespace articula {
 
 /// The deviations of a simulated CiA 402 drive from the standard. Many real drives have some.
 struct SimulatedCia402Quirks {
-  /// A mapping that cannot be changed: the index of its object, 1600h .. 1603h or 1a00h .. 1a03h, and
-  /// its entries, with zero after the last.
+  /// A mapping that cannot be changed: the index of its object, 1600h .. 1603h or 1a00h .. 1a03h,
+  /// and its entries, with zero after the last.
   struct FixedMapping {
     std::uint16_t index = 0;
     std::array<std::uint32_t, 8> entries{};

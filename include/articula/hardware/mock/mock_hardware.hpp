@@ -116,8 +116,8 @@ class MockHardware {
     return Status::ok;
   }
 
-  /// Measures, with the script's faults of this reading. Inactive hardware returns Status::inactive.
-  /// Real-time: yes. O(N + length of the script).
+  /// Measures, with the script's faults of this reading. Inactive hardware returns
+  /// Status::inactive. Real-time: yes. O(N + length of the script).
   [[nodiscard]] Status read(JointState<joint_count>& state) noexcept {
     const std::uint64_t reading = readings_++;
     Status status = Status::ok;

@@ -68,8 +68,8 @@ class QuanserCodec {
   }
 
   /// Clears faults, waits until all modules report that they are disabled, enables them, and waits
-  /// until they report that. It repeats requests, because one may be lost. Modules that were enabled
-  /// before do not count: the request that clears faults may still be on its way to them.
+  /// until they report that. It repeats requests, because one may be lost. Modules that were
+  /// enabled before do not count: the request that clears faults may still be on its way to them.
   /// Real-time: yes.
   [[nodiscard]] CanSetUp set_up(std::chrono::nanoseconds elapsed, CanBatch& batch) noexcept {
     const auto all = [&](auto condition) {
@@ -89,8 +89,8 @@ class QuanserCodec {
     return done ? CanSetUp::done : CanSetUp::in_progress;
   }
 
-  /// Appends an effort frame for each module, rounded to 1e-3 N m and within the range of the frame,
-  /// 0 for a NaN, and SYNC. Real-time: yes. O(N).
+  /// Appends an effort frame for each module, rounded to 1e-3 N m and within the range of the
+  /// frame, 0 for a NaN, and SYNC. Real-time: yes. O(N).
   void encode(const Command& command, CanBatch& batch) noexcept {
     const auto counter = static_cast<std::uint8_t>(cycle_ + 1);
     for (int j = 0; j < joint_count; ++j) {
@@ -178,8 +178,8 @@ class QuanserCodec {
     return CanDecoding::accepted;
   }
 
-  /// Stores a frame, and updates the report if the pair of its cycle is complete. A frame is outdated
-  /// if its counter is of none of the last 128 cycles, or if a newer one has arrived.
+  /// Stores a frame, and updates the report if the pair of its cycle is complete. A frame is
+  /// outdated if its counter is of none of the last 128 cycles, or if a newer one has arrived.
   template <class Frame>
   [[nodiscard, gnu::always_inline]] inline CanDecoding take(int j, const Frame& received,
                                                             typename Frame::value_type& last,

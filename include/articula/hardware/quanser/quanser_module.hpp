@@ -43,7 +43,8 @@ struct QuanserModule {
 template <int N>
 using QuanserModules = std::array<QuanserModule, static_cast<std::size_t>(N)>;
 
-/// Checks the modules of a robot: nodes, scales, tolerances, and the range of positions and efforts.
+/// Checks the modules of a robot: nodes, scales, tolerances, and the range of positions and
+/// efforts.
 /// @throws std::invalid_argument with the joint, the value and the limit
 /// Real-time: no (throws).
 template <Robot R>

@@ -13,8 +13,8 @@
 /// are real-time.
 namespace articula::quanser {
 
-// Identifiers; those of a module n = 1 .. 31 are the base plus n. Efforts have a higher priority than
-// SYNC, so that a controller that sends by priority keeps the order.
+// Identifiers; those of a module n = 1 .. 31 are the base plus n. Efforts have a higher priority
+// than SYNC, so that a controller that sends by priority keeps the order.
 inline constexpr std::uint32_t control_base = 0x040;
 inline constexpr std::uint32_t effort_base = 0x080;
 inline constexpr std::uint32_t sync_identifier = 0x100;

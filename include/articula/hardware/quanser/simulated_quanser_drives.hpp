@@ -19,8 +19,8 @@
 namespace articula {
 
 /// An arm's joint modules after docs/quanser_protocol.md, on a simulated arm. Frames go in and out;
-/// there is no bus. Each SYNC of the host simulates one period, and the feedback shows the arm at the
-/// end of that period.
+/// there is no bus. Each SYNC of the host simulates one period, and the feedback shows the arm at
+/// the end of that period.
 template <Robot R>
 class SimulatedQuanserDrives {
  public:
@@ -32,8 +32,8 @@ class SimulatedQuanserDrives {
   /// @param robot    whose joints these are
   /// @param modules  in the order of the joints
   /// @param options  of the simulated arm
-  /// @throws std::invalid_argument as validate(robot, modules) and the simulator, or if the period is
-  ///         above the longest
+  /// @throws std::invalid_argument as validate(robot, modules) and the simulator, or if the period
+  ///         is above the longest
   SimulatedQuanserDrives(const R& robot, const QuanserModules<joint_count>& modules,
                          const SimulatorOptions<joint_count>& options = {})
       : modules_{modules}, simulator_(robot, options) {

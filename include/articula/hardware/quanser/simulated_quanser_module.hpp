@@ -42,8 +42,8 @@ class SimulatedQuanserModule {
         return;
     }
   }
-  /// Stores EFFORT until the SYNC with its counter. SYNC may have arrived already, because a sender's
-  /// controller may reorder frames.
+  /// Stores EFFORT until the SYNC with its counter. SYNC may have arrived already, because a
+  /// sender's controller may reorder frames.
   void receive(const quanser::Effort& effort) noexcept {
     if (effort.counter == counter_) return follow(effort);
     pending_ = effort;

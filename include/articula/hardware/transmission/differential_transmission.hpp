@@ -9,8 +9,8 @@
 
 namespace articula {
 
-/// A differential, common in wrists: the first joint moves with the sum of both actuators, the second
-/// with their difference. With the reductions n of actuators and m of joints,
+/// A differential, common in wrists: the first joint moves with the sum of both actuators, the
+/// second with their difference. With the reductions n of actuators and m of joints,
 ///
 ///     q_1 = (q_a1/n_1 + q_a2/n_2)/(2 m_1) + offset_1
 ///     q_2 = (q_a1/n_1 - q_a2/n_2)/(2 m_2) + offset_2
@@ -18,8 +18,8 @@ namespace articula {
 ///     effort_2 = m_2 (n_1 effort_a1 - n_2 effort_a2)
 ///
 /// and velocities as positions, without offset. The code of ROS's
-/// transmission_interface::DifferentialTransmission computes the same; its documentation has another
-/// sign in effort_2. All functions are real-time.
+/// transmission_interface::DifferentialTransmission computes the same; its documentation has
+/// another sign in effort_2. All functions are real-time.
 struct DifferentialTransmission {
   static constexpr int size = 2;
   static constexpr std::string_view urdf_name = "DifferentialTransmission";

@@ -18,8 +18,8 @@ namespace articula {
 /// Hardware with a spring and a damper in each drive, made of hardware that takes only efforts.
 ///
 /// Some controllers command a spring, a damper and an effort per joint (MultiModeCommand), because
-/// some drives close that loop themselves. No driver of this library is for such drives. HostSprings
-/// computes the effort in the host instead, once a cycle, at the measured state:
+/// some drives close that loop themselves. No driver of this library is for such drives.
+/// HostSprings computes the effort in the host instead, once a cycle, at the measured state:
 ///
 ///     effort = clamp(K (q_ref - q) + D (v_ref - v) + effort_ref, -limit, limit)
 ///

@@ -10,7 +10,8 @@ namespace articula {
 
 /// A transmission with actuators and joints exchanged: its joints are the actuators of the one
 /// inside. For the simulation of drives that count at the motor:
-/// `TransmittedHardware<Simulator<Arm>, Arm, Reversed<SimpleTransmission>, ...>` is the motors' side.
+/// `TransmittedHardware<Simulator<Arm>, Arm, Reversed<SimpleTransmission>, ...>` is the motors'
+/// side.
 template <Transmission T>
 struct Reversed {
   static constexpr int size = T::size;

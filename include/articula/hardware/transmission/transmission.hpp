@@ -18,16 +18,16 @@ namespace articula {
 /// A lossless transmission between as many actuators as joints. Its maps are linear, apart from the
 /// joints' offsets, and keep the power:
 /// actuator_effort . actuator_velocity = joint_effort . joint_velocity.
-/// Write one for gearing that SimpleTransmission, DifferentialTransmission and FourBarTransmission do
-/// not cover. TransmittedHardware takes it, and refuses it if its maps do not agree. For one gear
-/// between motor and joint in a CAN drive, use the scales of the drive instead.
+/// Write one for gearing that SimpleTransmission, DifferentialTransmission and FourBarTransmission
+/// do not cover. TransmittedHardware takes it, and refuses it if its maps do not agree. For one
+/// gear between motor and joint in a CAN drive, use the scales of the drive instead.
 ///
 /// - `size` is the number of joints, and of actuators;
-/// - `joint_position(q_a)`, `joint_velocity(v_a)`, `joint_effort(effort_a)` convert from actuators to
-///   joints;
+/// - `joint_position(q_a)`, `joint_velocity(v_a)`, `joint_effort(effort_a)` convert from actuators
+///   to joints;
 /// - `actuator_position(q)`, `actuator_velocity(v)`, `actuator_effort(effort)` convert back;
-/// - `validate(transmission, where)` throws std::invalid_argument with `where`, the figure, its value
-///   and its limit.
+/// - `validate(transmission, where)` throws std::invalid_argument with `where`, the figure, its
+///   value and its limit.
 ///
 /// All vectors are size x 1, in rad, rad/s, N m or m, m/s, N. The maps accept any value and are
 /// noexcept.

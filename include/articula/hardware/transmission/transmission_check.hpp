@@ -51,8 +51,8 @@ void check_rate(std::string_view where, std::string_view what, int column,
   }
 }
 
-/// Refuses a transmission whose maps are not inverse to each other or do not keep the power: a wrong
-/// sign in one of them would turn a drive's feedback around.
+/// Refuses a transmission whose maps are not inverse to each other or do not keep the power: a
+/// wrong sign in one of them would turn a drive's feedback around.
 /// @param transmission  between actuators and joints
 /// @param where         names it in the message
 /// @throws std::invalid_argument with the map, its value and the expected one

@@ -44,8 +44,9 @@ struct Gearing {
 ///         {.joints = {"elbow"}, .actuators = {"elbow"}, .transmission = {.reduction = 101}},
 ///         {.joints = {"pitch", "roll"}, .actuators = {"pitch", "roll"}});
 ///
-/// A NaN of an actuator reaches all joints of its transmission. Do not use this class for drives that
-/// convert to the joints' units themselves, as Cia402Drive and QuanserModule do by their scales.
+/// A NaN of an actuator reaches all joints of its transmission. Do not use this class for drives
+/// that convert to the joints' units themselves, as Cia402Drive and QuanserModule do by their
+/// scales.
 /// @tparam ActuatorHardware  hardware with as many joints as the robot; its joints are the
 ///                           actuators
 /// @tparam R                 the robot
@@ -63,8 +64,8 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
   /// For a robot known at compile time.
   /// @param hardware  of the actuators
   /// @param gearings  one for each of the transmissions
-  /// @throws std::invalid_argument with the joint or actuator and the value, if a name is unknown or
-  ///         occurs twice, a figure is out of range, or a transmission's maps do not agree
+  /// @throws std::invalid_argument with the joint or actuator and the value, if a name is unknown
+  ///         or occurs twice, a figure is out of range, or a transmission's maps do not agree
   explicit TransmittedHardware(ActuatorHardware hardware, const Gearing<Transmissions>&... gearings)
     requires DescribedRobot<R>
       : TransmittedHardware(R(), std::move(hardware), gearings...) {}
@@ -96,8 +97,9 @@ class TransmittedHardware : public detail::HardwareAdapter<ActuatorHardware> {
     return status;
   }
 
-  /// Converts a command to the actuators, limits it to their limits, and writes it. The total effort
-  /// of springs and dampers at the actuators' last state keeps the limit, too, see limit_total.
+  /// Converts a command to the actuators, limits it to their limits, and writes it. The total
+  /// effort of springs and dampers at the actuators' last state keeps the limit, too, see
+  /// limit_total.
   /// @param command  for the joints
   /// @return         as the actuators' hardware, which also refuses what is not finite
   /// Real-time: yes, if the actuators' write is.

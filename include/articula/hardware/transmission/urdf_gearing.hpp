@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file Transmissions with the parameters of a URDF. Needs the CMake target articula::urdf (urdfdom).
+/// @file Transmissions with the parameters of a URDF. Needs the CMake target articula::urdf
+/// (urdfdom).
 #pragma once
 
 #include "articula/core/refuse.hpp"
@@ -17,10 +18,10 @@
 
 namespace articula {
 
-/// The gearing of a URDF's <transmission>. Joints and actuators are sorted by their roles ("joint1",
-/// "actuator2"); without roles they keep the order of the file. The reduction of a simple
-/// transmission is that of its actuator (ROS 1) times that of its joint (ros2_control). The type in
-/// the file may be unknown, but not another one of the three known types.
+/// The gearing of a URDF's <transmission>. Joints and actuators are sorted by their roles
+/// ("joint1", "actuator2"); without roles they keep the order of the file. The reduction of a
+/// simple transmission is that of its actuator (ROS 1) times that of its joint (ros2_control). The
+/// type in the file may be unknown, but not another one of the three known types.
 ///
 ///     TransmittedHardware<Drives, Arm, SimpleTransmission, ...> arm(
 ///         Drives(), gearing_of<SimpleTransmission>(urdf, "shoulder_transmission"), ...);

@@ -68,8 +68,8 @@ class EventRing {
   }
 
  private:
-  // The counters never return to 0; their difference is right even after an overflow. Each side has a
-  // cache line of its own, so that the threads do not slow each other down.
+  // The counters never return to 0; their difference is right even after an overflow. Each side has
+  // a cache line of its own, so that the threads do not slow each other down.
   alignas(64) Atomic<std::size_t> tail_ = 0;  ///< values pushed so far
   Atomic<std::uint64_t> dropped_ = 0;         ///< written by the pushing thread alone
   alignas(64) Atomic<std::size_t> head_ = 0;  ///< values popped so far

@@ -64,8 +64,8 @@ class LatestValue {
   static constexpr unsigned index = 3;  ///< bits that number a slot
   static constexpr unsigned fresh = 4;  ///< the shared slot was written after the last take-over
 
-  // Each slot and each index has a cache line of its own, 64 bytes on x86-64 and ARM. So the threads
-  // do not slow each other down.
+  // Each slot and each index has a cache line of its own, 64 bytes on x86-64 and ARM. So the
+  // threads do not slow each other down.
   struct alignas(64) Slot {
     T value{};
   };

@@ -10,12 +10,13 @@
 
 namespace articula {
 
-/// A clock by which the hardware paces the loop: a cycle of the loop begins with a cycle of the bus.
+/// A clock by which the hardware paces the loop: a cycle of the loop begins with a cycle of the
+/// bus.
 ///
 /// - A cycle of the bus counts if it begins within half a period of its due time. It must begin at
 ///   least half a period after the last one, too.
-/// - If none begins by then, the loop's cycle begins without it, half a period late, so that the loop
-///   can detect the loss. The next one is due a period later.
+/// - If none begins by then, the loop's cycle begins without it, half a period late, so that the
+///   loop can detect the loss. The next one is due a period later.
 ///
 /// So the loop finds the pace of the bus again after any interruption.
 /// @tparam HardwareType  satisfies PacingHardware

@@ -12,8 +12,8 @@
 
 namespace articula {
 
-/// During its lifetime, SIGINT (Ctrl-C) and SIGTERM raise a stop flag. Its end restores the previous
-/// signal handlers. A program has at most one at a time:
+/// During its lifetime, SIGINT (Ctrl-C) and SIGTERM raise a stop flag. Its end restores the
+/// previous signal handlers. A program has at most one at a time:
 ///
 ///     StopFlag stop;
 ///     StopOnSignal on_signal(stop);

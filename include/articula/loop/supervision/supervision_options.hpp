@@ -14,8 +14,8 @@ namespace articula {
 /// safe_command gives.
 enum class SafeBehaviour : unsigned char {
   hold,  ///< The controller holds the position of that moment; if it is to blame itself: damp.
-  damp,  ///< Carried against gravity, the motion decays; see damping_effort. A controller that keeps
-         ///< limits, as Limited does, holds instead.
+  damp,  ///< Carried against gravity, the motion decays; see damping_effort. A controller that
+         ///< keeps limits, as Limited does, holds instead.
   zero_effort,  ///< No effort, and zero velocity or the last position from drives that take these.
                 ///< A moving arm coasts, also beyond the limits of a Limited.
 };

@@ -34,12 +34,12 @@ struct NamedTrajectory {
 template <int N>
 struct ArrangeOptions {
   TrajectoryOptions trajectory{};
-  /// Joints that are not named are left out (Trajectory::leave_out): under a TrajectoryFollower they
-  /// continue their present motion. In the points they stay at the position of `from`, or at the limit
-  /// next to it. Otherwise a joint that is not named is an error.
+  /// Joints that are not named are left out (Trajectory::leave_out): under a TrajectoryFollower
+  /// they continue their present motion. In the points they stay at the position of `from`, or at
+  /// the limit next to it. Otherwise a joint that is not named is an error.
   bool allow_partial_joints = false;
-  /// Missing positions (and velocities) are integrated from velocities (and accelerations) by Heun's
-  /// method, beginning at `from` at time 0. Otherwise missing positions are an error.
+  /// Missing positions (and velocities) are integrated from velocities (and accelerations) by
+  /// Heun's method, beginning at `from` at time 0. Otherwise missing positions are an error.
   bool allow_integration = false;
   /// The present reference; required for joints that are left out and for integration. Spline
   /// velocities begin there.

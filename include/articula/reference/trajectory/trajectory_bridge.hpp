@@ -27,7 +27,8 @@ struct TrajectoryBridge {
 
 /// Finds the bridge into a trajectory.
 ///
-/// - From rest, it is the segment from a point at rest to the trajectory's next point (interpolate).
+/// - From rest, it is the segment from a point at rest to the trajectory's next point
+///   (interpolate).
 /// - From motion, it is a quintic. It ends with the velocity and acceleration that the trajectory
 ///   has from that point on, even if the point does not specify them.
 /// - A point is too close if the bridge to it would exceed the velocity limit on average. It also

@@ -80,8 +80,8 @@ class TrajectoryFollower {
       : TrajectoryFollower(R(), position, limits, options) {}
 
   /// Starts a trajectory. It replaces the one that is being followed or waits.
-  /// @param start_time  the trajectory's time 0 on the clock of sample() [s]. `now`: the time of the
-  ///                    last sample if the reference moves, of the next one if it rests. In the
+  /// @param start_time  the trajectory's time 0 on the clock of sample() [s]. `now`: the time of
+  ///                    the last sample if the reference moves, of the next one if it rests. In the
   ///                    future: the present trajectory continues until then. In the past: points
   ///                    that lie in the past are skipped.
   /// @return            active, or the reason for a refusal, which changes nothing; refusal() has
@@ -118,7 +118,8 @@ class TrajectoryFollower {
   }
 
   /// Goes on from the reference of another source: drops what was followed, and begins the fastest
-  /// stop. A trajectory that is started then begins from there, without a jump, at the requested speed.
+  /// stop. A trajectory that is started then begins from there, without a jump, at the requested
+  /// speed.
   /// @param reference  finite
   /// @param time       of that reference, on the clock of sample() [s]
   /// Real-time: yes. O(N).
@@ -164,8 +165,8 @@ class TrajectoryFollower {
     return reference();
   }
 
-  /// Compares a measured state with the last sample. Call it once for each sample. Before the end of
-  /// the trajectory, a joint outside its path tolerance aborts it. After the end, the trajectory
+  /// Compares a measured state with the last sample. Call it once for each sample. Before the end
+  /// of the trajectory, a joint outside its path tolerance aborts it. After the end, the trajectory
   /// succeeds once all joints are within the goal tolerances, and fails after goal_time. NaN is out
   /// of tolerance.
   /// @param state  measured at the time of the last sample; position and velocity are used

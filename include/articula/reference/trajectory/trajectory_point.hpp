@@ -51,7 +51,8 @@ template <int N>
 
 namespace detail {
 
-/// The polynomial of one joint, see segment_polynomial(). Vectors of N joints take longer to compile.
+/// The polynomial of one joint, see segment_polynomial(). Vectors of N joints take longer to
+/// compile.
 /// @param a, b           the points, with velocities times T and accelerations times T^2
 /// @param velocities     whether both points have them
 /// @param accelerations  likewise
@@ -75,8 +76,8 @@ namespace detail {
 
 }  // namespace detail
 
-/// The position between two points a and b as a polynomial in s = t / T. Here t is the time since a,
-/// and T the duration. The values that both points have determine the degree, as in ROS's joint
+/// The position between two points a and b as a polynomial in s = t / T. Here t is the time since
+/// a, and T the duration. The values that both points have determine the degree, as in ROS's joint
 /// trajectory controller:
 ///
 /// - position alone: the straight line,

@@ -14,8 +14,8 @@
 
 namespace articula {
 
-/// The largest deviations of N joints, in both directions. 0 is not checked. These are parameters of
-/// ROS's joint trajectory controller: constraints.<joint>.trajectory, constraints.<joint>.goal,
+/// The largest deviations of N joints, in both directions. 0 is not checked. These are parameters
+/// of ROS's joint trajectory controller: constraints.<joint>.trajectory, constraints.<joint>.goal,
 /// constraints.stopped_velocity_tolerance and constraints.goal_time.
 template <int N>
 struct TrajectoryTolerances {

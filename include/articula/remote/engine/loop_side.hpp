@@ -22,8 +22,8 @@
 namespace articula::remote {
 
 /// The part of a Remote that runs in the loop's thread: takes tasks, makes the reference, makes the
-/// loop's cycles and publishes them. It never waits for the outside: all that passes between them is
-/// in rings.
+/// loop's cycles and publishes them. It never waits for the outside: all that passes between them
+/// is in rings.
 /// @tparam LoopType  a ControlLoop or SupervisedControlLoop
 template <class LoopType>
 class LoopSide {
@@ -188,8 +188,8 @@ class LoopSide {
                          .overruns = overruns_});
   }
 
-  /// Hands over what has changed, and then the tasks that have ended, so that who has an answer sees
-  /// its effect.
+  /// Hands over what has changed, and then the tasks that have ended, so that who has an answer
+  /// sees its effect.
   void tell() noexcept {
     const LoopCondition<joint_count> now{modes_.mode(),
                                          modes_.fault(),

@@ -10,8 +10,8 @@
 
 namespace articula::remote {
 
-/// What only a simulation can do. Of other loops, each period has one cycle, and none of these tasks
-/// come. In the loop's thread. Real-time: yes.
+/// What only a simulation can do. Of other loops, each period has one cycle, and none of these
+/// tasks come. In the loop's thread. Real-time: yes.
 /// @tparam LoopType  a ControlLoop or SupervisedControlLoop
 template <class LoopType>
 class SimulationControl {

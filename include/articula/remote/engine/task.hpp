@@ -107,8 +107,8 @@ enum class TaskEnd : unsigned char {
   loop_left_active,  ///< The loop became inactive, or went into the fault Task::status.
 };
 
-/// A request on its way through the loop. The outside owns it, and leaves it alone until the loop has
-/// given it back.
+/// A request on its way through the loop. The outside owns it, and leaves it alone until the loop
+/// has given it back.
 template <Robot R>
 struct Task {
   static constexpr int joint_count = articula::joint_count<R>;

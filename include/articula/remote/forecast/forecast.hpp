@@ -60,8 +60,8 @@ class Forecast {
   /// @param gains     all gains of the loop
   /// @param controllers  all controllers of the loop
   /// @param question  for what
-  /// @throws std::invalid_argument if a gain or an option is not valid, or this loop has no futures;
-  ///         the message has the reason
+  /// @throws std::invalid_argument if a gain or an option is not valid, or this loop has no
+  ///         futures; the message has the reason
   /// Real-time: no (allocates, throws).
   [[nodiscard]] FuturesAnswer answer(
       [[maybe_unused]] const Record& now, [[maybe_unused]] const std::vector<Parameter>& gains,

@@ -140,8 +140,8 @@ template <Robot R>
 /// @param now       the last cycle of the loop
 /// @param question  with options that `validate` accepts
 /// @param period    of the loop [s]
-/// @throws std::invalid_argument naming what the question lacks or has too much of, a joint that the
-///         robot has not, or a step beyond a limit
+/// @throws std::invalid_argument naming what the question lacks or has too much of, a joint that
+///         the robot has not, or a step beyond a limit
 /// Real-time: no (allocates, throws).
 template <Robot R, class Command>
 [[nodiscard]] FutureStart<Command> future_start(const R& robot,

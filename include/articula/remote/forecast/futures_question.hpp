@@ -22,8 +22,8 @@ struct FuturesState {
   std::vector<double> effort{};    ///< [N m or N]
 };
 
-/// A reference. Each vector has a number for each joint; all but that of the positions may be empty,
-/// which means 0.
+/// A reference. Each vector has a number for each joint; all but that of the positions may be
+/// empty, which means 0.
 struct FuturesReference {
   std::vector<double> position{};      ///< [rad or m]
   std::vector<double> velocity{};      ///< [rad/s or m/s]
@@ -59,8 +59,8 @@ struct FuturesQuestion {
   /// Where the futures begin. Without it: at the last cycle of the loop, which must be active.
   std::optional<FuturesState> start{};
   /// With a start: the recorded cycles before it, at least one, the last one a period before the
-  /// start. From them the controller gets its memory. Begin them with a cycle in which no drive is at
-  /// its limit: the command of that one tells what the integrals are.
+  /// start. From them the controller gets its memory. Begin them with a cycle in which no drive is
+  /// at its limit: the command of that one tells what the integrals are.
   std::vector<FuturesCycle> history{};
   /// What the futures follow, from their start on, at equal distances of time. It is linear between
   /// them. The last one is held with velocity and acceleration 0. Empty: the loop's present

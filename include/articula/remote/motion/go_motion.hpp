@@ -100,8 +100,8 @@ class GoMotion {
   [[nodiscard]] const Vector& target() const noexcept { return target_; }
 
  private:
-  /// Whether no joint exceeds its velocity limit while its acceleration fades. Trajectories may have
-  /// accelerated harder. A stop then drops the acceleration.
+  /// Whether no joint exceeds its velocity limit while its acceleration fades. Trajectories may
+  /// have accelerated harder. A stop then drops the acceleration.
   [[nodiscard]] bool keeps_velocity(const Reference& from) const noexcept {
     for (int j = 0; j < joint_count; ++j) {
       const double v = from.velocity[j], a = from.acceleration[j];

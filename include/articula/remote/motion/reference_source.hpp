@@ -15,10 +15,11 @@
 namespace articula::remote {
 
 /// The sources of a loop's reference: a profile, a setting, a stop, signals, and some trajectories.
-/// Each joint follows one of them, or rests. A request moves the joints that it names, and the others
-/// go on. Signals and trajectories end as a whole: if another request takes one of their joints, the
-/// rest of them stop. Each motion begins at the present reference, in motion or not, so the reference
-/// does not jump. The exceptions are requests for a jump: a setting, a step, a square.
+/// Each joint follows one of them, or rests. A request moves the joints that it names, and the
+/// others go on. Signals and trajectories end as a whole: if another request takes one of their
+/// joints, the rest of them stop. Each motion begins at the present reference, in motion or not, so
+/// the reference does not jump. The exceptions are requests for a jump: a setting, a step, a
+/// square.
 ///
 /// In the loop's thread. Real-time: yes, all functions but the constructor.
 template <Robot R>
@@ -191,7 +192,8 @@ class ReferenceSource {
     return reference;
   }
 
-  /// Compares the state that was measured for the last reference with the tolerances of trajectories.
+  /// Compares the state that was measured for the last reference with the tolerances of
+  /// trajectories.
   void check(const JointState<joint_count>& state) noexcept {
     for (int source = first_follower; source < source_count; ++source) {
       if (!leads(source)) continue;
@@ -207,8 +209,8 @@ class ReferenceSource {
     return source < first_follower ? kinds[source] : MotionKind::trajectory;
   }
 
-  /// The follower for a trajectory of some joints: that of just these joints, if there is one, so that
-  /// its present trajectory goes on until the new one begins. Otherwise one that has no joint.
+  /// The follower for a trajectory of some joints: that of just these joints, if there is one, so
+  /// that its present trajectory goes on until the new one begins. Otherwise one that has no joint.
   /// @return none if there would be more trajectories at once than are possible
   [[nodiscard]] int source_for(const Joints& joints) const noexcept {
     int unused = none, others = 0;
@@ -241,8 +243,8 @@ class ReferenceSource {
     return here;
   }
 
-  /// A reference without the efforts that signals have added to it. What they have added to positions
-  /// stays, since a joint cannot jump.
+  /// A reference without the efforts that signals have added to it. What they have added to
+  /// positions stays, since a joint cannot jump.
   [[nodiscard]] Reference without_signals(Reference from) const noexcept {
     for (int j = 0; j < joint_count; ++j) {
       if (sources_.of(j) == signals) from.effort[j] = signals_.around().effort[j];

@@ -7,8 +7,8 @@
 
 namespace articula::remote {
 
-/// Signals around a reference. Joints that move stop first. In the loop's thread. Real-time: yes, all
-/// functions but the constructor.
+/// Signals around a reference. Joints that move stop first. In the loop's thread. Real-time: yes,
+/// all functions but the constructor.
 template <Robot R>
 class SignalMotion {
  public:

@@ -23,8 +23,8 @@ namespace articula::ros2 {
 ///       bridge.update(std::chrono::system_clock::now().time_since_epoch());
 ///     }
 ///
-/// All requests pass the checks of the port and take its controls, as those of other clients. In the
-/// thread that polls the transport. Real-time: no (allocates, locks).
+/// All requests pass the checks of the port and take its controls, as those of other clients. In
+/// the thread that polls the transport. Real-time: no (allocates, locks).
 class BridgeNodes {
  public:
   /// @param port       outlives the bridge

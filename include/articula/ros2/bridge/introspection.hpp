@@ -15,8 +15,8 @@
 
 namespace articula::ros2 {
 
-/// Numbers by name, as three topics: `names`, `values` in their order, and `full` with both. Names are
-/// sent once, to late readers, too. Values are sent while somebody reads them.
+/// Numbers by name, as three topics: `names`, `values` in their order, and `full` with both. Names
+/// are sent once, to late readers, too. Values are sent while somebody reads them.
 class NumberTopics {
  public:
   /// @param name   of the topics, before "/names"

@@ -15,8 +15,8 @@
 
 namespace articula::ros2 {
 
-/// Publishes joint_states and dynamic_joint_states as a joint_state_broadcaster; /tf, /tf_static and
-/// robot_description as a robot_state_publisher; /clock if ROS has the loop's time.
+/// Publishes joint_states and dynamic_joint_states as a joint_state_broadcaster; /tf, /tf_static
+/// and robot_description as a robot_state_publisher; /clock if ROS has the loop's time.
 /// Real-time: no (allocates).
 class RobotTopics {
  public:

@@ -48,8 +48,8 @@ enum class StatesMessage : unsigned char {
 ///
 /// - A message of which a part is wrong is refused as a whole. NaN and infinity are wrong in
 ///   positions, and infinity in velocities and efforts.
-/// - A velocity that is missing or NaN is the difference of two positions over that of their stamps.
-///   Without stamps, arrivals are used.
+/// - A velocity that is missing or NaN is the difference of two positions over that of their
+///   stamps. Without stamps, arrivals are used.
 /// - An effort that is missing or NaN is 0.
 /// @tparam N  number of joints
 template <int N>

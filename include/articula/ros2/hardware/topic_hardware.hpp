@@ -29,8 +29,8 @@ namespace articula::ros2 {
 ///   kind is filled. Each `write` replaces the command that was not sent yet. In contrast to the
 ///   plugin, a command near the measured position is sent as well.
 /// - `read` and `write` exchange figures with the transport's thread, wait-free. They do not block.
-/// - A joint that is silent for `silent_after` is a fault, which lasts until `activate`. In a fault and
-///   at the end the joints get no effort, no velocity, or the position where they are.
+/// - A joint that is silent for `silent_after` is a fault, which lasts until `activate`. In a fault
+///   and at the end the joints get no effort, no velocity, or the position where they are.
 /// - If `write` is not called for `command_deadline`, the transport's thread sends that stop.
 /// - A simulator that does not run in real time needs TopicHardwareOptions::clock_topic. Nothing is
 ///   then older than by its time, and `clock` paces the loop.
@@ -124,8 +124,8 @@ class TopicHardware {
     if (mode_ == Mode::inactive) return Status::inactive;
     return age >= stale_after_ ? Status::stale_state : Status::ok;
   }
-  /// Hands a command to the transport's thread. After a fault it is the stop instead, while inactive
-  /// there is none.
+  /// Hands a command to the transport's thread. After a fault it is the stop instead, while
+  /// inactive there is none.
   /// @param command  if it is not finite, the stop is sent instead
   /// @return         Status::ok; Status::non_finite_command; Status::hardware_fault after a fault;
   ///                 Status::inactive

@@ -25,8 +25,8 @@ struct TopicHardwareOptions {
   double silent_after = 0.5;      ///< age from which a joint is silent, which is a fault [s]
   double set_up_time = 5;         ///< longest wait for a state of each joint at activation [s]
   double command_deadline = 0.1;  ///< time without `write` after which a stop is sent [s]
-  /// in: rosgraph_msgs/msg/Clock, as /clock, of a simulator: nothing is then older than by its time.
-  /// Empty: the times above are those of this host alone.
+  /// in: rosgraph_msgs/msg/Clock, as /clock, of a simulator: nothing is then older than by its
+  /// time. Empty: the times above are those of this host alone.
   std::string clock_topic{};
   Distribution distribution = Distribution::jazzy;  ///< of the ROS programs in the domain
   std::string node{};  ///< name of the node; empty: topic_based_ros2_control_ and the robot's

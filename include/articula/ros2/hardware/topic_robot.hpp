@@ -36,8 +36,8 @@ namespace articula::ros2 {
 ///                                         ros2::FastDdsOptions{}, ros2::Distribution::jazzy));
 ///     remote.run(clock);
 ///
-/// - A command is a sensor_msgs/msg/JointState with some of the joints. Its fields position, velocity
-///   and effort are taken as far as the loop commands them. NaN leaves a joint as it is.
+/// - A command is a sensor_msgs/msg/JointState with some of the joints. Its fields position,
+///   velocity and effort are taken as far as the loop commands them. NaN leaves a joint as it is.
 /// - A command becomes the request SetReference. So it keeps the robot's limits, and it needs the
 ///   controls of the port.
 /// - States and /clock have the loop's time, which begins at 0. They come after each poll in which

@@ -23,8 +23,8 @@ struct TopicRobotOptions {
   Distribution distribution = Distribution::jazzy;  ///< of the ROS programs in the domain
   std::string node{};                               ///< name of the node; empty: the robot's
   std::string name_space{};                         ///< of the node, as "/left"; empty: none
-  /// Receives a line for commands that the robot refuses, at most one a second. It must not call the
-  /// TopicRobot.
+  /// Receives a line for commands that the robot refuses, at most one a second. It must not call
+  /// the TopicRobot.
   std::function<void(const std::string&)> warn{};
 };
 

@@ -18,7 +18,8 @@
 namespace articula::ros2::detail {
 
 /// Polls a transport and calls a function after each poll, at least every millisecond or so, and
-/// once more at its end. An exception ends it early; then it calls another function, if there is one.
+/// once more at its end. An exception ends it early; then it calls another function, if there is
+/// one.
 class TopicThread {
  public:
   /// @throws std::invalid_argument if the transport is null

@@ -13,8 +13,8 @@ struct TopicTime {
   friend constexpr auto operator<=>(const TopicTime&, const TopicTime&) = default;
 };
 
-/// How old something is, by the clock in which it is younger. So nothing grows old while a simulator
-/// is paused or slow, nor in the moment at which its clock has made a long step.
+/// How old something is, by the clock in which it is younger. So nothing grows old while a
+/// simulator is paused or slow, nor in the moment at which its clock has made a long step.
 /// Real-time: yes.
 [[nodiscard]] constexpr std::chrono::nanoseconds age(const TopicTime& now,
                                                      const TopicTime& then) noexcept {

@@ -23,8 +23,8 @@ struct GoalEntry {
   std::chrono::nanoseconds ended{0};     ///< when it was, if it has
 };
 
-/// The goals that an action server has accepted, with the rules of ROS's action servers for canceling
-/// them and for forgetting ended ones. Real-time: no (allocates).
+/// The goals that an action server has accepted, with the rules of ROS's action servers for
+/// canceling them and for forgetting ended ones. Real-time: no (allocates).
 class GoalBook {
  public:
   using Status = action_msgs::msg::GoalStatus;

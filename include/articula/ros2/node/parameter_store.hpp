@@ -28,8 +28,8 @@ class ParameterStore {
   virtual ~ParameterStore() = default;
   /// All parameters.
   [[nodiscard]] virtual std::vector<NodeParameter> list() = 0;
-  /// Changes values, all of them or none. They are of parameters that exist, of their types, and not
-  /// read-only.
+  /// Changes values, all of them or none. They are of parameters that exist, of their types, and
+  /// not read-only.
   virtual void set(const NamedValues& values, OnSet on_set) = 0;
 };
 

@@ -12,7 +12,8 @@
 
 namespace articula::ros2 {
 
-/// A time or duration as a message has it. Beyond 68 years it is the last one that a message can have.
+/// A time or duration as a message has it. Beyond 68 years it is the last one that a message can
+/// have.
 /// @tparam T  builtin_interfaces::msg::Time or Duration
 /// Real-time: yes, likewise all functions of this header.
 template <class T>

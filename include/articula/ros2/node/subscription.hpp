@@ -11,8 +11,8 @@
 
 namespace articula::ros2 {
 
-/// Calls function(message) for each message of a topic, until transport or context end. Bytes that are
-/// no message of the type are dropped and counted in Context::dropped.
+/// Calls function(message) for each message of a topic, until transport or context end. Bytes that
+/// are no message of the type are dropped and counted in Context::dropped.
 /// @tparam M    message
 /// @param name  of the topic, see Node::full_name
 /// Real-time: no (allocates).

@@ -14,7 +14,8 @@
 
 namespace articula::detail {
 
-/// Chunks as bytes for MPI, and back: number of the first run, number of runs, rows as doubles, lines.
+/// Chunks as bytes for MPI, and back: number of the first run, number of runs, rows as doubles,
+/// lines.
 struct ChunkPacking {
   const Samples& samples;
   std::size_t metrics;

@@ -93,8 +93,8 @@ class Hdf5Column {
 
 /// Copies the rows of SweepCsv into an HDF5 file: a dataset for each column, with its unit as an
 /// attribute. /run and /seed are unsigned, /end is 0 (stable), 1 (unstable), 2 (non_finite) or
-/// 3 (refused). HDF5 does not survive a crash while it writes; so rows are written as CSV, and copied
-/// in the end.
+/// 3 (refused). HDF5 does not survive a crash while it writes; so rows are written as CSV, and
+/// copied in the end.
 /// @param csv         of a SweepCsv
 /// @param parameters  of the sweep
 /// @param metrics     of the sweep

@@ -9,8 +9,8 @@
 
 namespace articula {
 
-/// Counts of classes -100 000 .. 100 000. It keeps a count for each class between the lowest and the
-/// highest one that occurs.
+/// Counts of classes -100 000 .. 100 000. It keeps a count for each class between the lowest and
+/// the highest one that occurs.
 class ClassCounts {
  public:
   static constexpr std::int32_t most = 100'000;  ///< the highest class

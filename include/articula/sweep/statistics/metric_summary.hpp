@@ -14,9 +14,9 @@
 
 namespace articula {
 
-/// A metric over many runs: extremes, mean and quantiles. A metric that is not finite is undefined in
-/// this run, such as the settling time of a joint that does not settle. Summaries of parts merge to
-/// the summary of all, with the same bits in any order.
+/// A metric over many runs: extremes, mean and quantiles. A metric that is not finite is undefined
+/// in this run, such as the settling time of a joint that does not settle. Summaries of parts merge
+/// to the summary of all, with the same bits in any order.
 struct MetricSummary {
   std::uint64_t undefined = 0;  ///< runs in which it is not finite
   double lowest = std::numeric_limits<double>::infinity();

@@ -13,8 +13,8 @@ namespace articula {
 /// Counts numbers in classes of equal ratio. A quantile has a relative error of at most `accuracy`,
 /// or an absolute error of `zero`. Sketches of parts merge to the sketch of all: counts add up, in
 /// any order.
-/// Source: Masson, Rim, Lee: DDSketch: a fast and fully-mergeable quantile sketch with relative-error
-/// guarantees, VLDB 2019.
+/// Source: Masson, Rim, Lee: DDSketch: a fast and fully-mergeable quantile sketch with
+/// relative-error guarantees, VLDB 2019.
 class QuantileSketch {
  public:
   static constexpr double accuracy = 0.005;  ///< relative [1]

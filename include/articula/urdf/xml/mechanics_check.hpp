@@ -20,10 +20,10 @@
 
 namespace articula::detail {
 
-/// Checks the attributes of a link or joint and of all elements in it. None may hold a placeholder of
-/// xacro or of a template tool. Those which urdfdom reads as numbers must have the characters of
-/// numbers. Some versions of urdfdom, such as 3.0, use a refused text as a format of printf: a mass of
-/// "%s%s" would crash the program.
+/// Checks the attributes of a link or joint and of all elements in it. None may hold a placeholder
+/// of xacro or of a template tool. Those which urdfdom reads as numbers must have the characters of
+/// numbers. Some versions of urdfdom, such as 3.0, use a refused text as a format of printf: a mass
+/// of "%s%s" would crash the program.
 /// @param owner  the link or joint, for the message
 /// @throws FileError with the element, the attribute and the text
 inline void check_attributes(const std::string& file, const std::string& owner,

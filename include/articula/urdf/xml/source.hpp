@@ -27,7 +27,8 @@ class UrdfSource : public detail::TextSource {
                    is_xml(file_or_xml) ? std::optional<std::string>(file_or_xml) : std::nullopt) {}
 
   /// The XML.
-  /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL character
+  /// @throws FileError if the file cannot be read, is larger than `capacity`, or has a NUL
+  ///         character
   /// Real-time: no (reads a file).
   [[nodiscard]] std::string text() const { return read(capacity); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The parts of a client's messages, and the messages whose meaning does not depend on earlier
-/// ones.
+/// @file The parts of a client's messages, and the messages whose meaning does not depend on
+/// earlier ones.
 #pragma once
 
 #include "articula/view/protocol/action.hpp"

@@ -20,8 +20,8 @@
 
 namespace articula::view {
 
-/// Answers the requests of one connection, until it closes or becomes a WebSocket. It takes requests
-/// for ten seconds, so that no connection stays for ever.
+/// Answers the requests of one connection, until it closes or becomes a WebSocket. It takes
+/// requests for ten seconds, so that no connection stays for ever.
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
   using Request = boost::beast::http::request<boost::beast::http::empty_body>;

@@ -9,8 +9,8 @@
 
 namespace articula::view {
 
-/// A text from outside that a terminal may print: control characters, which terminals obey, and bytes
-/// that are not UTF-8 are question marks. White space around it is left out.
+/// A text from outside that a terminal may print: control characters, which terminals obey, and
+/// bytes that are not UTF-8 are question marks. White space around it is left out.
 [[nodiscard]] inline std::string printable(std::string_view text) {
   std::string result;
   for (text = articula::detail::trimmed(text); !text.empty();) {

@@ -19,9 +19,9 @@ namespace articula::ros2 {
 
 /// The topics of a controller:
 ///
-/// - in: ~/commands, a number for each joint; ~/<joint>/command, one for a joint; ~/reference, a point for all joints;
-///   ~/joint_trajectory. They are taken while the controller is active. ~/speed_scaling_input,
-///   except in Humble;
+/// - in: ~/commands, a number for each joint; ~/<joint>/command, one for a joint; ~/reference, a
+///   point for all joints; ~/joint_trajectory. They are taken while the controller is active.
+///   ~/speed_scaling_input, except in Humble;
 /// - out: ~/controller_state, as joint_trajectory_controller publishes it, in Humble also ~/state;
 /// - the service ~/query_state, which gives the reference at a time that has passed.
 ///

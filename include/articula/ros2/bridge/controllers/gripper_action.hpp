@@ -12,11 +12,12 @@ namespace articula::ros2 {
 /// Moves a gripper's joint as the action servers of ros2_controllers do: GripperCommand, or
 /// ParallelGripperCommand if the controller's type is a parallel gripper's.
 ///
-/// - The reference goes to the position within the loop's limits of velocity, acceleration and jerk.
-///   A velocity of the command lowers the velocity.
+/// - The reference goes to the position within the loop's limits of velocity, acceleration and
+///   jerk. A velocity of the command lowers the velocity.
 /// - The goal ends when the joint is within goal_tolerance, or has been stalled for stall_timeout.
 /// - A new goal replaces the last one. A canceled goal leaves the joint where it is.
-/// - A loop has no limit of effort for one goal. So a max_effort below the joint's limit is refused.
+/// - A loop has no limit of effort for one goal. So a max_effort below the joint's limit is
+///   refused.
 ///
 /// @param core        outlives it
 /// @param node        the controller's, likewise

@@ -33,8 +33,8 @@ struct BridgeOptions {
   double result_lifetime = 10;        ///< of a goal after its end [s]
   /// Stamps have the loop's time, which is published as /clock: for nodes with use_sim_time.
   bool use_sim_time = false;
-  /// With use_sim_time: stamps have the time of this topic, as /clock of another simulator. It is then
-  /// not published.
+  /// With use_sim_time: stamps have the time of this topic, as /clock of another simulator. It is
+  /// then not published.
   std::string clock_topic{};
   /// The types that clients see. MoveIt and rqt choose by them what they offer.
   std::string controller_type = "joint_trajectory_controller/JointTrajectoryController";

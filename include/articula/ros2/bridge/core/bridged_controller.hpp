@@ -74,8 +74,8 @@ struct BridgedController {
   return gripper;
 }
 
-/// The controllers of a port, with the joints that the options name. Otherwise one with gains commands
-/// the joints of its gains, and others command all. A gripper's commands one.
+/// The controllers of a port, with the joints that the options name. Otherwise one with gains
+/// commands the joints of its gains, and others command all. A gripper's commands one.
 /// @throws std::invalid_argument as gripper_of and indices_of
 /// Real-time: no (allocates).
 [[nodiscard]] inline std::vector<BridgedController> bridged_controllers(

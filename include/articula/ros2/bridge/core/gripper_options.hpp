@@ -26,7 +26,8 @@ struct GripperOptions {
 [[nodiscard]] inline bool is_gripper(std::string_view type) noexcept {
   return type.ends_with("/GripperActionController");
 }
-/// Whether the action of a gripper's type is ParallelGripperCommand. Otherwise it is GripperCommand.
+/// Whether the action of a gripper's type is ParallelGripperCommand. Otherwise it is
+/// GripperCommand.
 [[nodiscard]] inline bool is_parallel_gripper(std::string_view type) noexcept {
   return type == "parallel_gripper_action_controller/GripperActionController";
 }

@@ -15,10 +15,10 @@
 
 namespace articula::ros2 {
 
-/// Hands the requests of ROS's clients to a loop and their answers back. All of them are one operator
-/// to the loop, with the same checks as others. It keeps the controls while requests or trajectories
-/// are going on, and releases them some time later. In the thread that polls the transport.
-/// Real-time: no (allocates, locks).
+/// Hands the requests of ROS's clients to a loop and their answers back. All of them are one
+/// operator to the loop, with the same checks as others. It keeps the controls while requests or
+/// trajectories are going on, and releases them some time later. In the thread that polls the
+/// transport. Real-time: no (allocates, locks).
 class LoopOperator {
  public:
   using OnAnswer = std::function<void(const remote::Answer&)>;

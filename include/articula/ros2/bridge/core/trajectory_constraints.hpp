@@ -11,7 +11,8 @@
 
 namespace articula::ros2 {
 
-/// The constraints of a joint_trajectory_controller, by its parameters' names. 0: as the loop has it.
+/// The constraints of a joint_trajectory_controller, by its parameters' names. 0: as the loop has
+/// it.
 struct TrajectoryConstraints {
   /// Of one joint.
   struct Joint {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The messages that a view publishes many times a second. Those in JSON are written without a JSON
-/// document in between, since a PR2 at 1 kHz has 400 000 numbers a second.
+/// @file The messages that a view publishes many times a second. Those in JSON are written without
+/// a JSON document in between, since a PR2 at 1 kHz has 400 000 numbers a second.
 #pragma once
 
 #include "articula/remote/cycle.hpp"
@@ -21,7 +21,8 @@ using WallTime = std::uint64_t;
 [[nodiscard]] std::string joint_states_message(const remote::RobotSheet& robot,
                                                const remote::Cycle& cycle, WallTime stamp);
 
-/// sensor_msgs/msg/JointState of ROS 2 in CDR: the measured state of a cycle, mimic joints included.
+/// sensor_msgs/msg/JointState of ROS 2 in CDR: the measured state of a cycle, mimic joints
+/// included.
 [[nodiscard]] std::string ros_states_message(const remote::RobotSheet& robot,
                                              const remote::Cycle& cycle, WallTime stamp);
 /// Likewise the reference of a cycle.

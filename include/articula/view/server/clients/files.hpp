@@ -22,8 +22,8 @@ inline constexpr std::size_t file_limit = 64 << 20;
 [[nodiscard]] std::optional<std::filesystem::path> file_in(const std::filesystem::path& folder,
                                                            std::string_view relative);
 
-/// The folder of the page: where the build made it, or beside the installed program. Empty if there is
-/// none.
+/// The folder of the page: where the build made it, or beside the installed program. Empty if there
+/// is none.
 [[nodiscard]] std::string page_folder();
 
 /// The contents of a file; null if it cannot be read or is larger than `file_limit`.
