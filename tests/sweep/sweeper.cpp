@@ -10,7 +10,7 @@
 #include <articula/sweep/jobs/resumable_sweep.hpp>
 #ifdef ARTICULA_TEST_MPI
 #include <articula/sweep/jobs/mpi_session.hpp>
-#include <articula/sweep/jobs/mpi_sweep.hpp>
+#include <articula/sweep/jobs/resumable_mpi_sweep.hpp>
 #endif
 
 #include <sys/resource.h>
@@ -84,17 +84,9 @@ int main(int count, char** words) try {
   const MpiSession mpi;
   if (count > 3 && arguments[3] == "--leave" && mpi.rank() == 0)
     throw std::runtime_error("no sweep");
-  if (mpi.rank() > 0) {
-    SweepResult none(chaos.metrics(), options);
-    continue_sweep_with_mpi(chaos, options, none);
-    return 0;
-  }
-  const SweepResult result = resumable_sweep_by(
-      chaos, options, files, {},
-      [&](const SweepOptions& all, SweepResult& so_far, const SweepHooks& hooks) {
-        mpi.is_active() ? continue_sweep_with_mpi(chaos, all, so_far, hooks)
-                        : continue_sweep(chaos, all, so_far, hooks);
-      });
+  const SweepResult result = mpi.is_active() ? resumable_sweep_with_mpi(chaos, options, files)
+                                             : resumable_sweep(chaos, options, files);
+  if (mpi.rank() > 0) return 0;
 #else
   const SweepResult result = resumable_sweep(chaos, options, files);
 #endif

@@ -13,7 +13,7 @@
 #endif
 #ifdef ARTICULA_PROGRAM_HAS_MPI
 #include <articula/sweep/jobs/mpi_session.hpp>
-#include <articula/sweep/jobs/mpi_sweep.hpp>
+#include <articula/sweep/jobs/resumable_mpi_sweep.hpp>
 #endif
 
 #include <CLI/CLI.hpp>
@@ -93,6 +93,12 @@ class SweepProgress {
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 std::string cell(double x) { return std::isfinite(x) ? shown(x) : "-"; }
+/// A quantile of the sketch, whose error is below 0.5 %.
+std::string quantile_cell(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", x);
+  return std::isfinite(x) ? text : "-";
+}
 
 /// The result as a table and as JSON; both end with the worst runs.
 void report(const Program& program, const SweepPlan& plan, const AnyExperiment& experiment,
@@ -108,7 +114,7 @@ void report(const Program& program, const SweepPlan& plan, const AnyExperiment& 
     Row row{name, unit, cell(summary.mean())};
     Json quantiles = Json::object();
     for (const double share : plan.quantiles) {
-      row.push_back(cell(summary.quantile(share)));
+      row.push_back(quantile_cell(summary.quantile(share)));
       quantiles[articula::detail::number_text(share)] = number(summary.quantile(share));
     }
     row.push_back(cell(summary.highest));
@@ -181,7 +187,7 @@ AnyExperiment checked_experiment(const SweepPlan& plan, const std::string& file)
 
 /// The sweep in this process and those of mpirun.
 void run_sweep(const Program& program, const SweepCall& call, bool is_distributed, bool is_first,
-               const auto& continues) {
+               const auto& sweeps) {
   SweepPlan plan = read_sweep(call.file, call.compiles);
   if (call.compiles) plan.compiled = compiled_experiment(plan);
   if (!call.output.empty()) plan.output = call.output;
@@ -196,8 +202,9 @@ void run_sweep(const Program& program, const SweepCall& call, bool is_distribute
   }
   const AnyExperiment experiment = checked_experiment(plan, call.file);
   if (!is_first) {
-    SweepResult none(experiment.metrics(), plan.options);
-    return continues(experiment, plan.options, none, articula::SweepHooks{});
+    static_cast<void>(
+        sweeps(experiment, plan.options, articula::SweepFiles{}, articula::SweepHooks{}));
+    return;
   }
   for (const std::string& note : plan.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   fs::create_directories(plan.output);
@@ -213,11 +220,8 @@ void run_sweep(const Program& program, const SweepCall& call, bool is_distribute
     progress->show(so_far.runs());
     return !stop.requested();
   };
-  const SweepResult result = articula::resumable_sweep_by(
-      experiment, plan.options, {folder / "rows.csv", folder / "checkpoint", 1, plan.text}, hooks,
-      [&](const auto& options, auto& so_far, const auto& own) {
-        continues(experiment, options, so_far, own);
-      });
+  const articula::SweepFiles files{folder / "rows.csv", folder / "checkpoint", 1, plan.text};
+  const SweepResult result = sweeps(experiment, plan.options, files, hooks);
   progress.reset();
   if (result.runs() < samples.runs()) {
     throw Refusal("stopped after " + std::to_string(result.runs()) + " of " +
@@ -235,15 +239,17 @@ void sweep(const Program& program, const SweepCall& call) {
   const articula::MpiSession mpi;
   if (mpi.is_active()) {
     try {
-      return run_sweep(program, call, true, mpi.rank() == 0,
-                       [](auto&&... all) { articula::continue_sweep_with_mpi(all...); });
+      return run_sweep(program, call, true, mpi.rank() == 0, [](const auto&... all) {
+        return articula::resumable_sweep_with_mpi(all...);
+      });
     } catch (const std::exception& error) {  // the other ranks would wait forever
       if (mpi.rank() == 0) std::fprintf(stderr, "articula: %s\n", error.what());
       mpi.abort(refused);
     }
   }
 #endif
-  run_sweep(program, call, false, true, [](auto&&... all) { articula::continue_sweep(all...); });
+  run_sweep(program, call, false, true,
+            [](const auto&... all) { return articula::resumable_sweep(all...); });
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class SweepReader {
 
   SweepPlan read() {
     ConfigMap map(root_, plan_.notes);
-    plan_.text = text_of(file_);
+    plan_.text = text_of_rows();
     const auto* experiment = map.require("experiment");
     const auto* vary = map.require("vary");
     for (const char* key :
@@ -64,7 +64,7 @@ class SweepReader {
       }
     }
     if (auto worst = map.find_map("worst")) {
-      if (const auto* metric = worst->require("metric")) {
+      if (const auto* metric = worst->find("metric")) {
         plan_.options.worst_metric = metric->name();
         plan_.names[metric->text] = metric->place;
       }
@@ -73,6 +73,7 @@ class SweepReader {
       }
       worst->finish();
     }
+    if (plan_.options.worst_metric.empty()) plan_.options.worst_metric = plan_.search.metric;
     if (const auto* node = map.find("quantiles")) read_quantiles(*node);
     if (auto plots = map.find_map("plots")) read_plots(*plots);
     plan_.output = fs::path(file_).replace_extension().string() + "_results";
@@ -85,9 +86,38 @@ class SweepReader {
   [[nodiscard]] std::string beside(const std::string& name) const {
     return (fs::path(file_).parent_path() / name).string();
   }
+  /// What decides the rows and is not in the checkpoint's options, without comments: plots and tables
+  /// may change.
+  [[nodiscard]] std::string text_of_rows() const {
+    std::string text;
+    for (const char* key : {"experiment", "controller", "allow_unphysical"}) {
+      if (const ConfigNode* node = root_.find(key)) add_text(text, *node);
+    }
+    return text;
+  }
+  static void add_text(std::string& text, const ConfigNode& node) {
+    text += node.key + ": " + node.text + " {";
+    for (const ConfigNode& item : node.items) add_text(text, item);
+    text += "}";
+  }
   [[nodiscard]] static std::string text_of(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
+  }
+
+  /// Refuses a name that no controller of the file has.
+  static void check_controller(const ConfigNode& node, const std::string& file) {
+    std::vector<std::string> names;
+    try {
+      for (const PlannedController& each : read_controllers(file).controllers) {
+        names.push_back(each.name);
+      }
+    } catch (const std::exception&) {
+      return;  // all of them do not go together; one may
+    }
+    if (std::ranges::find(names, node.name()) != names.end()) return;
+    node.refuse(file + " has no controller '" + articula::detail::shown(node.name()) + "'",
+                articula::detail::one_of_words(node.name(), names));
   }
 
   void read_robot(ConfigMap& map) {
@@ -100,6 +130,7 @@ class SweepReader {
     const std::string file = beside(controllers->word());
     ControllersPlan& read = plan_.controllers;
     if (controller != nullptr) {
+      check_controller(*controller, file);
       read = read_controllers(file, {controller->name()});
     } else {
       read = read_controllers(file);

@@ -63,6 +63,23 @@ std::string label(const AnyExperiment& experiment, const std::string& name) {
   return unit == "1" ? name : name + " [" + unit + "]";
 }
 
+/// The two edges of a run's cell in a grid, for gnuplot; empty if the column is none of its parameters.
+std::string cell_edges(const SweepPlan& plan, const std::string& name) {
+  const auto own = std::ranges::find_if(plan.vary, [&](const articula::Variation& each) {
+    return each.parameter().name == name && each.levels > 1;
+  });
+  if (plan.options.sampling.method != articula::SamplingMethod::grid || own == plan.vary.end()) {
+    return "";
+  }
+  const bool is_logarithmic = own->spacing == articula::Spacing::logarithmic;
+  const double steps = 2.0 * (own->levels - 1);
+  const std::string half = articula::detail::number_text(
+      is_logarithmic ? std::pow(own->high / own->low, 1 / steps) : (own->high - own->low) / steps);
+  const std::string x = column(name);
+  return is_logarithmic ? "(" + x + " / " + half + "):(" + x + " * " + half + ")"
+                        : "(" + x + " - " + half + "):(" + x + " + " + half + ")";
+}
+
 std::string script_of(const SweepPlan& plan, const AnyExperiment& experiment, const SweepPlot& plot,
                       const std::string& name) {
   std::string text = "# Draws " + name + ".svg in this folder: gnuplot " + name +
@@ -88,11 +105,17 @@ std::string script_of(const SweepPlan& plan, const AnyExperiment& experiment, co
     case SweepPlot::Kind::map:
       break;
   }
-  const std::string points = " with points pointtype 5 pointsize 0.9 linecolor rgb ";
-  const std::string y = "(" + column(plot.columns[1]) + ")";
-  const auto drawn = [&](const std::string& condition, const char* color, const char* title) {
-    return "'rows.csv' using (" + condition + " ? " + x + " : NaN):" + y + points + "'" + color +
-           "' title '" + title + "'";
+  const std::string y = column(plot.columns[1]);
+  const std::string edges_x = cell_edges(plan, plot.columns[0]),
+                    edges_y = cell_edges(plan, plot.columns[1]);
+  // The runs of a grid are tiles, other runs are points.
+  const bool has_tiles = !edges_x.empty() && !edges_y.empty();
+  const auto drawn = [&](const std::string& condition, const std::string& color,
+                         const char* title) {
+    return "'rows.csv' using (" + condition + " ? " + x + " : NaN):(" + y + ")" +
+           (has_tiles ? ":" + edges_x + ":" + edges_y + " with boxxyerror fillstyle solid noborder"
+                      : " with points pointtype 5 pointsize 0.9") +
+           " linecolor rgb '" + color + "' title '" + title + "'";
   };
   const bool has_specifications = !plan.options.specifications.empty();
   return text +

@@ -104,7 +104,11 @@ class ClosedLoopExperiment {
     metrics_ = RunMeasures<joint_count>::metrics(nominal_.model.joints, plan_.moves);
     plan_.standard_metrics = metrics_.size();
     for (const auto& own : options_.own_metrics) {
-      if (!own.next) detail::refuse({"sweep: metric '", own.metric.name, "' has no function"});
+      const std::string& name = own.metric.name;
+      if (!own.next) detail::refuse({"sweep: metric '", name, "' has no function"});
+      if (std::ranges::find(metrics_, name, &SweepMetric::name) != metrics_.end()) {
+        detail::refuse({"sweep: there are two metrics '", name, "'"});
+      }
       metrics_.push_back(own.metric);
     }
     plan_.own_metrics = options_.own_metrics;

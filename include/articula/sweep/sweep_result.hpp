@@ -75,6 +75,11 @@ class SweepResult {
     return summaries_[detail::metric_index(metrics_, metric)];
   }
   [[nodiscard]] const std::vector<MetricSummary>& summaries() const noexcept { return summaries_; }
+  /// One metric of one run.
+  /// @throws std::invalid_argument if there is no such metric
+  [[nodiscard]] double metric(const SweepRow& row, std::string_view name) const {
+    return row.metrics[detail::metric_index(metrics_, name)];
+  }
   /// The worst runs, the worst one first: those in which the metric is undefined, then those in
   /// which it is largest. Of equal ones, those with the lowest numbers.
   [[nodiscard]] const std::vector<SweepRow>& worst() const noexcept { return worst_; }

@@ -184,8 +184,8 @@ class CheckpointReader {
   }
   if (in.word() != identity) {
     in.refuse(
-        "the checkpoint belongs to another sweep; remove it to start again, or choose another "
-        "folder");
+        "the checkpoint belongs to another sweep; remove it to start again (articula sweep: "
+        "--fresh), or choose another folder");
   }
   const std::uint64_t within = in.count();
   std::array<std::uint64_t, simulation_end_names.size()> ends{};
