@@ -77,8 +77,13 @@ YAML
 sed -i 's/runs: 300/runs: 24/' "$folder/other.yaml"
 if "$articula" --json sweep "$folder/other.yaml" --output "$folder/search" >"$folder/found"; then
   grep -Eq '"evaluations":(1[0-9]|20),' "$folder/found" || fail "no search: $(cat "$folder/found")"
+  "$articula" sweep "$folder/other.yaml" --output "$folder/search" --fresh | sed -n 1p >"$folder/line"
+  grep -q 'at the quantile 0.95 is [0-9.e-]* rad after' "$folder/line" || fail "$(cat "$folder/line")"
+  # The sweep has other arms than the search.
+  judged=$(sed 's/.*"name":"elbow_active_joint.steady_error"[^{]*{[^}]*"0.95":\([0-9.e-]*\).*/\1/' "$folder/found")
   gain=$(sed 's/.*"proportional":\([0-9.]*\).*/\1/' "$folder/found")
   cost=$(sed 's/.*"cost":\([0-9.e-]*\).*/\1/' "$folder/found")
+  [ "$judged" != "$cost" ] || fail "the sweep judges the search by its own arms: $cost"
   head -n 1 "$folder/search/rows.csv" | grep -q proportional || fail "the sweep lacks what was found"
   sed "s/over: .*/over: [{quantity: proportional, low: 1, high: 1}]/" "$folder/other.yaml" >"$folder/one.yaml"
   "$articula" --json sweep "$folder/one.yaml" --output "$folder/one" >"$folder/known"
@@ -92,6 +97,7 @@ fi
 refused 's/robot: .*//' "bad.yaml:.*'robot' is missing, expected it in this map$"
 refused 's/low: 0.5/levels: 3, low: 0.5/' 'bad.yaml:8:.*only a grid has levels'
 refused 's/robot: .*/robot: no.urdf/' 'no.urdf'
+refused 's/^controllers: .*/&\ncontroller: pidd/' "bad.yaml:3:.*has no controller 'pidd', expected one of pid_plus_gravity"
 refused 's/elbow_passive_link, low/elbow_pasive_link, low/' "bad.yaml:8:.*expected.*'elbow_passive_link'"
 refused 's/elbow_passive_link, low/base_link, low/' 'does not move'
 refused 's/quantity: mass/quantity: mas/' "bad.yaml:8:.*'mas'.*expected.*mass"

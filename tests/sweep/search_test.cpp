@@ -57,6 +57,18 @@ TEST_CASE("a search finds the least of two valleys, around a region without cost
   CHECK(best.parameters[1] == Approx(1).epsilon(0.03));
 }
 
+TEST_CASE("the second part of a search refines the best point of the first") {
+  // DIRECT-L alone comes within 1.4e-3 of the least cost, 0, in 40 evaluations, 1.7e-5 in 100.
+  const SearchResult best =
+      search_gains({.parameters = {{"x", "1", -3, 3}, {"y", "1", -3, 3}}, .evaluations = 60},
+                   [](const std::vector<double>& at) {
+                     const double x = at[0] - std::sqrt(2.0), y = at[1] + 1 / 3.14;
+                     return x * x + 3 * y * y + x * y;
+                   });
+  CHECK(best.cost < 1e-7);
+  CHECK(best.evaluations <= 60);
+}
+
 TEST_CASE("a search refuses what it cannot search, and passes exceptions on") {
   const auto cost = [](const std::vector<double>&) -> double { throw std::logic_error("no cost"); };
   CHECK_THROWS_WITH(search_gains({}, cost), Catch::Contains("no parameters"));

@@ -210,20 +210,48 @@ TEST_CASE("lost commands leave the drives what they had") {
   CHECK(std::abs(lost - 3000) < 6 * 46);
 }
 
-TEST_CASE("the mean of efforts has those of all periods, and none of the time before") {
-  // The first sample is before the first period, so its effort is 0.
+TEST_CASE("metrics of three samples are those computed by hand") {
+  // The first sample is before the first period, so its effort is 0 and no part of the mean.
   RunMeasures<2> measures({0, 0}, {0, 0}, {});
   const JointReference<2> reference{};
   measures.add(0, {{0, 0}, {0, 0}, {0, 0}}, reference, 1e-3);
-  measures.add(1e-3, {{0, 0}, {0, 0}, {5, -3}}, reference, 1e-3);
-  measures.add(2e-3, {{0, 0}, {0, 0}, {5, 3}}, reference, 1e-3);
+  measures.add(1e-3, {{0.1, -0.2}, {2, -1}, {5, -3}}, reference, 1e-3);
+  measures.add(2e-3, {{0.3, 0.1}, {-3, 0.5}, {5, 3}}, reference, 1e-3);
   const std::array<JointProperties, 2> joints{{{.name = "a"}, {.name = "b"}}};
   const auto metrics = RunMeasures<2>::metrics(joints, {});
   std::vector<double> values(metrics.size());
   measures.values(values);
-  CHECK(values[detail::metric_index(metrics, "a.effort_rms")] == 5);
-  CHECK(values[detail::metric_index(metrics, "b.effort_rms")] == 3);
-  CHECK(values[detail::metric_index(metrics, "a.effort_peak")] == 5);
+  const auto value = [&](const char* name) { return values[detail::metric_index(metrics, name)]; };
+  CHECK(value("a.effort_rms") == 5);
+  CHECK(value("b.effort_rms") == 3);
+  CHECK(value("a.effort_peak") == 5);
+  CHECK(value("b.effort_peak") == 3);
+  CHECK(value("a.tracking_peak") == 0.3);
+  CHECK(value("b.tracking_peak") == 0.2);
+  CHECK(value("a.tracking_rms") == Approx(std::sqrt((0.01 + 0.09) / 3)));
+  CHECK(value("a.velocity_peak") == 3);
+  CHECK(value("b.velocity_peak") == 1);
+  CHECK(value("energy") == Approx(1e-3 * (5 * 2 + 3 * 1 + 5 * 3 + 3 * 0.5)));
+}
+
+TEST_CASE("drives that swing between their limits make a run unstable in its last quarter alone") {
+  const JointVector<2> limits(10, 10);
+  const auto end_of = [&](int first, int last) {
+    detail::RunPlan<Q2d> plan;
+    plan.cycles = 100;
+    detail::RunWatch<Q2d> watch(plan, {0, 0}, limits);
+    for (int cycle = 0; cycle < plan.cycles; ++cycle) {
+      JointState<2> state{};
+      if (cycle >= first && cycle < last) state.effort[1] = cycle % 2 == 0 ? 10 : -10;
+      CHECK(watch.begin(cycle, state, {}));
+      watch.finish(cycle, state);
+    }
+    std::vector<double> values(100);
+    plan.standard_metrics = values.size();
+    return watch.result(values);
+  };
+  CHECK(end_of(0, 70) == SimulationEnd::stable);
+  CHECK(end_of(80, 100) == SimulationEnd::unstable);
 }
 
 TEST_CASE("an unstable loop is a result") {
@@ -294,6 +322,11 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
                    {{VariedQuantity::mass, {}, 1, 2}, {VariedQuantity::mass, {}, 1, 3}}));
              }),
              Catch::Contains("'mass' varies twice"));
+  CHECK_THAT(message([&] {
+               static_cast<void>(experiment_of({{VariedQuantity::mass, "elbow_passive_link", 1, 2},
+                                                {VariedQuantity::mass, "tool_link", 1, 3}}));
+             }),
+             Catch::Contains("'mass.elbow_passive_link' and 'mass.tool_link' are of one body"));
   const auto experiment = arms();
   CHECK_THAT(message([&] { static_cast<void>(sweep(experiment, {.worst_metric = "speed"})); }),
              Catch::Contains("'speed'") && Catch::Contains("elbow_active_joint.overshoot"));
@@ -325,6 +358,21 @@ TEST_CASE("factors scale the described numbers, whatever the order of the list")
   CHECK(mass == Approx(2 * described + 0.5));  // the payload itself is not doubled
 }
 
+namespace {
+
+/// Its first run does not depend on the factor.
+struct LateDifference {
+  double factor = 1;
+  [[nodiscard]] std::vector<SweepParameter> parameters() const { return {{"x", "1", 0, 1}}; }
+  [[nodiscard]] std::vector<SweepMetric> metrics() const { return {{"y", "1"}}; }
+  [[nodiscard]] SimulationEnd run(const SweepRun& run, std::span<double> metrics) const {
+    metrics[0] = run.number == 0 ? 1 : factor * run.parameters[0];
+    return SimulationEnd::stable;
+  }
+};
+
+}  // namespace
+
 TEST_CASE("a checkpoint is refused by an experiment whose first runs have other rows") {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / "articula_sweep_identity";
@@ -345,7 +393,13 @@ TEST_CASE("a checkpoint is refused by an experiment whose first runs have other 
   };
   CHECK(with_gains(1).runs() == 20);
   CHECK(with_gains(1).runs() == 20);  // goes on
-  CHECK_THROWS_WITH(with_gains(1.0000001), Catch::Contains("belongs to another sweep"));
+  CHECK_THROWS_WITH(with_gains(1.0000001), Catch::Contains("has other rows than this sweep"));
+  const auto late = [&](double factor) {
+    return resumable_sweep(LateDifference{factor}, {.sampling = {.runs = 20}},
+                           {.checkpoint = folder / "late"});
+  };
+  CHECK(late(1).runs() == 20);
+  CHECK_THROWS_WITH(late(2), Catch::Contains("has other rows than this sweep"));
   std::filesystem::remove(folder / "rows.csv");
   CHECK_THROWS_WITH(with_gains(1), Catch::Contains("rows.csv cannot be read") &&
                                        Catch::Contains("remove the checkpoint"));

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "project/cached_build.hpp"
 
+#include "files/folder_lock.hpp"
 #include "project/process.hpp"
 
 #include <articula/version.hpp>
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 #include <cerrno>
 #include <cstdint>
@@ -15,6 +14,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <system_error>
 
 namespace terminal {
@@ -62,44 +63,40 @@ void build_step(std::vector<std::string> words, const fs::path& log, const std::
   if (!end.is_done) throw Refusal(advice + "; " + log.string() + " has the reason");
 }
 
-/// A lock on a folder, which other processes wait for.
-class FolderLock {
- public:
-  explicit FolderLock(const fs::path& folder)
-      : file_(open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
-    if (file_ >= 0 && flock(file_, LOCK_EX) == 0) return;
-    const std::string reason = std::strerror(errno);
-    if (file_ >= 0) close(file_);
-    throw Refusal("cannot lock " + (folder / "lock").string() + ": " + reason);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-  ~FolderLock() { close(file_); }
-
- private:
-  int file_;
-};
+/// The words of a command such as "ccache g++".
+std::vector<std::string> words_of(const std::string& command) {
+  std::istringstream stream(command);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
 
 }  // namespace
 
 fs::path cached_build(const Project& project, const std::string& product,
                       const std::string& components) {
   const std::string compiler = variable("CXX").empty() ? "c++" : variable("CXX");
-  const ProcessEnd version = run_process({compiler, "--version"}, true);
+  std::vector<std::string> ask_version = words_of(compiler);
+  ask_version.emplace_back("--version");
+  const ProcessEnd version = run_process(std::move(ask_version), true);
   if (!version.is_done) {
     throw Refusal("--compile needs a C++ compiler, and '" + compiler +
                   "' is none; install one (Debian: g++), or name it by the variable CXX");
   }
-  std::string all = std::string(articula::library_version) + version.output;
+  // The package beside this program, if it is installed; or one that CMake finds itself.
+  std::error_code error;
+  fs::path prefix = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
+  if (error || !fs::exists(prefix / "include/articula", error)) prefix.clear();
+  std::string all =
+      std::string(articula::library_version) + version.output + prefix.string() + '\0';
   for (const auto& [name, text] : project.files) all += name + '\0' + text + '\0';
   const fs::path folder = cache_folder() / hash_of(all);
   const fs::path build = folder / "build", made = build / product;
-  const fs::path log = folder / "build.log";
-  std::error_code error;
+  const fs::path log = folder / "build.log", complete = folder / "complete";
   fs::create_directories(folder, error);
   if (error) throw Refusal(folder.string() + ": " + error.message());
-  const FolderLock lock(folder);
-  const bool is_new = !fs::exists(made, error);
+  const FolderLock lock(folder, FolderLock::IfTaken::wait);
+  // A build that was interrupted may have left half a file that looks finished.
+  const bool is_new = !fs::exists(complete, error) || !fs::exists(made, error);
+  if (is_new) fs::remove_all(build, error);
   write_project(project, folder.string());  // the same files: nothing is compiled again for them
   fs::remove(log, error);
   if (is_new) {
@@ -107,17 +104,15 @@ fs::path cached_build(const Project& project, const std::string& product,
                  "note: compiles the robot and its controllers in %s, once; a minute or two\n",
                  folder.c_str());
     std::vector<std::string> configure{"cmake", "-S", folder.string(), "-B", build.string()};
-    // The package beside this program, if it is installed; or one that CMake finds itself.
-    const fs::path prefix = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
-    if (!error && fs::exists(prefix / "include/articula", error)) {
-      configure.push_back("-Darticula_ROOT=" + prefix.string());
-    }
+    if (!prefix.empty()) configure.push_back("-Darticula_ROOT=" + prefix.string());
     build_step(std::move(configure), log,
                "--compile needs the installed package articula with its components " + components +
                    "; install it (docs/installation.md), or name its place by the variable "
                    "CMAKE_PREFIX_PATH");
   }
+  fs::remove(complete, error);
   build_step({"cmake", "--build", build.string()}, log, "the robot cannot be compiled");
+  std::ofstream(complete) << made.string() << '\n';
   return made;
 }
 

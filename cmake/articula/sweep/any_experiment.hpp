@@ -10,6 +10,8 @@
 #include <articula/sweep/sweep_result.hpp>
 #include <articula/sweep/variation.hpp>
 
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -38,6 +40,7 @@ struct AnyExperiment {
   std::vector<articula::SweepMetric> all_metrics{};
   std::function<articula::SimulationEnd(const articula::SweepRun&, std::span<double>)> run_one{};
   std::function<void(std::span<articula::SweepRow>)> run_some{};
+  std::vector<std::string> notes{};  ///< of the gains' file
 
   [[nodiscard]] const std::vector<articula::SweepParameter>& parameters() const {
     return all_parameters;
@@ -49,6 +52,12 @@ struct AnyExperiment {
   }
   void run_together(std::span<articula::SweepRow> rows) const { run_some(rows); }
 };
+
+/// What the program and a compiled library must agree on: the sizes of what they exchange.
+inline constexpr auto interface_sizes = std::to_array<std::size_t>(
+    {sizeof(SweptLoop), sizeof(AnyExperiment), sizeof(articula::SweepRow),
+     sizeof(articula::SweepRun), sizeof(articula::SweepParameter), sizeof(articula::SweepMetric),
+     sizeof(articula::Variation), sizeof(articula::JointSignal), sizeof(articula::ConfigSource)});
 
 /// The experiment of a robot under the controller that a function makes of gains.
 /// @throws articula::FileError, std::invalid_argument
@@ -72,15 +81,16 @@ template <articula::DynamicRobot R, class Make>
       with(articula::initial_position(robot, options.simulation), loop.start);
   options.simulation.initial_position = start;
   options.target = with(start, loop.target);
-  const auto gains = articula::load_pid_gains(robot, loop.controllers, loop.section).gains;
+  const auto loaded = articula::load_pid_gains(robot, loop.controllers, loop.section);
   using Experiment = articula::ClosedLoopExperiment<R, Make>;
   const auto experiment =
-      std::make_shared<const Experiment>(robot, gains, make, std::move(options));
+      std::make_shared<const Experiment>(robot, loaded.gains, make, std::move(options));
   return {experiment->parameters(), experiment->metrics(),
           [experiment](const articula::SweepRun& run, std::span<double> metrics) {
             return experiment->run(run, metrics);
           },
-          [experiment](std::span<articula::SweepRow> rows) { experiment->run_together(rows); }};
+          [experiment](std::span<articula::SweepRow> rows) { experiment->run_together(rows); },
+          loaded.notes};
 }
 
 }  // namespace terminal

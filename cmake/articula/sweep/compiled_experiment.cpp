@@ -6,7 +6,10 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <fstream>
+#include <span>
 #include <string>
 
 namespace terminal {
@@ -33,6 +36,9 @@ std::string source_of(ControllerKind kind) {
          "  };\n"
          "  return new terminal::AnyExperiment(\n"
          "      terminal::any_experiment(SweptRobot(), make, loop));\n"
+         "}\n\n"
+         "extern \"C\" const std::size_t* interface_sizes() {\n"
+         "  return terminal::interface_sizes.data();\n"
          "}\n";
 }
 
@@ -69,9 +75,16 @@ MakeExperiment* compiled_experiment(const SweepPlan& plan) {
                                  "articula::sweep)\n"}}};
   const auto library = cached_build(project, "libswept.so", "urdf, config and sweep");
   void* loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);  // until the program ends
-  void* symbol = loaded == nullptr ? nullptr : dlsym(loaded, "make_experiment");
-  if (symbol == nullptr) throw Refusal(library.string() + ": " + dlerror());
-  return reinterpret_cast<MakeExperiment*>(symbol);
+  void* make = loaded == nullptr ? nullptr : dlsym(loaded, "make_experiment");
+  void* sizes = make == nullptr ? nullptr : dlsym(loaded, "interface_sizes");
+  if (sizes == nullptr) throw Refusal(library.string() + ": " + dlerror());
+  const std::size_t* own = reinterpret_cast<const std::size_t* (*)()>(sizes)();
+  if (!std::ranges::equal(std::span(own, interface_sizes.size()), interface_sizes)) {
+    throw Refusal(library.string() +
+                  " is of another articula than this program: the installed "
+                  "package and the program must be of the same sources");
+  }
+  return reinterpret_cast<MakeExperiment*>(make);
 }
 
 }  // namespace terminal

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file sweep: many closed loops that a file describes, in threads or in the processes of mpirun.
+#include "files/folder_lock.hpp"
 #include "files/within.hpp"
 #include "program.hpp"
 #include "sweep_plan.hpp"
@@ -24,8 +25,10 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -162,9 +165,13 @@ void report(const Program& program, const SweepPlan& plan, const AnyExperiment& 
   if (!plan.options.specifications.empty()) {
     text += "; " + std::to_string(result.runs_within()) + " within all specifications";
   }
-  text += "\n" + table(rows) + "\n" + table(worst_rows) + "\nrows and plots: " + plan.output;
+  const PlannedController& controller = plan.controllers.controllers.front();
+  text += "\ncontroller: " + controller.name + " (" +
+          std::string(traits_of(controller.kind).class_name) + ")\n" + table(rows) + "\n" +
+          table(worst_rows) + "\nrows and plots: " + plan.output;
   if (!drawn.empty()) text += "\n" + drawn;
-  all.update({{"within", result.runs_within()},
+  all.update({{"controller", controller.name},
+              {"within", result.runs_within()},
               {"metrics", metrics},
               {"worst", worst},
               {"output", plan.output}});
@@ -185,9 +192,16 @@ AnyExperiment checked_experiment(const SweepPlan& plan, const std::string& file)
   }
 }
 
-/// The sweep in this process and those of mpirun.
-void run_sweep(const Program& program, const SweepCall& call, bool is_distributed, bool is_first,
-               const auto& sweeps) {
+/// All that a sweep needs before its first run.
+struct PreparedSweep {
+  SearchedPlan searched{};
+  AnyExperiment experiment{};
+};
+
+PreparedSweep prepare(const SweepCall& call, bool is_distributed) {
+  if (is_distributed && call.threads > 1) {
+    throw Refusal("--threads is not for mpirun: each rank computes in one thread");
+  }
   SweepPlan plan = read_sweep(call.file, call.compiles);
   if (call.compiles) plan.compiled = compiled_experiment(plan);
   if (!call.output.empty()) plan.output = call.output;
@@ -198,17 +212,23 @@ void run_sweep(const Program& program, const SweepCall& call, bool is_distribute
   if (!plan.search.metric.empty()) {
     if (is_distributed) throw Refusal("a search runs in one process: start it without mpirun");
     searched = search_sweep(std::move(plan));
-    plan = searched.plan;
   }
-  const AnyExperiment experiment = checked_experiment(plan, call.file);
-  if (!is_first) {
-    static_cast<void>(
-        sweeps(experiment, plan.options, articula::SweepFiles{}, articula::SweepHooks{}));
-    return;
+  AnyExperiment experiment = checked_experiment(searched.plan, call.file);
+  return {std::move(searched), std::move(experiment)};
+}
+
+/// The sweep in this process, which has the files, and those of mpirun.
+void run_sweep(const Program& program, const SweepCall& call, const PreparedSweep& prepared,
+               const auto& sweeps) {
+  const SweepPlan& plan = prepared.searched.plan;
+  const AnyExperiment& experiment = prepared.experiment;
+  for (const auto* notes :
+       {&plan.notes, &plan.controllers.notes, &(*plan.robot)->notices, &experiment.notes}) {
+    for (const std::string& note : *notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   }
-  for (const std::string& note : plan.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
   fs::create_directories(plan.output);
   const fs::path folder = plan.output;
+  const FolderLock lock(folder, FolderLock::IfTaken::refuse);
   if (call.starts_again) fs::remove(folder / "checkpoint");
   const articula::Samples samples(experiment.parameters(), plan.options.sampling);
   articula::StopFlag stop;
@@ -231,24 +251,48 @@ void run_sweep(const Program& program, const SweepCall& call, bool is_distribute
   articula::write_hdf5(folder / "rows.h5", folder / "rows.csv", experiment.parameters(),
                        experiment.metrics());
 #endif
-  report(program, plan, experiment, result, draw_sweep(plan, experiment), searched);
+  report(program, plan, experiment, result, draw_sweep(plan, experiment), prepared.searched);
 }
+
+#ifdef ARTICULA_PROGRAM_HAS_MPI
+/// The sweep in the processes of mpirun.
+void sweep_with_mpi(const Program& program, const SweepCall& call,
+                    const articula::MpiSession& mpi) {
+  const auto sweeps = [](const auto&... all) { return articula::resumable_sweep_with_mpi(all...); };
+  std::optional<PreparedSweep> prepared;
+  std::string reason;
+  try {
+    prepared = prepare(call, true);
+  } catch (const std::exception& error) {
+    reason = error.what();
+  }
+  // One rank tells the reason, which is usually the same in all, and ends the others.
+  const auto fail = [&](const char* text) {
+    std::fprintf(stderr, "articula: %s\n", text);
+    mpi.abort(refused);
+  };
+  if (const int first = mpi.first_rank_with(!prepared); first < mpi.ranks()) {
+    if (first == mpi.rank()) fail(reason.c_str());
+    static_cast<void>(mpi.first_rank_with(false));  // waits for the end
+  }
+  try {
+    if (mpi.rank() == 0) return run_sweep(program, call, *prepared, sweeps);
+    static_cast<void>(sweeps(prepared->experiment, prepared->searched.plan.options,
+                             articula::SweepFiles{}, articula::SweepHooks{}));
+  } catch (const std::exception& error) {  // the other ranks would wait forever
+    // Usually rank 0 fails, too, and has the better reason.
+    if (mpi.rank() > 0) std::this_thread::sleep_for(std::chrono::seconds(2));
+    fail(error.what());
+  }
+}
+#endif
 
 void sweep(const Program& program, const SweepCall& call) {
 #ifdef ARTICULA_PROGRAM_HAS_MPI
   const articula::MpiSession mpi;
-  if (mpi.is_active()) {
-    try {
-      return run_sweep(program, call, true, mpi.rank() == 0, [](const auto&... all) {
-        return articula::resumable_sweep_with_mpi(all...);
-      });
-    } catch (const std::exception& error) {  // the other ranks would wait forever
-      if (mpi.rank() == 0) std::fprintf(stderr, "articula: %s\n", error.what());
-      mpi.abort(refused);
-    }
-  }
+  if (mpi.is_active()) return sweep_with_mpi(program, call, mpi);
 #endif
-  run_sweep(program, call, false, true,
+  run_sweep(program, call, prepare(call, false),
             [](const auto&... all) { return articula::resumable_sweep(all...); });
 }
 

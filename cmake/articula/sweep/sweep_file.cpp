@@ -86,8 +86,8 @@ class SweepReader {
   [[nodiscard]] std::string beside(const std::string& name) const {
     return (fs::path(file_).parent_path() / name).string();
   }
-  /// What decides the rows and is not in the checkpoint's options, without comments: plots and tables
-  /// may change.
+  /// What decides the rows and is not in the checkpoint's options, without comments: plots and
+  /// tables may change.
   [[nodiscard]] std::string text_of_rows() const {
     std::string text;
     for (const char* key : {"experiment", "controller", "allow_unphysical"}) {

@@ -63,7 +63,8 @@ std::string label(const AnyExperiment& experiment, const std::string& name) {
   return unit == "1" ? name : name + " [" + unit + "]";
 }
 
-/// The two edges of a run's cell in a grid, for gnuplot; empty if the column is none of its parameters.
+/// The two edges of a run's cell in a grid, for gnuplot; empty if the column is none of its
+/// parameters.
 std::string cell_edges(const SweepPlan& plan, const std::string& name) {
   const auto own = std::ranges::find_if(plan.vary, [&](const articula::Variation& each) {
     return each.parameter().name == name && each.levels > 1;

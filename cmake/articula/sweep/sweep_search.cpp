@@ -15,7 +15,10 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace terminal {
 
@@ -76,13 +79,21 @@ SearchedPlan search_sweep(SweepPlan plan) {
   for (const articula::Variation& own : plan.search.over) {
     options.parameters.push_back(own.parameter());
   }
+  // All tries have the metrics of the plan itself.
+  const std::vector<articula::SweepMetric> metrics = experiment_of(plan).metrics();
+  std::string last_refusal;
   int evaluations = 0;
   double lowest = std::numeric_limits<double>::infinity();
   bool is_shown = false;
   auto next = Clock::now() + std::chrono::seconds(1);
   const articula::SearchResult best =
       articula::search_gains(options, [&](const std::vector<double>& values) {
-        const double cost = cost_of(with_values(plan, values));
+        double cost = std::numeric_limits<double>::infinity();
+        try {
+          cost = cost_of(with_values(plan, values));
+        } catch (const std::invalid_argument& error) {  // this loop cannot be simulated
+          last_refusal = "; the last refusal was: " + std::string(error.what());
+        }
         lowest = std::fmin(lowest, cost);
         ++evaluations;
         if (const auto now = Clock::now(); now >= next) {
@@ -95,14 +106,14 @@ SearchedPlan search_sweep(SweepPlan plan) {
       });
   if (is_shown) std::fprintf(stderr, "\n");
   std::string unit;
-  for (const articula::SweepMetric& each : experiment_of(plan).metrics()) {
+  for (const articula::SweepMetric& each : metrics) {
     if (each.name == plan.search.metric && each.unit != "1") unit = " " + each.unit;
   }
   const std::string what = plan.search.metric + " at the quantile " +
                            articula::detail::number_text(plan.search.quantile);
   if (!std::isfinite(best.cost)) {
     throw Refusal("search: none of " + std::to_string(best.evaluations) + " tries has a finite " +
-                  what + "; other ranges may have");
+                  what + "; other ranges may have" + last_refusal);
   }
   SearchedPlan searched;
   Json parameters = Json::object();

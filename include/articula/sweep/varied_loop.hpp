@@ -137,7 +137,8 @@ void validate_factor(const Loop& nominal, const PlacedVariation& placed) {
   }
 }
 
-/// Refuses two variations of one name, and two that replace the same number.
+/// Refuses two variations of one name, two that replace the same number, and two links that are one
+/// body.
 /// @throws std::invalid_argument naming both
 /// Real-time: no (throws).
 inline void validate_apart(std::span<const PlacedVariation> all) {
@@ -152,6 +153,12 @@ inline void validate_apart(std::span<const PlacedVariation> all) {
       if (traits_of(own.quantity).effect == VariedEffect::replaces && shares_places) {
         refuse({"sweep: parameters '", other_name, "' and '", name,
                 "' are the same number of a joint; expected one of them"});
+      }
+      const bool name_links = traits_of(own.quantity).subject == VariedSubject::link &&
+                              !own.where.empty() && !other.variation.where.empty();
+      if (own.quantity == VariedQuantity::mass && name_links && shares_places) {
+        refuse({"sweep: parameters '", other_name, "' and '", name,
+                "' are of one body, whose links fixed joints join; expected one of them"});
       }
     }
   }

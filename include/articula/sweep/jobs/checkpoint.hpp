@@ -34,8 +34,15 @@ namespace detail {
 /// The first word of a checkpoint.
 inline constexpr std::string_view checkpoint_format = "articula-sweep-checkpoint-2";
 
-/// A text for the same sweep: all that decides its bits. The rows of its first runs show the robot,
-/// the gains and the program.
+/// FNV-1a (Fowler, Noll, Vo).
+[[nodiscard]] inline std::string hash_text(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return std::to_string(hash);
+}
+
+/// A word for the same sweep: the hash of its options, '-', and that of its first rows. These show
+/// the robot, the gains and the bits of the program.
 /// @param own  text of the caller
 /// @throws as run_chunk
 template <SweepExperiment E>
@@ -50,22 +57,20 @@ template <SweepExperiment E>
         std::to_string(p.levels));
   }
   for (const SweepMetric& metric : metrics) add(metric.name);
-  constexpr std::uint64_t shown_runs = 4;
-  const Samples samples(parameters, options.sampling);
-  for (const SweepRow& row :
-       run_chunk(experiment, samples, {0, std::min(shown_runs, samples.runs())})) {
-    append_row(text, row);
-  }
   const Sampling& sampling = options.sampling;
   add(std::to_string(int(sampling.method)), std::to_string(sampling.runs),
       std::to_string(sampling.seed), options.worst_metric, std::to_string(options.worst));
   for (const SweepSpecification& each : options.specifications) {
     add(each.metric, number_text(each.highest));
   }
-  // FNV-1a (Fowler, Noll, Vo)
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return std::to_string(hash);
+  constexpr std::uint64_t shown_runs = 4;
+  std::string rows;
+  const Samples samples(parameters, options.sampling);
+  for (const SweepRow& row :
+       run_chunk(experiment, samples, {0, std::min(shown_runs, samples.runs())})) {
+    append_row(rows, row);
+  }
+  return hash_text(text) + "-" + hash_text(rows);
 }
 
 }  // namespace detail
@@ -182,9 +187,17 @@ class CheckpointReader {
   if (in.word() != detail::checkpoint_format) {
     in.refuse("this is no checkpoint of this version of articula; remove it to start again");
   }
-  if (in.word() != identity) {
+  const std::string written = in.word();
+  const auto options_of = [](std::string_view word) { return word.substr(0, word.find('-')); };
+  if (options_of(written) != options_of(identity)) {
     in.refuse(
         "the checkpoint belongs to another sweep; remove it to start again (articula sweep: "
+        "--fresh), or choose another folder");
+  }
+  if (written != identity) {
+    in.refuse(
+        "the checkpoint has other rows than this sweep: the robot, the gains, the program or "
+        "the kind of processor has changed; remove it to start again (articula sweep: "
         "--fresh), or choose another folder");
   }
   const std::uint64_t within = in.count();

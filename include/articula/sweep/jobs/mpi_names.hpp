@@ -13,6 +13,7 @@ namespace articula::detail {
 [[nodiscard]] inline MPI_Datatype mpi_byte() noexcept { return MPI_BYTE; }
 [[nodiscard]] inline MPI_Datatype mpi_int() noexcept { return MPI_INT; }
 [[nodiscard]] inline MPI_Datatype mpi_uint64() noexcept { return MPI_UINT64_T; }
+[[nodiscard]] inline MPI_Op mpi_least() noexcept { return MPI_MIN; }
 // NOLINTEND(bugprone-casting-through-void)
 
 }  // namespace articula::detail

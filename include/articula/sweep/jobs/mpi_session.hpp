@@ -15,6 +15,8 @@
 #include <cstdlib>
 #include <exception>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <thread>
 
 namespace articula {
@@ -26,12 +28,14 @@ namespace articula {
 /// the program in all ranks, since they may wait for this one.
 class MpiSession {
  public:
+  /// @throws std::runtime_error if the launcher is that of another MPI
   MpiSession() : is_active_(is_launched()) {
     if (!is_active_) return;
     int granted = 0;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &granted);
     MPI_Comm_rank(detail::mpi_world(), &rank_);
     MPI_Comm_size(detail::mpi_world(), &ranks_);
+    check_launcher();
     ranks_of_end_.emplace(detail::mpi_world());
   }
   MpiSession(const MpiSession&) = delete;
@@ -62,6 +66,16 @@ class MpiSession {
   [[nodiscard]] int rank() const noexcept { return rank_; }
   [[nodiscard]] int ranks() const noexcept { return ranks_; }
 
+  /// The lowest rank in which a condition holds; `ranks()` if it holds in none. All ranks call
+  /// this.
+  [[nodiscard]] int first_rank_with(bool condition) const {
+    int first = condition ? rank_ : ranks_;
+    if (is_active_) {
+      MPI_Allreduce(MPI_IN_PLACE, &first, 1, detail::mpi_int(), detail::mpi_least(),
+                    ranks_of_end_->get());
+    }
+    return first;
+  }
   /// Ends the program in all ranks, for example after an exception in one of them.
   void abort(int status) const {
     if (is_active_) MPI_Abort(detail::mpi_world(), status);
@@ -73,6 +87,17 @@ class MpiSession {
         std::to_array<const char*>({"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"});
     return std::any_of(variables.begin(), variables.end(),
                        [](const char* name) { return std::getenv(name) != nullptr; });
+  }
+
+  /// Each process of a launcher that this MPI does not understand would take itself for rank 0.
+  void check_launcher() const {
+    for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+      const char* const size = std::getenv(variable);
+      if (size == nullptr || ranks_ > 1 || std::atoi(size) <= 1) continue;
+      MPI_Finalize();
+      throw std::runtime_error(std::string("MPI has one process, and ") + variable + " is " + size +
+                               ": start the program by the mpirun of the MPI it is linked with");
+    }
   }
 
   bool is_active_;

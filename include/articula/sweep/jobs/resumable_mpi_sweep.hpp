@@ -13,8 +13,8 @@
 
 namespace articula {
 
-/// resumable_sweep in all processes of a communicator: all of them call this. Rank 0 has the files and
-/// the hooks.
+/// resumable_sweep in all processes of a communicator: all of them call this. Rank 0 has the files
+/// and the hooks.
 ///
 ///     int main() try {
 ///       const MpiSession mpi;

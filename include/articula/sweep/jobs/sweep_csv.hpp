@@ -2,6 +2,7 @@
 /// @file The runs of a sweep as CSV.
 #pragma once
 
+#include "articula/core/refuse.hpp"
 #include "articula/sweep/row_text.hpp"
 #include "articula/sweep/sampling/sweep_parameter.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
@@ -18,11 +19,17 @@
 namespace articula {
 
 /// The names of a table of runs: run, seed, end, the parameters, the metrics.
+/// @throws std::invalid_argument naming one that has a comma or a quotation mark
 [[nodiscard]] inline std::vector<std::string> sweep_columns(
     const std::vector<SweepParameter>& parameters, const std::vector<SweepMetric>& metrics) {
   std::vector<std::string> names{"run", "seed", "end"};
   for (const SweepParameter& parameter : parameters) names.push_back(parameter.name);
   for (const SweepMetric& metric : metrics) names.push_back(metric.name);
+  for (const std::string& name : names) {
+    if (name.find_first_of(",'\"\n") == std::string::npos) continue;
+    detail::refuse({"sweep: the column ", name,
+                    " has a comma or a quotation mark; expected another name in the robot"});
+  }
   return names;
 }
 

@@ -76,8 +76,11 @@ class Hdf5Column {
     const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
     H5Pset_chunk(creation, 1, &chunk);
     H5Pset_obj_track_times(creation, 0);  // the same rows give the same file
-    return {H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-            H5Dclose, name};
+    // A name such as damping.arm/elbow is a dataset in a group.
+    const Hdf5Handle linking(H5Pcreate(H5P_LINK_CREATE), H5Pclose, name);
+    H5Pset_create_intermediate_group(linking, 1);
+    return {H5Dcreate2(file, name.c_str(), type, space, linking, creation, H5P_DEFAULT), H5Dclose,
+            name};
   }
   void check(herr_t status) const {
     if (status < 0) throw std::runtime_error("HDF5: cannot write " + name_);
