@@ -51,6 +51,26 @@ fi
 # A complete sweep goes on with nothing and says the same; another one has no right to the folder.
 "$articula" sweep "$folder/good.yaml" --threads 1 >"$folder/again"
 cmp "$folder/table" "$folder/again"
+# So does one with other plots, quantiles and comments.
+{ echo '# a comment'; sed 's/\[elbow_active_joint.overshoot\]/[energy]/' "$folder/good.yaml"; echo 'quantiles: [0.5]'; } \
+  >"$folder/plots.yaml"
+"$articula" sweep "$folder/plots.yaml" --output "$folder/good_results" >"$folder/again"
+cmp "$rows" "$folder/threads/rows.csv"
+grep -q energy "$folder/good_results/plot_1.gp" || fail "the plot is not another one"
+# One process at a time has the folder.
+if command -v flock >/dev/null; then
+  if flock "$folder/good_results/lock" "$articula" sweep "$folder/good.yaml" 2>"$folder/log"; then
+    fail "two processes have a folder"
+  fi
+  grep -q 'another process works in this folder' "$folder/log" || fail "$(cat "$folder/log")"
+fi
+# Processes that a launcher of another MPI starts would all be rank 0.
+if [ $# -gt 0 ]; then
+  if PMI_RANK=0 PMI_SIZE=4 "$articula" sweep "$folder/good.yaml" 2>"$folder/log"; then
+    fail "the launcher's processes do not know each other"
+  fi
+  grep -q 'PMI_SIZE is 4' "$folder/log" || fail "$(cat "$folder/log")"
+fi
 sed 's/seed: 5/seed: 6/' "$folder/good.yaml" >"$folder/other.yaml"
 if "$articula" sweep "$folder/other.yaml" --output "$folder/threads" 2>"$folder/log"; then
   fail "another sweep used the checkpoint"

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -15,13 +16,16 @@ namespace terminal {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, IfTaken if_taken)
     : file_(open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0644)) {
-  const int mode = if_taken == IfTaken::wait ? LOCK_EX : LOCK_EX | LOCK_NB;
-  if (file_ >= 0 && flock(file_, mode) == 0) return;
+  const std::string name = (folder / "lock").string();
+  if (file_ < 0) throw Refusal("cannot write " + name + ": " + std::strerror(errno));
+  if (flock(file_, if_taken == IfTaken::wait ? LOCK_EX : LOCK_EX | LOCK_NB) == 0) return;
   const int error = errno;
-  if (file_ >= 0) close(file_);
-  if (error == EWOULDBLOCK)
+  if (error == EWOULDBLOCK) {
+    close(file_);
     throw Refusal(folder.string() + ": another process works in this folder");
-  throw Refusal("cannot lock " + (folder / "lock").string() + ": " + std::strerror(error));
+  }
+  // Some file systems of clusters have no locks.
+  std::fprintf(stderr, "note: %s is not locked: %s\n", name.c_str(), std::strerror(error));
 }
 
 FolderLock::~FolderLock() { close(file_); }

@@ -12,8 +12,8 @@ class FolderLock {
   enum class IfTaken : unsigned char { wait, refuse };
 
   /// @param folder  must be there; gets the file `lock`
-  /// @throws Refusal if another process has the folder and `if_taken` is `refuse`, or if it cannot be
-  ///         locked
+  /// @throws Refusal if another process has the folder and `if_taken` is `refuse`, or if the file
+  ///         cannot be written
   FolderLock(const std::filesystem::path& folder, IfTaken if_taken);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
