@@ -48,6 +48,24 @@ if [ $# -gt 0 ]; then
   cmp "$rows" "$folder/ranks/rows.csv"
   cmp "$folder/good_results/checkpoint" "$folder/ranks/checkpoint"
 fi
+# Ranks with other files than rank 0 are refused by the first of them.
+if [ $# -gt 0 ]; then
+  for rank in 0 1 2; do
+    mkdir -p "$folder/of_rank_$rank"
+    cp "$folder/good.yaml" "$folder/q2d.urdf" "$folder/pid_plus_gravity.yaml" "$folder/of_rank_$rank"
+  done
+  sed -i 's/duration: 0.3/duration: 0.2/' "$folder/of_rank_2/good.yaml"
+  if "$@" sh -c "'$articula' sweep '$folder'/of_rank_\$OMPI_COMM_WORLD_RANK/good.yaml --output '$folder/mixed'" \
+    >"$folder/log" 2>&1; then fail "ranks had different sweeps"; fi
+  grep -q 'rank 2 has another sweep than rank 0' "$folder/log" || fail "$(cat "$folder/log")"
+fi
+# Names are a part of gnuplot's commands and of the header of the CSV.
+mkdir -p "$folder/names"
+for file in good.yaml q2d.urdf pid_plus_gravity.yaml; do
+  sed 's/elbow_active_joint/elbow`touch pwned`/g' "$folder/$file" >"$folder/names/$file"
+done
+if "$articula" sweep "$folder/names/good.yaml" >"$folder/log" 2>&1; then fail "a name was accepted"; fi
+grep -q 'quotation mark' "$folder/log" || fail "$(cat "$folder/log")"
 # A complete sweep goes on with nothing and says the same; another one has no right to the folder.
 "$articula" sweep "$folder/good.yaml" --threads 1 >"$folder/again"
 cmp "$folder/table" "$folder/again"

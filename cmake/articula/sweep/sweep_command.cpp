@@ -51,6 +51,7 @@ void check_names(const SweepPlan& plan, const AnyExperiment& experiment) {
   for (const auto& metric : experiment.metrics()) metrics.push_back(metric.name);
   columns = metrics;
   for (const auto& parameter : experiment.parameters()) columns.push_back(parameter.name);
+  for (const auto& own : plan.search.over) columns.push_back(own.parameter().name);
   const auto check = [&](const std::string& name, const std::vector<std::string>& all,
                          const char* what) {
     if (name.empty() || std::ranges::find(all, name) != all.end()) return;
@@ -192,9 +193,9 @@ AnyExperiment checked_experiment(const SweepPlan& plan, const std::string& file)
   }
 }
 
-/// All that a sweep needs before its first run.
+/// All that a sweep needs before its search and its first run.
 struct PreparedSweep {
-  SearchedPlan searched{};
+  SweepPlan plan{};
   AnyExperiment experiment{};
 };
 
@@ -207,28 +208,35 @@ PreparedSweep prepare(const SweepCall& call, bool is_distributed) {
   if (!call.output.empty()) plan.output = call.output;
   plan.options.threads = call.threads;
   plan.options.chunk = static_cast<std::uint64_t>(call.chunk);
-  check_names(plan, checked_experiment(plan, call.file));
-  SearchedPlan searched{.plan = plan};
-  if (!plan.search.metric.empty()) {
-    if (is_distributed) throw Refusal("a search runs in one process: start it without mpirun");
-    searched = search_sweep(std::move(plan));
+  if (!plan.search.metric.empty() && is_distributed) {
+    throw Refusal("a search runs in one process: start it without mpirun");
   }
-  AnyExperiment experiment = checked_experiment(searched.plan, call.file);
-  return {std::move(searched), std::move(experiment)};
+  AnyExperiment experiment = checked_experiment(plan, call.file);
+  check_names(plan, experiment);
+  static_cast<void>(articula::sweep_columns(experiment.parameters(), experiment.metrics()));
+  return {std::move(plan), std::move(experiment)};
 }
 
 /// The sweep in this process, which has the files, and those of mpirun.
 void run_sweep(const Program& program, const SweepCall& call, const PreparedSweep& prepared,
                const auto& sweeps) {
-  const SweepPlan& plan = prepared.searched.plan;
-  const AnyExperiment& experiment = prepared.experiment;
-  for (const auto* notes :
-       {&plan.notes, &plan.controllers.notes, &(*plan.robot)->notices, &experiment.notes}) {
-    for (const std::string& note : *notes) std::fprintf(stderr, "note: %s\n", note.c_str());
-  }
+  SearchedPlan searched{.plan = prepared.plan};
+  const SweepPlan& plan = searched.plan;
+  AnyExperiment experiment = prepared.experiment;
+  const auto print = [](const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+  };
+  print(plan.notes);
+  print(plan.controllers.notes);
+  print((*plan.robot)->notices);
+  print(experiment.notes);
   fs::create_directories(plan.output);
   const fs::path folder = plan.output;
   const FolderLock lock(folder, FolderLock::IfTaken::refuse);
+  if (!plan.search.metric.empty()) {
+    searched = search_sweep(prepared.plan);
+    experiment = checked_experiment(plan, call.file);
+  }
   if (call.starts_again) fs::remove(folder / "checkpoint");
   const articula::Samples samples(experiment.parameters(), plan.options.sampling);
   articula::StopFlag stop;
@@ -247,11 +255,11 @@ void run_sweep(const Program& program, const SweepCall& call, const PreparedSwee
     throw Refusal("stopped after " + std::to_string(result.runs()) + " of " +
                   std::to_string(samples.runs()) + " runs; the same command goes on");
   }
+  report(program, plan, experiment, result, draw_sweep(plan, experiment), searched);
 #ifdef ARTICULA_PROGRAM_HAS_HDF5
   articula::write_hdf5(folder / "rows.h5", folder / "rows.csv", experiment.parameters(),
                        experiment.metrics());
 #endif
-  report(program, plan, experiment, result, draw_sweep(plan, experiment), prepared.searched);
 }
 
 #ifdef ARTICULA_PROGRAM_HAS_MPI
@@ -277,8 +285,9 @@ void sweep_with_mpi(const Program& program, const SweepCall& call,
   }
   try {
     if (mpi.rank() == 0) return run_sweep(program, call, *prepared, sweeps);
-    static_cast<void>(sweeps(prepared->experiment, prepared->searched.plan.options,
-                             articula::SweepFiles{}, articula::SweepHooks{}));
+    static_cast<void>(sweeps(prepared->experiment, prepared->plan.options,
+                             articula::SweepFiles{.identity = prepared->plan.text},
+                             articula::SweepHooks{}));
   } catch (const std::exception& error) {  // the other ranks would wait forever
     // Usually rank 0 fails, too, and has the better reason.
     if (mpi.rank() > 0) std::this_thread::sleep_for(std::chrono::seconds(2));

@@ -81,10 +81,15 @@ std::string cell_edges(const SweepPlan& plan, const std::string& name) {
                         : "(" + x + " - " + half + "):(" + x + " + " + half + ")";
 }
 
+/// Of a script, by which it is recognised.
+std::string first_line(const std::string& name) {
+  return "# Draws " + name + ".svg in this folder: gnuplot " + name + ".gp";
+}
+
 std::string script_of(const SweepPlan& plan, const AnyExperiment& experiment, const SweepPlot& plot,
                       const std::string& name) {
-  std::string text = "# Draws " + name + ".svg in this folder: gnuplot " + name +
-                     ".gp\nset terminal svg size 800,560 font 'Helvetica,15' background rgb 'white'"
+  std::string text = first_line(name) +
+                     "\nset terminal svg size 800,560 font 'Helvetica,15' background rgb 'white'"
                      "\nset output '" +
                      name + ".svg'\nset datafile separator ','\nset grid\nset rmargin 4\n";
   for (std::size_t k = 0; k < plot.columns.size(); ++k) {
@@ -132,7 +137,10 @@ std::string script_of(const SweepPlan& plan, const AnyExperiment& experiment, co
 void remove_plots(const std::filesystem::path& folder, std::size_t number) {
   for (;; ++number) {
     const std::string name = "plot_" + std::to_string(number);
-    if (!std::filesystem::remove(folder / (name + ".gp"))) return;
+    std::string line;
+    std::getline(std::ifstream(folder / (name + ".gp")), line);
+    if (line != first_line(name)) return;  // there is none, or it is the user's own
+    std::filesystem::remove(folder / (name + ".gp"));
     for (const char* ending : {".svg", ".log"}) std::filesystem::remove(folder / (name + ending));
   }
 }

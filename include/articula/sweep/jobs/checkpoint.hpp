@@ -2,15 +2,9 @@
 /// @file A sweep's result so far in a file, from which the sweep goes on.
 #pragma once
 
-#include "articula/sweep/row_text.hpp"
-#include "articula/sweep/run_chunk.hpp"
-#include "articula/sweep/sampling/samples.hpp"
-#include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_options.hpp"
 #include "articula/sweep/sweep_result.hpp"
-#include "articula/text/numbers.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -33,45 +27,6 @@ namespace detail {
 
 /// The first word of a checkpoint.
 inline constexpr std::string_view checkpoint_format = "articula-sweep-checkpoint-2";
-
-/// FNV-1a (Fowler, Noll, Vo).
-[[nodiscard]] inline std::string hash_text(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return std::to_string(hash);
-}
-
-/// A word for the same sweep: the hash of its options, '-', and that of its first rows. These show
-/// the robot, the gains and the bits of the program.
-/// @param own  text of the caller
-/// @throws as run_chunk
-template <SweepExperiment E>
-[[nodiscard]] std::string identity_of(const E& experiment, const SweepOptions& options,
-                                      std::string_view own) {
-  const std::vector<SweepParameter> parameters = experiment.parameters();
-  const std::vector<SweepMetric> metrics = experiment.metrics();
-  std::string text(own);
-  const auto add = [&](const auto&... parts) { ((text += '\n', text += parts), ...); };
-  for (const SweepParameter& p : parameters) {
-    add(p.name, number_text(p.low), number_text(p.high), std::to_string(int(p.spacing)),
-        std::to_string(p.levels));
-  }
-  for (const SweepMetric& metric : metrics) add(metric.name);
-  const Sampling& sampling = options.sampling;
-  add(std::to_string(int(sampling.method)), std::to_string(sampling.runs),
-      std::to_string(sampling.seed), options.worst_metric, std::to_string(options.worst));
-  for (const SweepSpecification& each : options.specifications) {
-    add(each.metric, number_text(each.highest));
-  }
-  constexpr std::uint64_t shown_runs = 4;
-  std::string rows;
-  const Samples samples(parameters, options.sampling);
-  for (const SweepRow& row :
-       run_chunk(experiment, samples, {0, std::min(shown_runs, samples.runs())})) {
-    append_row(rows, row);
-  }
-  return hash_text(text) + "-" + hash_text(rows);
-}
 
 }  // namespace detail
 
@@ -196,7 +151,8 @@ class CheckpointReader {
   }
   if (written != identity) {
     in.refuse(
-        "the checkpoint has other rows than this sweep: the robot, the gains, the program or "
+        "the checkpoint has other rows than this sweep: the robot, the gains, the program (its "
+        "option --compile, too) or "
         "the kind of processor has changed; remove it to start again (articula sweep: "
         "--fresh), or choose another folder");
   }

@@ -9,6 +9,7 @@
 #include "articula/sweep/jobs/mpi_inbox.hpp"
 #include "articula/sweep/jobs/mpi_names.hpp"
 #include "articula/sweep/jobs/own_communicator.hpp"
+#include "articula/sweep/jobs/sweep_identity.hpp"
 #include "articula/sweep/run_chunk.hpp"
 #include "articula/sweep/sweep.hpp"
 
@@ -109,6 +110,31 @@ void hand_out_for_mpi(ChunkOrder& order, const ChunkPacking& packing, std::uint6
   }
 }
 
+/// True if MPI is initialised: a program that was started without mpirun may leave it out.
+[[nodiscard]] inline bool has_mpi() noexcept {
+  int is_initialised = 0;
+  MPI_Initialized(&is_initialised);
+  return is_initialised != 0;
+}
+
+/// Refuses sweeps that differ from rank to rank, for example by files of their own.
+/// @param hash  of the sweep of this rank
+/// @throws std::invalid_argument in all ranks, naming the first one that differs from rank 0
+inline void check_same_sweep(std::uint64_t hash, MPI_Comm all) {
+  int rank = 0, ranks = 1;
+  MPI_Comm_rank(all, &rank);
+  MPI_Comm_size(all, &ranks);
+  std::uint64_t first = hash;
+  MPI_Bcast(&first, 1, mpi_uint64(), 0, all);
+  int other = first == hash ? ranks : rank;
+  MPI_Allreduce(MPI_IN_PLACE, &other, 1, mpi_int(), mpi_least(), all);
+  if (other < ranks) {
+    refuse({"sweep: rank ", other,
+            " has another sweep than rank 0: parameters, metrics, options "
+            "or files differ"});
+  }
+}
+
 }  // namespace detail
 
 /// Goes on with a sweep in all processes of a communicator: all of them call this. Each rank
@@ -118,15 +144,18 @@ void hand_out_for_mpi(ChunkOrder& order, const ChunkPacking& packing, std::uint6
 /// thread. With one rank, it is continue_sweep.
 /// @param result  of rank 0: the runs so far; gets the others. Not used by other ranks.
 /// @param hooks   of rank 0
-/// @param all     the ranks; MPI is initialised with MPI_THREAD_FUNNELED or more, as by MpiSession
-/// @throws as continue_sweep, in rank 0
+/// @param all     the ranks; MPI is initialised with MPI_THREAD_FUNNELED or more, as by MpiSession.
+///                Without MPI_Init there is one rank.
+/// @throws as continue_sweep, in rank 0; std::invalid_argument in all ranks if their sweeps differ
 /// Real-time: no (allocates, throws, waits).
 template <SweepExperiment E>
 void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, SweepResult& result,
                              const SweepHooks& hooks = {}, MPI_Comm all = detail::mpi_world()) {
   int rank = 0, ranks = 1;
-  MPI_Comm_rank(all, &rank);
-  MPI_Comm_size(all, &ranks);
+  if (detail::has_mpi()) {
+    MPI_Comm_rank(all, &rank);
+    MPI_Comm_size(all, &ranks);
+  }
   if (ranks == 1) return continue_sweep(experiment, options, result, hooks);
   const Samples samples(experiment.parameters(), options.sampling);
   validate(options, experiment.metrics());
@@ -135,6 +164,7 @@ void continue_sweep_with_mpi(const E& experiment, const SweepOptions& options, S
     detail::refuse({"sweep: chunk ", options.chunk, " is too large for one message"});
   }
   const detail::OwnCommunicator own_ranks(all);
+  detail::check_same_sweep(detail::hash_of_options(experiment, options, ""), own_ranks.get());
   int with_lines = hooks.lines ? 1 : 0;
   MPI_Bcast(&with_lines, 1, detail::mpi_int(), 0, own_ranks.get());
   const auto compute = [&](const SweepChunk& chunk) {

@@ -4,6 +4,7 @@
 
 #include "articula/sweep/jobs/checkpoint.hpp"
 #include "articula/sweep/jobs/sweep_csv.hpp"
+#include "articula/sweep/jobs/sweep_identity.hpp"
 #include "articula/sweep/sweep.hpp"
 
 #include <chrono>

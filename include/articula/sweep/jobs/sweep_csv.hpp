@@ -19,16 +19,17 @@
 namespace articula {
 
 /// The names of a table of runs: run, seed, end, the parameters, the metrics.
-/// @throws std::invalid_argument naming one that has a comma or a quotation mark
+/// @throws std::invalid_argument naming one that has a comma, a quotation mark or a backslash
 [[nodiscard]] inline std::vector<std::string> sweep_columns(
     const std::vector<SweepParameter>& parameters, const std::vector<SweepMetric>& metrics) {
   std::vector<std::string> names{"run", "seed", "end"};
   for (const SweepParameter& parameter : parameters) names.push_back(parameter.name);
   for (const SweepMetric& metric : metrics) names.push_back(metric.name);
   for (const std::string& name : names) {
-    if (name.find_first_of(",'\"\n") == std::string::npos) continue;
-    detail::refuse({"sweep: the column ", name,
-                    " has a comma or a quotation mark; expected another name in the robot"});
+    if (name.find_first_of(",'\"`\\\n") == std::string::npos) continue;
+    detail::refuse(
+        {"sweep: the column ", name,
+         " has a comma, a quotation mark or a backslash; expected another name in the robot"});
   }
   return names;
 }
