@@ -98,11 +98,14 @@ export async function gain_slider(browser, url) {
   await robot.page.mouse.down();
   // A hand is never still. A quarter of two decades, but for the width of the thumb.
   const isThere = (value) => value > before / 5 && value < before / 2;
-  for (let k = 0; k < 100 && !isThere(await valueOf()); ++k) {
-    await moveTo(k % 2 ? 0.25 : 0.26);
-    await pause(100);
-  }
-  check(isThere(await valueOf()), `about a third of ${before} by the slider, not ${await valueOf()}`);
+  const follow = async (part, arrives) => {
+    for (let k = 0; k < 100 && !arrives(await valueOf()); ++k) {
+      await moveTo(k % 2 ? part : part + 0.01);
+      await pause(100);
+    }
+    check(arrives(await valueOf()), `the slider at ${part} of its width, not ${await valueOf()} after ${before}`);
+  };
+  await follow(0.25, isThere);
   await robot.until('the fan is drawn while the slider is held, and is not flat', () => {
     const median = articula.session.futures?.joints[0].quantiles[2];
     return median && Math.abs(median.at(-1) - median[0] - 0.1) < 0.02;
@@ -111,6 +114,9 @@ export async function gain_slider(browser, url) {
     /gain .*phase/.test(document.querySelector('.margins').textContent),
   );
   await robot.picture('gain_slider');
+  // The hand still has the slider, though the panel has got lines since it took it.
+  await follow(0.75, (value) => value > 2 * before);
+  await follow(0.25, isThere);
   await robot.page.mouse.up();
   const watcher = await openPage(browser, url); // not before: a page in the background has no mouse
   await watcher.tab('gains');
