@@ -309,8 +309,17 @@ TEST_CASE("set-up refuses what cannot be swept, and says why") {
                    {{VariedQuantity::mass, {}, 0.02, 1}, {VariedQuantity::damping, {}, 1, 20}}));
              }),
              Catch::Contains("mass 0.02, damping 20"));
-  CHECK_THAT(refused({VariedQuantity::delay, {}, 0, 9}),  // of 1 ms: a buffer of 9000 commands
-             Catch::Equals(""));
+  CHECK_THAT(message([] {
+               ClosedLoopOptions<2> options;
+               options.simulation.period = 1e-6;
+               options.duration = 1e-4;
+               options.vary = {{VariedQuantity::delay, {}, 0, 5}};
+               const auto make = [](const JointPidGains<2>& own) {
+                 return PidPlusGravity<Q2d>(own);
+               };
+               const ClosedLoopExperiment experiment(Q2d(), Q2d::pid_gains, make, options);
+             }),
+             Catch::Contains("with delay 5: delay: 5000000 periods"));
   CHECK_THAT(message([&] {
                static_cast<void>(
                    experiment_of({{VariedQuantity::position_noise, {}, 0, 0.1},
