@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file What urdf_text writes is the same robot when load_urdf reads it.
 #include <articula/dynamics/dynamics.hpp>
-#include <articula/remote/urdf_text.hpp>
+#include <articula/remote/sheet/urdf_text.hpp>
 #include <articula/robots/gripper_arm.hpp>
 #include <articula/robots/panda.hpp>
 #include <articula/robots/pr2.hpp>

@@ -8,7 +8,7 @@
 #include <articula/sweep/closed_loop_experiment.hpp>
 #include <articula/sweep/sweep_experiment.hpp>
 #include <articula/sweep/sweep_result.hpp>
-#include <articula/sweep/variation.hpp>
+#include <articula/sweep/variation/variation.hpp>
 
 #include <array>
 #include <cstddef>

@@ -9,7 +9,7 @@
 #include <articula/config/yaml/source.hpp>
 #include <articula/reference/joint_signals.hpp>
 #include <articula/sweep/sweep_options.hpp>
-#include <articula/sweep/variation.hpp>
+#include <articula/sweep/variation/variation.hpp>
 #include <articula/text/file_error.hpp>
 #include <articula/urdf/description.hpp>
 

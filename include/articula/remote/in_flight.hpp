@@ -81,6 +81,17 @@ class InFlight {
     check_times(give);
   }
 
+  /// Calls function(trajectory, bridge, clock) for each trajectory that the loop follows.
+  void for_each_followed(auto&& function) {
+    for (Pending& own : pending_) {
+      const auto* const follow = std::get_if<task::Follow<R>>(&own.task->wish);
+      if (follow == nullptr) continue;
+      own.task->clock.update();
+      const TrajectoryClock& clock = own.task->clock.value();
+      if (clock.runs()) function(*follow->trajectory, own.task->bridge, clock);
+    }
+  }
+
  private:
   struct Pending {
     std::unique_ptr<Task<R>> task;

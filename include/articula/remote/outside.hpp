@@ -2,6 +2,7 @@
 /// @file The side of a Remote in all threads but its loop's.
 #pragma once
 
+#include "articula/core/finite.hpp"
 #include "articula/loop/status_advice.hpp"
 #include "articula/remote/clients.hpp"
 #include "articula/remote/engine/loop_side.hpp"
@@ -9,12 +10,14 @@
 #include "articula/remote/forecast/forecast.hpp"
 #include "articula/remote/gains/gain_parameters.hpp"
 #include "articula/remote/in_flight.hpp"
+#include "articula/remote/planned_motions.hpp"
 #include "articula/remote/published.hpp"
 #include "articula/remote/remote_options.hpp"
-#include "articula/remote/robot_sheet_of.hpp"
+#include "articula/remote/sheet/robot_sheet_of.hpp"
 #include "articula/remote/task_maker.hpp"
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
@@ -105,6 +108,16 @@ class Outside {
       return std::tuple(published_.last_cycle(), parameters_.list(), published_.controllers());
     }();
     return forecast_.answer(std::get<0>(now), std::get<1>(now), std::get<2>(now), question);
+  }
+
+  [[nodiscard]] std::vector<std::optional<JointMotion>> planned(double time) {
+    const std::lock_guard lock(mutex_);
+    pump();
+    const LoopCondition<joint_count>& now = published_.condition();
+    if (now.mode != LoopMode::active || !is_finite(time) || time < published_.time()) {
+      return std::vector<std::optional<JointMotion>>(std::size_t{joint_count});
+    }
+    return planned_motions(in_flight_, now, published_.reference(), time);
   }
 
   // Sessions, by their numbers:

@@ -4,13 +4,14 @@
 
 #include "articula/control/switching/switch_request.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/motion/joint_motion.hpp"
 #include "articula/remote/cycle.hpp"
 #include "articula/remote/forecast/futures_question.hpp"
 #include "articula/remote/gains/parameter.hpp"
 #include "articula/remote/request.hpp"
-#include "articula/remote/robot_sheet.hpp"
+#include "articula/remote/sheet/link_pose.hpp"
+#include "articula/remote/sheet/robot_sheet.hpp"
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -80,13 +81,6 @@ class Session {
   [[nodiscard]] virtual std::optional<Event> event() = 0;
 };
 
-/// The placement of a link in the root link's frame.
-struct LinkPose {
-  std::string link{};
-  std::array<double, 3> translation{};         ///< [m]
-  std::array<double, 4> rotation{0, 0, 0, 1};  ///< unit quaternion x, y, z, w
-};
-
 /// What a running loop offers to the outside, without a transport. Remote makes one from a loop.
 /// All functions may be called from any thread. Real-time: no (allocates, locks).
 class Port {
@@ -97,6 +91,13 @@ class Port {
   /// The placements of all links at a position of the joints, in the order of RobotSheet::links.
   [[nodiscard]] virtual std::vector<LinkPose> link_poses(
       const std::vector<double>& position) const = 0;
+  /// The motion of each joint's reference at a time to come, if no further request changes it: that
+  /// of a trajectory at its present speed, or rest. None for a joint that another motion moves, or
+  /// that waits for the start of a trajectory.
+  /// @param time  of the loop [s]. If it is not finite, or before the last cycle, no joint has one.
+  [[nodiscard]] virtual std::vector<std::optional<JointMotion>> planned(double) {
+    return std::vector<std::optional<JointMotion>>(robot().joints.size());
+  }
   [[nodiscard]] virtual std::vector<Parameter> parameters() = 0;
   [[nodiscard]] virtual Statistics statistics() = 0;
   /// Simulates what the loop would do with other gains. Changes nothing, and takes its time: ask

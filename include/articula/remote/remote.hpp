@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -111,6 +112,9 @@ class Remote final : public Port {
   [[nodiscard]] std::vector<LinkPose> link_poses(
       const std::vector<double>& position) const override {
     return link_poses_of(std::as_const(loop_).hardware().robot(), position);
+  }
+  [[nodiscard]] std::vector<std::optional<JointMotion>> planned(double time) override {
+    return outside_->planned(time);
   }
   [[nodiscard]] std::vector<Parameter> parameters() override { return outside_->parameters(); }
   [[nodiscard]] Statistics statistics() override { return outside_->statistics(); }

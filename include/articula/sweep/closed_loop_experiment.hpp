@@ -13,7 +13,7 @@
 #include "articula/sweep/run_watch.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
 #include "articula/sweep/sweep_result.hpp"
-#include "articula/sweep/varied_loop.hpp"
+#include "articula/sweep/variation/varied_loop.hpp"
 
 #include <algorithm>
 #include <cmath>

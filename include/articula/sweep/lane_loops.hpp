@@ -7,7 +7,7 @@
 #include "articula/core/scalar.hpp"
 #include "articula/lanes/lane_simulator.hpp"
 #include "articula/loop/control_loop.hpp"
-#include "articula/sweep/varied_loop.hpp"
+#include "articula/sweep/variation/varied_loop.hpp"
 
 #include <cstddef>
 #include <memory>

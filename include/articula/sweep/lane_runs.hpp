@@ -11,7 +11,7 @@
 #include "articula/sweep/lane_loops.hpp"
 #include "articula/sweep/loop_refused.hpp"
 #include "articula/sweep/run_watch.hpp"
-#include "articula/sweep/varied_loop.hpp"
+#include "articula/sweep/variation/varied_loop.hpp"
 
 #include <algorithm>
 #include <concepts>

@@ -7,8 +7,8 @@
 #include "articula/core/joint_vector.hpp"
 #include "articula/core/scalar.hpp"
 #include "articula/model/joint.hpp"
-#include "articula/sweep/joint_unit.hpp"
 #include "articula/sweep/sweep_experiment.hpp"
+#include "articula/sweep/variation/joint_unit.hpp"
 #include "articula/tuning/step_metrics.hpp"
 
 #include <array>

@@ -7,7 +7,7 @@
 #include "articula/sweep/delayed_commands.hpp"
 #include "articula/sweep/loop_refused.hpp"
 #include "articula/sweep/run_watch.hpp"
-#include "articula/sweep/varied_loop.hpp"
+#include "articula/sweep/variation/varied_loop.hpp"
 
 #include <type_traits>
 

@@ -445,7 +445,7 @@ TEST_CASE("the state of a controller has reference, measurement and error") {
   CHECK(arm.transport.topics["/computed_torque/controller_state"].count == 0);  // it is inactive
 }
 
-TEST_CASE("the reference at a time that has passed is asked for") {
+TEST_CASE("the reference of the past and of the trajectory to come is asked for") {
   using Query = control_msgs::srv::QueryTrajectoryState<Jazzy>;
   ActiveArm arm;
   arm.run(100);
@@ -462,7 +462,38 @@ TEST_CASE("the reference at a time that has passed is asked for") {
   CHECK(std::abs(half.position[0] - 0.25) < 0.02);
   CHECK(half.velocity[0] > 0.3);
   CHECK_FALSE(at(begin - std::chrono::seconds(100)).success);
-  CHECK_FALSE(at(arm.now + std::chrono::seconds(1)).success);
+  const auto rest = at(arm.now + std::chrono::seconds(1));
+  CHECK(rest.success);
+  CHECK(rest.position == std::vector<double>{0.5, 0});
+
+  // The second half of a trajectory, before it has been followed and after.
+  REQUIRE(arm.send(2, goal_to(-0.5, 0.2, 1)).accepted);
+  arm.run(500);
+  const auto later = arm.now + std::chrono::milliseconds(250);
+  const auto planned = at(later);
+  REQUIRE(planned.success);
+  CHECK(planned.name.size() == 2);
+  arm.run(400);
+  const auto past = at(later);
+  REQUIRE(past.success);
+  for (std::size_t j = 0; j < 2; ++j) {
+    CHECK(planned.velocity[j] != 0);
+    // A time of ROS has nanoseconds, at which joints move by less than these numbers.
+    CHECK(std::abs(planned.position[j] - past.position[j]) < 1e-8);
+    CHECK(std::abs(planned.velocity[j] - past.velocity[j]) < 1e-7);
+    CHECK(std::abs(planned.acceleration[j] - past.acceleration[j]) < 1e-6);
+  }
+  CHECK(arm.wait_for(2).status == GoalState::succeeded);
+
+  Follow::Goal waiting = goal_to(0, 0, 1);
+  waiting.trajectory.header.stamp =
+      to_message<builtin_interfaces::msg::Time>(arm.now + std::chrono::seconds(1));
+  REQUIRE(arm.send(3, waiting).accepted);
+  arm.run(20);
+  const auto unknown = at(arm.now + std::chrono::milliseconds(10));
+  CHECK_FALSE(unknown.success);
+  CHECK(unknown.message ==
+        "joint " + std::string(shoulder_joint) + " neither follows a trajectory nor rests");
 }
 
 TEST_CASE("a goal for a loop that has made no cycle waits for one") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program articula in ROS 2, over DDS on loopback.
-#include <articula/remote/urdf_text.hpp>
+#include <articula/remote/sheet/urdf_text.hpp>
 #include <articula/robots/q2d.hpp>
 
 #include "articula/ros2/messages/rosgraph_msgs.hpp"

@@ -25,6 +25,23 @@ struct TrajectoryBridge {
   JointVector<N> shift = JointVector<N>::Zero();  ///< whole turns of continuous joints [rad], N x 1
 };
 
+/// The reference along a trajectory that was entered by a bridge.
+/// @param time  of the trajectory [s]
+/// Real-time: yes. O(N + log Capacity).
+template <Robot R, int Capacity, int N = joint_count<R>>
+[[nodiscard]] JointReference<N> sample(const Trajectory<R, Capacity>& trajectory,
+                                       const TrajectoryBridge<N>& bridge, double time) noexcept {
+  if (time < bridge.to.time_from_start) {
+    if (trajectory.interpolation() == Interpolation::none) {
+      return {.position = bridge.from.position, .effort = bridge.from.effort};
+    }
+    return interpolate(bridge.from, bridge.to, time - bridge.from.time_from_start);
+  }
+  JointReference<N> reference = trajectory.sample(time);
+  reference.position += bridge.shift;
+  return reference;
+}
+
 /// Finds the bridge into a trajectory.
 ///
 /// - From rest, it is the segment from a point at rest to the trajectory's next point

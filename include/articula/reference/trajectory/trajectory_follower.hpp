@@ -203,6 +203,17 @@ class TrajectoryFollower {
   /// The reason for the last refusal by start(), or for the failure of a waiting trajectory to
   /// begin. `to_string(robot, follower.refusal())` formats it. Real-time: yes.
   [[nodiscard]] const TrajectoryRefusal& refusal() const noexcept { return refusal_; }
+  /// Where the last sample lies on the present trajectory.
+  struct Progress {
+    double time = 0;                         ///< in the trajectory's own time [s]
+    double speed = 1;                        ///< at which that runs, see SpeedOverride
+    TrajectoryBridge<joint_count> bridge{};  ///< into the trajectory
+  };
+  /// None while the trajectory waits for its start. Real-time: yes.
+  [[nodiscard]] std::optional<Progress> progress() const noexcept {
+    if (waiting_) return std::nullopt;
+    return Progress{motion_.speed().time(), motion_.speed().speed(), motion_.bridge()};
+  }
   /// Whether the reference moves. Real-time: yes.
   [[nodiscard]] bool moves() const noexcept { return motion_.moves(); }
   /// The last sample. Real-time: yes.

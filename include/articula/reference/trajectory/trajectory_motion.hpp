@@ -44,6 +44,8 @@ class TrajectoryMotion {
   [[nodiscard]] const SpeedOverride& speed() const noexcept { return speed_; }
   /// The positions of the joints. Real-time: yes.
   [[nodiscard]] const JointRange<joint_count>& range() const noexcept { return range_; }
+  /// The bridge into the last trajectory. Real-time: yes.
+  [[nodiscard]] const Bridge& bridge() const noexcept { return bridge_; }
   /// The present reference. Real-time: yes.
   [[nodiscard]] const Reference& reference() const noexcept { return reference_; }
   /// Whether a joint moves. Real-time: yes.
@@ -88,6 +90,7 @@ class TrajectoryMotion {
   /// Begins a trajectory. Real-time: yes. O(N Capacity).
   void begin(const Trajectory<R, Capacity>& trajectory, const Bridge& bridge) noexcept {
     own_ = present();
+    bridge_ = bridge;
     tracks_.begin(trajectory, bridge, speed_.time());
     speed_.restart(bridge.from.time_from_start);
   }
@@ -170,6 +173,7 @@ class TrajectoryMotion {
   JointRange<joint_count> range_;
   SpeedOverride speed_;
   JointTracks<R, Capacity> tracks_{};
+  Bridge bridge_{};
   JointStops<R> rest_;  ///< of joints that follow no trajectory
   double arrival_ = 0;  ///< the end of the motion, in the trajectory's time [s]
   Reference reference_{};

@@ -62,7 +62,11 @@ class MotionControl {
       Task<R>*& own = waiting(source);
       if (own == nullptr) continue;
       const TrajectoryOutcome outcome = source_.outcome(source);
-      if (outcome == TrajectoryOutcome::active) continue;
+      if (outcome == TrajectoryOutcome::active) {
+        note_progress(*own, source);
+        continue;
+      }
+      own->clock.write({});
       own->outcome = outcome;
       own->refusal = source_.refusal(source);
       const bool good = outcome == TrajectoryOutcome::successful;
@@ -140,6 +144,15 @@ class MotionControl {
     const TaskEnd inactive = faulty ? TaskEnd::in_fault : TaskEnd::not_active;
     returns_.finish(own, modes_.active() ? TaskEnd::bad_reference : inactive);
     return false;
+  }
+
+  /// Tells the outside where a trajectory is.
+  void note_progress(Task<R>& own, int source) noexcept {
+    const auto progress = source_.progress(source);
+    if (!progress) return;
+    if (!own.has_begun) own.bridge = progress->bridge;
+    own.has_begun = true;
+    own.clock.write({loop_.time(), progress->time, progress->speed});
   }
 
   void stop(const Joints& joints) noexcept {

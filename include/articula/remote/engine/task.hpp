@@ -5,7 +5,9 @@
 #include "articula/control/switching/switch_request.hpp"
 #include "articula/core/status.hpp"
 #include "articula/dynamics/forward_kinematics.hpp"
+#include "articula/loop/exchange/latest_value.hpp"
 #include "articula/recording/loop_change.hpp"
+#include "articula/remote/engine/trajectory_clock.hpp"
 #include "articula/remote/gains/gain_change.hpp"
 #include "articula/remote/motion/reference_source.hpp"
 
@@ -128,7 +130,11 @@ struct Task {
   Wish wish;
   /// Set by whoever is first: the loop that begins the task, or the outside that gives it up.
   std::atomic<bool> claimed = false;
-  // Filled in by the loop:
+  // Of a trajectory, while the loop follows it:
+  LatestValue<TrajectoryClock> clock{};    ///< from the loop for the outside
+  TrajectoryBridge<joint_count> bridge{};  ///< into it; the loop sets it before the clock runs
+  bool has_begun = false;                  ///< the bridge is set; for the loop
+  // Filled in by the loop before it gives the task back:
   TaskEnd end = TaskEnd::open;
   std::uint64_t cycle = 0;  ///< the first one after the loop began it
   Status status = Status::ok;

@@ -134,6 +134,10 @@ class ReferenceSource {
     followers_.set_speed(factor);
   }
   [[nodiscard]] double trajectory_speed() const noexcept { return trajectory_speed_; }
+  /// Where the present lies on the last trajectory of a source; none before its start.
+  [[nodiscard]] auto progress(int source) const noexcept {
+    return followers_.progress(source - first_follower);
+  }
   /// What has become of the last trajectory of a source.
   [[nodiscard]] TrajectoryOutcome outcome(int source) const noexcept {
     return followers_.outcome(source - first_follower);

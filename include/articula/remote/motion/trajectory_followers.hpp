@@ -81,6 +81,8 @@ class TrajectoryFollowers {
     return checked.check(state) == TrajectoryOutcome::active || checked.moves();
   }
 
+  /// Where the last sample lies on the last trajectory; none before its start.
+  [[nodiscard]] auto progress(int follower) const noexcept { return own(follower).progress(); }
   /// What has become of the last trajectory.
   [[nodiscard]] TrajectoryOutcome outcome(int follower) const noexcept {
     return own(follower).outcome();

@@ -5,6 +5,8 @@
 #include "articula/ros2/node/subscription.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 namespace articula::ros2 {
@@ -207,19 +209,35 @@ control_msgs::srv::QueryTrajectoryState<Jazzy>::Response ControllerTopics::query
     response.message = "controller '" + controller_.name + "' is not active";
     return response;
   }
-  const auto later =
-      std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.time > wanted; });
-  if (later == all.begin() || (later == all.end() && wanted > core_.context.now)) {
-    response.message = "only references of the last cycles are known";
+  if (all.empty() || wanted < all.front().time) {
+    response.message = "the references of that time are not known any more";
     return response;
   }
-  const PastReference& past = *std::prev(later);
+  std::vector<std::optional<JointMotion>> motions;
+  if (wanted > core_.context.now) {
+    motions = core_.port.planned(core_.watch.loop_time(wanted));
+  } else {
+    const auto later =
+        std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.time > wanted; });
+    const PastReference& past = *std::prev(later);
+    for (std::size_t j = 0; j < past.position.size(); ++j) {
+      motions.push_back(JointMotion{past.position[j], past.velocity[j], past.acceleration[j]});
+    }
+  }
+  const auto is_unknown = [&](std::size_t j) { return !motions[j]; };
+  const auto unknown = std::ranges::find_if(controller_.indices, is_unknown);
+  if (unknown != controller_.indices.end()) {
+    const auto place = static_cast<std::size_t>(unknown - controller_.indices.begin());
+    response.message =
+        "joint " + controller_.joints[place] + " neither follows a trajectory nor rests";
+    return response;
+  }
   response.success = true;
   response.name = controller_.joints;
   for (const std::size_t j : controller_.indices) {
-    response.position.push_back(past.position[j]);
-    response.velocity.push_back(past.velocity[j]);
-    response.acceleration.push_back(past.acceleration[j]);
+    response.position.push_back(motions[j]->position);
+    response.velocity.push_back(motions[j]->velocity);
+    response.acceleration.push_back(motions[j]->acceleration);
   }
   return response;
 }

@@ -4,7 +4,7 @@
 
 #include "articula/remote/cycle.hpp"
 #include "articula/remote/request.hpp"
-#include "articula/remote/robot_sheet.hpp"
+#include "articula/remote/sheet/robot_sheet.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/node/ros_time.hpp"
 

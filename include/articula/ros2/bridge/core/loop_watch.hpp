@@ -44,10 +44,15 @@ class LoopWatch {
                             cycle.reference_acceleration});
     }
     if (!has_loops_time && references.size() > known) {
-      const auto shift = now - references.back().time;
-      for (std::size_t i = known; i < references.size(); ++i) references[i].time += shift;
+      shift_ = now - references.back().time;
+      for (std::size_t i = known; i < references.size(); ++i) references[i].time += shift_;
     }
     while (references.size() > kept_references) references.pop_front();
+  }
+
+  /// The loop's time at a time of ROS [s].
+  [[nodiscard]] double loop_time(std::chrono::nanoseconds time) const {
+    return std::chrono::duration<double>(time - shift_).count();
   }
 
   /// Whether there was a cycle since the one of a number. A loop that stands still says nothing.
@@ -84,6 +89,7 @@ class LoopWatch {
 
   remote::Port& port_;
   remote::Session& session_;
+  std::chrono::nanoseconds shift_{0};  ///< the time of ROS less the loop's
 };
 
 }  // namespace articula::ros2

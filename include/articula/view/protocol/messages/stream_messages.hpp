@@ -5,7 +5,7 @@
 
 #include "articula/remote/cycle.hpp"
 #include "articula/remote/port.hpp"
-#include "articula/remote/robot_sheet.hpp"
+#include "articula/remote/sheet/robot_sheet.hpp"
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/remote/forecast/futures_question.hpp"
-#include "articula/remote/robot_sheet.hpp"
+#include "articula/remote/sheet/robot_sheet.hpp"
 #include "articula/view/protocol/requests/requests.hpp"
 
 #include <array>

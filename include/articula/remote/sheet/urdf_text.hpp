@@ -3,8 +3,8 @@
 #pragma once
 
 #include "articula/model/joint_type_name.hpp"
-#include "articula/remote/link_shapes.hpp"
-#include "articula/remote/link_tree.hpp"
+#include "articula/remote/sheet/link_shapes.hpp"
+#include "articula/remote/sheet/link_tree.hpp"
 #include "articula/text/xml_text.hpp"
 
 #include <algorithm>

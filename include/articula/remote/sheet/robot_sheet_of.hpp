@@ -5,10 +5,10 @@
 #include "articula/command/command_parts.hpp"
 #include "articula/dynamics/forward_kinematics.hpp"
 #include "articula/remote/engine/loop_traits.hpp"
-#include "articula/remote/link_tree.hpp"
-#include "articula/remote/port.hpp"
-#include "articula/remote/robot_sheet.hpp"
-#include "articula/remote/urdf_text.hpp"
+#include "articula/remote/sheet/link_pose.hpp"
+#include "articula/remote/sheet/link_tree.hpp"
+#include "articula/remote/sheet/robot_sheet.hpp"
+#include "articula/remote/sheet/urdf_text.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,7 @@
 /// @file Shapes to draw a robot of which only the motion is known: bones and joints.
 #pragma once
 
-#include "articula/remote/link_tree.hpp"
+#include "articula/remote/sheet/link_tree.hpp"
 
 #include <algorithm>
 #include <cmath>
