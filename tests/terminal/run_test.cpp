@@ -5,7 +5,7 @@
 #include "scratch_folder.hpp"
 #include "terminal.hpp"
 
-#include <articula/remote/urdf_text.hpp>
+#include <articula/remote/sheet/urdf_text.hpp>
 #include <articula/robots/pr2.hpp>
 #include <articula/robots/q2d.hpp>
 
@@ -300,18 +300,30 @@ TEST_CASE("what cannot run is refused with its reason and the cure") {
         "both:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
         "one:\n  ros__parameters:\n    joints: [elbow_active_joint]\n");
   check_refused(run(robot.name()), "'both' and 'one' share joint 'elbow_active_joint'");
-  write(file.path(),
-        "controller_manager:\n  ros__parameters:\n"
-        "    torque: {type: effort_controllers/JointGroupEffortController}\n"
-        "    place: {type: position_controllers/JointGroupPositionController}\n"
-        "torque:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
-        "place:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n");
+  const std::string both_kinds =
+      "controller_manager:\n  ros__parameters:\n"
+      "    torque: {type: effort_controllers/JointGroupEffortController}\n"
+      "    place: {type: position_controllers/JointGroupPositionController}\n"
+      "torque:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+      "place:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n";
+  write(file.path(), both_kinds);
   const Result both = run(robot.name());  // with the first kind, and a note on the other
   CHECK(both.exit_code == 0);
   CHECK(both.errors.find("'place'") != std::string::npos);
+  write(file.path(), both_kinds + "stray: 1\n");
+  const std::string once = run(robot.name()).errors;  // a note of both controllers
+  CHECK(once.find("stray") != std::string::npos);
+  CHECK(once.find("stray") == once.rfind("stray"));
   check_refused(articula_chosen(robot.name(), yaml, {"torque", "place"}), "same quantity");
   check_refused(articula_chosen(robot.name(), yaml, {"nonsense"}), "nonsense");
   CHECK(articula_chosen(robot.name(), yaml, {"place"}).exit_code == 0);
+
+  write(file.path(),
+        "controller_manager:\n  ros__parameters:\n"
+        "    gravity: {type: effort_controllers/PidPlusGravityController}\n");
+  check_refused(run(robot.name()), "'gravity' has no gains");
+  check_refused(run_articula({"new", robot.name(), yaml, "--output", "/tmp/no-gains"}),
+                "'gravity' has no gains");
 
   write(file.path(),
         "torque:\n  ros__parameters:\n    type: effort_controllers/JointGroupEffortController\n"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# run_with_vcan.sh SECONDS PROGRAM... -- COMMAND
+# run_with_vcan.sh [--exact] SECONDS PROGRAM... -- COMMAND
 #
 # Runs COMMAND in a folder with copies of the programs, on a kernel with virtual CAN: vcan0 is up. Its
 # exit status is ours; no result within SECONDS is 124.
@@ -9,9 +9,14 @@
 # it) and lets us have a network namespace of our own, it runs there. Else in a virtual machine with
 # the kernel that fetch_kernel.sh got, in software emulation if need be. Where neither is possible it
 # says "Skipped: " and why, and is content with that unless ARTICULA_VCAN_REQUIRED is set.
+#
+# With --exact it is the virtual machine, whose time follows its instructions: however busy the host
+# is, a cycle is late only by what the machine itself does.
 set -eu
 
 here=$(CDPATH='' cd "$(dirname "$0")" && pwd)
+exact=''
+[ "$1" != --exact ] || { exact=1; shift; }
 limit=$1
 shift
 programs=''
@@ -35,7 +40,7 @@ skip() {
 
 # --- on this kernel -------------------------------------------------------------------------------
 
-if [ "$(cat /sys/module/vcan/parameters/echo 2>/dev/null)" = Y ] &&
+if [ -z "$exact" ] && [ "$(cat /sys/module/vcan/parameters/echo 2>/dev/null)" = Y ] &&
   unshare --map-root-user --net ip link add vcan0 type vcan 2>/dev/null; then
   status=0
   # shellcheck disable=SC2016 # expanded by the inner shell
@@ -47,7 +52,7 @@ fi
 
 # --- in a virtual machine -------------------------------------------------------------------------
 
-for needed in qemu-system-x86_64 busybox dash cpio ldd ip tc candump cansend cangen; do
+for needed in qemu-system-x86_64 busybox dash chrt cpio ldd ip tc candump cansend cangen; do
   command -v "$needed" >/dev/null || skip "this kernel has no vcan, and for a virtual machine $needed is missing"
 done
 [ "$(uname -m)" = x86_64 ] || skip 'this kernel has no vcan, and the virtual machine is for x86-64'
@@ -63,7 +68,7 @@ put() { # program: it and the libraries that it needs
     [ -e "$root$library" ] || { mkdir -p "$root$(dirname "$library")" && cp -L "$library" "$root$library"; }
   done
 }
-for program in ip tc candump cansend cangen dash; do put "$(command -v "$program")"; done
+for program in chrt ip tc candump cansend cangen dash; do put "$(command -v "$program")"; done
 for program in "$root"/test/*; do
   for library in $(ldd "$program" 2>/dev/null | grep -o '/[^ ]*'); do
     [ -e "$root$library" ] || { mkdir -p "$root$(dirname "$library")" && cp -L "$library" "$root$library"; }
@@ -103,9 +108,12 @@ chmod +x "$root/init"
 
 # One processor: with two, emulation makes the threads of a round trip wait for each other.
 accelerator=tcg
-if [ -w /dev/kvm ] && grep -qwE 'vmx|svm' /proc/cpuinfo; then accelerator=kvm; fi
+if [ -n "$exact" ]; then
+  accelerator='tcg -icount shift=1,sleep=off -rtc clock=vm'
+elif [ -w /dev/kvm ] && grep -qwE 'vmx|svm' /proc/cpuinfo; then accelerator=kvm; fi
 status=0
-timeout --kill-after=5 "$limit" qemu-system-x86_64 -accel "$accelerator" -cpu max -smp 1 -m 512 \
+# shellcheck disable=SC2086 # several words
+timeout --kill-after=5 "$limit" qemu-system-x86_64 -accel $accelerator -cpu max -smp 1 -m 1024 \
   -nodefaults -no-user-config -display none -nic none -no-reboot \
   -kernel "$image" -initrd "$work/initrd" \
   -append 'console=ttyS0 quiet panic=-1 mitigations=off nokaslr no_timer_check' \

@@ -115,7 +115,15 @@ void add(Reading& reading, const articula::detail::ConfigSections& all,
     return reading.leave_out(
         name, "it does not command the same quantity as '" + plan.controllers.front().name + "'");
   }
-  plan.notes.insert(plan.notes.end(), config.notes.begin(), config.notes.end());
+  const bool has_parameters =
+      std::ranges::any_of(all.sections, [&](const auto& own) { return own.name == section; });
+  if (traits_of(*kind).has_gains && !has_parameters) {
+    throw Refusal(plan.source.name() + ": controller '" + name +
+                  "' has no gains; expected a section '" + name + "' with them");
+  }
+  for (const std::string& note : config.notes) {  // of the whole file, so several have the same
+    if (std::ranges::find(plan.notes, note) == plan.notes.end()) plan.notes.push_back(note);
+  }
   if (config.gravity) plan.gravity = config.gravity;
   if (!config.chain_root.empty()) plan.root = config.chain_root;
   if (!config.chain_tip.empty()) plan.tip = config.chain_tip;
