@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What browsers cost a loop at 1 kHz: the latency of its cycles without and with ten clients, in turn, and
-// the age of what a page shows. The loop's thread has real-time priority if the user may give it one.
+// What browsers cost a loop: the latency of its cycles without and with ten clients, in turn, and the age
+// of what a page shows beside nine others. The loop's thread has real-time priority if the user may give
+// it one.
 //
-//   cmake --preset test && ninja -C build/test view_page_simulated_q2d articula_page
-//   node benchmarks/spectators.mjs [build folder] [rounds] [seconds of a round]
+//   cmake --preset test && ninja -C build/test view_page_simulated_q2d pr2_view articula_page
+//   node benchmarks/spectators.mjs [build folder] [rounds] [seconds of a round] [program]
+//
+// The program is below the build folder, as examples/pr2_view. The default is a Q2D at 1 kHz.
 import {spawnSync} from 'node:child_process';
 import {createRequire} from 'node:module';
 import path from 'node:path';
@@ -14,7 +17,7 @@ const build = path.resolve(process.argv[2] ?? path.join(root, 'build/test'));
 const rounds = Number(process.argv[3] ?? 5);
 const seconds = Number(process.argv[4] ?? 10);
 Object.assign(process.env, {
-  SERVER: path.join(build, 'tests/view/page/view_page_simulated_q2d'),
+  SERVER: path.join(build, process.argv[5] ?? 'tests/view/page/view_page_simulated_q2d'),
   PAGE: path.join(build, 'page'),
   MODULES: path.join(build, 'page-source/node_modules'),
   CHROMIUM: process.env.CHROMIUM ?? '/usr/bin/chromium',
@@ -27,15 +30,16 @@ const {WebSocket} = createRequire(path.join(process.env.MODULES, 'any.js'))('ws'
 
 /** A client that takes all that a page takes; `statistics` is the last of their messages. */
 function connect(url) {
-  const client = {bytes: 0, statistics: null};
+  const client = {bytes: 0, pictures: 0, statistics: null};
   const socket = new WebSocket(url.replace('http', 'ws'), ['foxglove.websocket.v1']);
   const topics = new Map();
   socket.binaryType = 'nodebuffer';
   socket.on('message', (data, isBinary) => {
     client.bytes += data.length;
     if (isBinary) {
-      if (topics.get(data.readUInt32LE(1)) === '/statistics')
-        client.statistics = JSON.parse(data.subarray(13));
+      const topic = topics.get(data.readUInt32LE(1));
+      if (topic === '/statistics') client.statistics = JSON.parse(data.subarray(13));
+      if (topic === '/cycles') ++client.pictures;
       return;
     }
     const message = JSON.parse(data);
@@ -62,9 +66,10 @@ async function round(count) {
   await pause(1000);
   const {statistics} = last;
   const bytes = clients.reduce((sum, client) => sum + client.bytes, 0);
+  const pictures = Math.min(...clients.map((client) => client.pictures)) / seconds;
   for (const client of [...clients, last]) client.close();
   await server.stop();
-  return {...statistics, bytes, isRealtime};
+  return {...statistics, bytes, pictures, isRealtime};
 }
 
 const median = (values) => values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
@@ -84,13 +89,16 @@ for (const [count, list] of Object.entries(all)) {
     .join(', ');
   const rate = median(list.map(({bytes}) => bytes)) / seconds / 1e6;
   const overruns = list.map((own) => own.overruns).join(' ');
-  console.log(`${count} clients: ${figures}; overruns ${overruns}; ${rate.toFixed(1)} MB/s`);
+  const pictures = Math.min(...list.map((own) => own.pictures));
+  const gets = list[0].pictures === Infinity ? '' : `, ${pictures.toFixed(1)} pictures/s and client`;
+  console.log(`${count} clients: ${figures}; overruns ${overruns}; ${rate.toFixed(1)} MB/s${gets}`);
 }
 
 // The age of what the page shows: from a cycle to the picture after the one that draws it.
 const server = await startServer();
 withPriority(server.pid); // a loop that misses cycles counts less time than passes
 const browser = await startBrowser();
+const others = Array.from({length: 9}, () => connect(server.url));
 const {page} = await openPage(browser, server.url);
 const ages = await page.evaluate(async (duration) => {
   const socket = new WebSocket(location.origin.replace('http', 'ws'), ['foxglove.websocket.v1']);
@@ -132,5 +140,6 @@ console.log(
   `update to pixel [ms]: lowest ${share(0)}, median ${share(0.5)}, 99 % ${share(0.99)}; ` +
     `${(ages.length / seconds).toFixed(1)} frames/s, drawn by software`,
 );
+for (const client of others) client.close();
 await browser.close();
 await server.stop();

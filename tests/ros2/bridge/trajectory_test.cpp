@@ -464,7 +464,9 @@ TEST_CASE("the reference of the past and of the trajectory to come is asked for"
   CHECK_FALSE(at(begin - std::chrono::seconds(100)).success);
   const auto rest = at(arm.now + std::chrono::seconds(1));
   CHECK(rest.success);
-  CHECK(rest.position == std::vector<double>{0.5, 0});
+  REQUIRE(rest.position.size() == 2);
+  CHECK(std::abs(rest.position[0] - 0.5) < 1e-15);  // the rounding of a polynomial
+  CHECK(std::abs(rest.position[1]) < 1e-15);
 
   // The second half of a trajectory, before it has been followed and after.
   REQUIRE(arm.send(2, goal_to(-0.5, 0.2, 1)).accepted);

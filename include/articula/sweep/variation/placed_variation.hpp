@@ -2,6 +2,7 @@
 /// @file What a variation varies in a robot, and the checks of several of them.
 #pragma once
 
+#include "articula/control/laws/pid_gains.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/model/vector3.hpp"
