@@ -2,6 +2,7 @@
 #include "articula/ros2/dds/packets/checked_transport.hpp"
 
 #include "articula/ros2/dds/packets/packet_check.hpp"
+#include "articula/ros2/dds/packets/participant_gate.hpp"
 
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
@@ -9,6 +10,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <mutex>
 #include <span>
 
 namespace articula::ros2::dds {
@@ -32,13 +34,22 @@ class CheckedTransport final : public transports::ChainingTransport {
   void receive(transports::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    if (is_well_formed(std::as_bytes(std::span(bytes, size)))) {
+    const Packet packet = std::as_bytes(std::span(bytes, size));
+    if (is_well_formed(packet) && gate_admits(packet)) {
       receiver->OnDataReceived(bytes, size, local, remote);
     }
   }
 
  private:
+  /// Each port has a thread that receives.
+  bool gate_admits(Packet packet) {
+    const std::lock_guard lock(mutex_);
+    return gate_.admits(packet, std::chrono::steady_clock::now());
+  }
+
   CheckedTransportDescriptor descriptor_;
+  std::mutex mutex_{};
+  ParticipantGate gate_{};
 };
 
 }  // namespace

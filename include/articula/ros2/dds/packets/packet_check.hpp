@@ -11,6 +11,9 @@ namespace articula::ros2::dds {
 /// A packet of RTPS, or a part of one.
 using Packet = std::span<const std::byte>;
 
+/// The bytes of a packet before its parts.
+inline constexpr std::size_t packet_header = 20;
+
 namespace detail {
 
 /// An unsigned number.
@@ -104,14 +107,13 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
 
 }  // namespace detail
 
-/// Whether all parts of a packet are within it, and all that they contain is within them. Fast DDS
-/// 2.9.1 reads beyond the end of some packets for which this is not so. Source: [RTPS], 9.4.
-/// @param packet  as it came from the network
-/// Real-time: yes. O(size).
-[[nodiscard]] constexpr bool is_well_formed(Packet packet) noexcept {
-  constexpr std::size_t header = 20;
-  if (packet.size() < header || detail::number_at(packet, 0, 4, false) != 0x52545053) return false;
-  for (std::size_t at = header; at < packet.size();) {
+/// Calls function(kind, flags, part) for the parts of a packet, in their order. The part is without
+/// its head of four bytes. Ends where the function returns false.
+/// @param packet  with a whole header
+/// @return        whether all parts are within the packet, and the function always returned true
+/// Real-time: yes, if the function is. O(number of parts).
+constexpr bool for_each_part(Packet packet, auto&& function) {
+  for (std::size_t at = packet_header; at < packet.size();) {
     if (packet.size() - at < 4) return false;
     const std::uint32_t kind = detail::number_at(packet, at, 1, false),
                         flags = detail::number_at(packet, at + 1, 1, false);
@@ -120,10 +122,20 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
     // The last part may leave its length out, except those that may be empty.
     if (size == 0 && kind != 0x01 && kind != 0x09) size = packet.size() - at;
     if (size > packet.size() - at) return false;
-    if (!detail::is_good_part(kind, flags, packet.subspan(at, size))) return false;
+    if (!function(kind, flags, packet.subspan(at, size))) return false;
     at += size;
   }
   return true;
+}
+
+/// Whether all parts of a packet are within it, and all that they contain is within them. Fast DDS
+/// 2.9.1 reads beyond the end of some packets for which this is not so. Source: [RTPS], 9.4.
+/// @param packet  as it came from the network
+/// Real-time: yes. O(size).
+[[nodiscard]] constexpr bool is_well_formed(Packet packet) noexcept {
+  return packet.size() >= packet_header &&
+         detail::number_at(packet, 0, 4, false) == 0x52545053 &&  // RTPS
+         for_each_part(packet, detail::is_good_part);
 }
 
 }  // namespace articula::ros2::dds

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Only so many participants are new in a time, whatever a packet has in it.
+#include <articula/ros2/dds/packets/participant_gate.hpp>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "catch.hpp"
+
+using namespace articula::ros2;
+using dds::ParticipantGate;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+void append(Bytes& bytes, std::initializer_list<unsigned> values) {
+  for (const unsigned value : values) bytes.push_back(static_cast<std::byte>(value));
+}
+/// The prefix of a participant with a number.
+void append_prefix(Bytes& bytes, std::uint32_t number) {
+  append(bytes, {1, 15, 0, 0, 0, 0, 0, 0, number >> 24, number >> 16 & 255, number >> 8 & 255,
+                 number & 255});
+}
+Bytes header(std::uint32_t number) {
+  Bytes bytes;
+  append(bytes, {'R', 'T', 'P', 'S', 2, 3, 1, 15});
+  append_prefix(bytes, number);
+  return bytes;
+}
+void append_data(Bytes& bytes, unsigned writer_kind, unsigned writer, unsigned part = 0x15) {
+  const unsigned size = part == 0x15 ? 20 : 32;
+  append(bytes, {part, 1, size, 0});
+  append(bytes, {0, 0, size - 4, 0, 0, 0, 0, 0, 0, writer >> 8, writer & 255, writer_kind});
+  append(bytes, {0, 0, 0, 0, 1, 0, 0, 0});
+  if (part == 0x16) append(bytes, {1, 0, 0, 0, 1, 0, 1, 0, 1, 0, 0, 0});
+}
+/// What a participant sends to be discovered.
+Bytes announcement(std::uint32_t number, unsigned part = 0x15) {
+  Bytes bytes = header(number);
+  append_data(bytes, 0xc2, 0x0100, part);
+  REQUIRE(dds::is_well_formed(bytes));
+  return bytes;
+}
+
+/// How many of the participants from first to last - 1 are let in at a time.
+int admitted(ParticipantGate& gate, std::uint32_t first, std::uint32_t last,
+             ParticipantGate::Time now) {
+  int count = 0;
+  for (std::uint32_t number = first; number < last; ++number) {
+    count += gate.admits(announcement(number), now) ? 1 : 0;
+  }
+  return count;
+}
+
+constexpr ParticipantGate::Time start{std::chrono::hours(1)};
+
+}  // namespace
+
+TEST_CASE("so many participants may be new at once, and then one a second") {
+  ParticipantGate gate;
+  CHECK(admitted(gate, 0, 1000, start) == ParticipantGate::most_at_once);
+  CHECK(admitted(gate, 1000, 2000, start + milliseconds(999)) == 0);
+  CHECK(admitted(gate, 1000, 2000, start + seconds(1)) == 1);
+  CHECK(admitted(gate, 2000, 3000, start + milliseconds(3500)) == 2);
+  // Those that are known pass all the time.
+  CHECK(admitted(gate, 0, ParticipantGate::most_at_once, start + milliseconds(3500)) ==
+        ParticipantGate::most_at_once);
+  // After a quiet time there is room for as many as at the beginning.
+  CHECK(admitted(gate, 5000, 7000, start + std::chrono::hours(1)) == ParticipantGate::most_at_once);
+}
+
+TEST_CASE("a storm without end lets in one participant a second, and those that stay pass") {
+  ParticipantGate gate;
+  REQUIRE(gate.admits(announcement(0), start));
+  int count = 0;
+  constexpr int length = 3000;  // [s], so that more come in than are kept
+  std::uint32_t newcomer = 1;
+  for (int second = 0; second < length; ++second) {
+    const ParticipantGate::Time now = start + seconds(second);
+    count += admitted(gate, newcomer, newcomer + 20, now);
+    newcomer += 20;
+    CHECK(gate.admits(announcement(0), now));
+  }
+  CHECK(count >= ParticipantGate::most_at_once + length - 2);
+  CHECK(count <= ParticipantGate::most_at_once + length);
+}
+
+TEST_CASE("announcements in fragments and of other sources in a packet count") {
+  ParticipantGate gate;
+  REQUIRE(admitted(gate, 0, 1000, start) == ParticipantGate::most_at_once);
+  CHECK_FALSE(gate.admits(announcement(5000, 0x16), start));
+  CHECK(gate.admits(announcement(5, 0x16), start));
+  // A packet of a known participant with the announcement of another one.
+  Bytes forwarded = announcement(5);
+  append(forwarded, {0x0c, 1, 20, 0, 0, 0, 0, 0, 2, 3, 1, 15});
+  append_prefix(forwarded, 6000);
+  CHECK(gate.admits(forwarded, start));
+  append_data(forwarded, 0xc2, 0x0100);
+  REQUIRE(dds::is_well_formed(forwarded));
+  CHECK_FALSE(gate.admits(forwarded, start));
+}
+
+TEST_CASE("packets that announce no participant pass") {
+  ParticipantGate gate;
+  REQUIRE(admitted(gate, 0, 1000, start) == ParticipantGate::most_at_once);
+  CHECK(gate.admits(header(7000), start));
+  Bytes message = header(7000);
+  append_data(message, 0x03, 0x0001);  // of a topic
+  append_data(message, 0xc2, 0x0004);  // of a reader or writer
+  REQUIRE(dds::is_well_formed(message));
+  CHECK(gate.admits(message, start));
+}
