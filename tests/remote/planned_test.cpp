@@ -69,13 +69,17 @@ void check(Arm& arm, const Motions& plan, int joint, double rounding = 1e-10) {
 TEST_CASE("a trajectory is planned as it is followed then") {
   SupervisedArm arm;
   activate(arm);
-  arm.session->ask(PlayTrajectory{{{shoulder}, {{.time_from_start = 1, .positions = {0.5}}}}});
+  arm.session->ask(
+      PlayTrajectory{{{shoulder},
+                      {{.time_from_start = 0.4, .positions = {0.2}, .velocities = {0.7}},
+                       {.time_from_start = 1, .positions = {0.5}, .velocities = {0}}}}});
   arm.cycles(200);
-  for (const int ahead : {0, 1, 17, 500}) {
+  for (const int ahead : {0, 1, 17, 300, 300}) {
     CAPTURE(ahead);
     const Motions plan = planned(arm, ahead);
     arm.cycles(ahead);
     CHECK(plan[0]->velocity > 0.1);
+    CHECK(plan[0]->acceleration != 0);
     check(arm, plan, 0);
     check(arm, plan, 1);  // at rest
   }
@@ -83,22 +87,47 @@ TEST_CASE("a trajectory is planned as it is followed then") {
   const Motions end = planned(arm, 2000);
   CHECK(end[0]->position == 0.5);
   CHECK(end[0]->velocity == 0);
-  CHECK_FALSE(planned(arm, -2)[0]);
+  CHECK(planned(arm, -2)[0]->position == planned(arm, 0)[0]->position);  // the present
   CHECK_FALSE(arm.remote.planned(std::numeric_limits<double>::infinity())[0]);
 }
 
-TEST_CASE("a trajectory at another speed is planned at that speed") {
+TEST_CASE("a trajectory at another speed is planned at that speed, also while it changes") {
   SupervisedArm arm;
   activate(arm);
   arm.session->ask(
-      PlayTrajectory{{{shoulder, elbow}, {{.time_from_start = 2, .positions = {0.5, -0.3}}}}});
+      PlayTrajectory{{{shoulder, elbow},
+                      {{.time_from_start = 2, .positions = {0.5, -0.3}, .velocities = {0, 0}}}}});
   arm.cycles(100);
   REQUIRE(done(arm.ask(SetTrajectorySpeed{0.4})));
-  arm.cycles(500);  // the speed changes gradually
-  const Motions plan = planned(arm, 300);
-  arm.cycles(300);
-  check(arm, plan, 0);
-  check(arm, plan, 1);
+  for (const int ahead : {0, 10, 150, 400}) {  // the speed takes 0.3 s
+    CAPTURE(ahead);
+    const Motions plan = planned(arm, ahead);
+    arm.cycles(ahead);
+    CHECK(plan[0]->acceleration != 0);
+    check(arm, plan, 0);
+    check(arm, plan, 1);
+  }
+}
+
+TEST_CASE("trajectories of different joints are planned each, also if one begins in motion") {
+  SupervisedArm arm;
+  activate(arm);
+  arm.session->ask(PlayTrajectory{
+      {{shoulder}, {{.time_from_start = 1, .positions = {0.5}, .velocities = {0}}}}});
+  arm.cycles(200);
+  arm.session->ask(
+      PlayTrajectory{{{elbow}, {{.time_from_start = 1, .positions = {-0.4}, .velocities = {0}}}}});
+  arm.cycles(100);
+  arm.session->ask(PlayTrajectory{
+      {{shoulder}, {{.time_from_start = 0.9, .positions = {0.1}, .velocities = {0}}}}});
+  arm.cycles(50);
+  for (const int ahead : {1, 100, 400}) {
+    CAPTURE(ahead);
+    const Motions plan = planned(arm, ahead);
+    arm.cycles(ahead);
+    check(arm, plan, 0);
+    check(arm, plan, 1);
+  }
 }
 
 TEST_CASE("other motions, trajectories that wait and loops that are not active plan nothing") {
@@ -119,8 +148,24 @@ TEST_CASE("other motions, trajectories that wait and loops that are not active p
   REQUIRE(done(arm.ask(Stop{})));
   arm.cycles(2);
   CHECK_FALSE(planned(arm, 10)[0]);
+  // A trajectory that another motion has ended says nothing any more.
+  arm.session->ask(PlayTrajectory{{{shoulder}, {{.time_from_start = 1, .positions = {0.1}}}}});
+  arm.cycles(20);
+  arm.session->ask(Go{{{shoulder, 0.3}}});
+  arm.cycles(1);
+  CHECK_FALSE(planned(arm, 10)[0]);
   REQUIRE(done(arm.ask(Deactivate{})));
   CHECK_FALSE(planned(arm, 10)[0]);
+}
+
+TEST_CASE("a reference that the program of a plain loop moves is not planned") {
+  support::PlainArm arm;
+  arm.cycles(10);
+  CHECK(planned(arm, 10)[0]);
+  arm.loop.reference().velocity[0] = 0.1;
+  arm.cycles(2);
+  CHECK_FALSE(planned(arm, 10)[0]);
+  CHECK(planned(arm, 10)[1]);
 }
 
 TEST_CASE("a continuous joint is planned on its own turn") {

@@ -158,6 +158,38 @@ TEST_CASE("a trajectory is answered at its end") {
 }
 
 TEST_CASE(
+    "the answer tells which points of a trajectory were left out, and a strong effort is refused") {
+  SupervisedArm arm;
+  REQUIRE(done(arm.ask(Activate{})));
+  PlayTrajectory play{{{shoulder},
+                       {{.time_from_start = 0.02, .positions = {0.2}},
+                        {.time_from_start = 1, .positions = {0.5}}}}};
+  const Answer answer = arm.ask(play, 2000);
+  CHECK(done(answer));
+  CHECK(answer.text.find("without 1 of its first points") != std::string::npos);
+  play.trajectory.points = {{.time_from_start = 1, .positions = {0.4}, .effort = {28}}};
+  CHECK(refused(arm.ask(play), "trajectory: effort 28 of joint 'shoulder_active_joint'"));
+}
+
+TEST_CASE("signals beyond the range of a joint are refused") {
+  SupervisedArm arm;
+  REQUIRE(done(arm.ask(Activate{})));
+  REQUIRE(done(arm.ask(SetReference{{{shoulder, 1.5}}})));
+  arm.cycles(2);  // the port knows the reference
+  const auto answer_to = [&](const Signal& signal) {
+    return arm.ask(PlaySignals{{{shoulder, signal}}, 0.05}, 2000);
+  };
+  CHECK(refused(answer_to(StepSignal{0.1, 0}), "signals: position 1.6 of joint"));
+  CHECK(refused(answer_to(SquareSignal{0.1, 1}), "signals: position 1.6 of joint"));
+  CHECK(refused(answer_to(StepSignal{-3.1, 0}), "signals: position -1.6 of joint"));
+  CHECK(done(answer_to(StepSignal{-0.1, 0})));
+  CHECK(done(answer_to(SineSignal{0.05, 1})));
+  // Opposite steps cancel.
+  CHECK(done(arm.ask(
+      PlaySignals{{{shoulder, StepSignal{0.5, 0}}, {shoulder, StepSignal{-0.5, 0}}}, 0.05}, 2000)));
+}
+
+TEST_CASE(
     "a trajectory that another motion replaces fails, one that cannot be followed is refused") {
   SupervisedArm arm;
   REQUIRE(done(arm.ask(Activate{})));

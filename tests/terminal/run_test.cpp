@@ -168,6 +168,38 @@ TEST_CASE("the course's files run, with their controllers, and are operated from
   CHECK(end.json().at("cycles").get<int>() > 0);
 }
 
+TEST_CASE("anybody may stop a motion, and a paused loop shows its state") {
+  const Q2dFile robot;
+  const Running running(
+      {robot.name(), files + "/q2d.yaml", "--controller", "pid_plus_gravity_controller"});
+  const auto motion = [&] { return running.ask({"status"}).at("situation").at("motion"); };
+  support::Process operating({ARTICULA_PROGRAM, "--port", running.port(), "go",
+                              "shoulder_active_joint=1.5", "--speed", "0.02", "--wait"});
+  CHECK(eventually([&] { return motion() == "go"; }));
+  const Result refused = run_articula({"--port", running.port(), "go", "elbow_active_joint=0.1"});
+  CHECK(refused.errors.find("has the controls") != std::string::npos);
+  const Json stopped = running.ask({"stop"});
+  CHECK(stopped.at("success") == true);
+  CHECK(eventually([&] { return motion() == "rest"; }));
+  CHECK(operating.end().exit_code == 0);
+
+  running.ask({"pause"});
+  const Json paused = running.ask({"status"});
+  CHECK(paused.at("situation").at("paused") == true);
+  CHECK(paused.at("joints").size() == 2);
+  CHECK(paused.at("joints").at(0).at("position").is_number());
+}
+
+TEST_CASE("a motion that no controller follows is told of") {
+  const Q2dFile robot;
+  const Running running({robot.name(), files + "/q2d.yaml", "--controller", "group_bypass"});
+  const Result result =
+      run_articula({"--port", running.port(), "go", "elbow_active_joint=0.3", "--wait"});
+  CHECK(result.exit_code == 0);
+  CHECK(result.errors.find("note: joint 'elbow_active_joint' is at ") != std::string::npos);
+  CHECK(result.errors.find(", not at 0.3: ") != std::string::npos);
+}
+
 TEST_CASE("positions go to simulated drives, and to a mock") {
   const Q2dFile robot;
   const ScratchFile controllers("position.yaml");

@@ -173,8 +173,10 @@ class FakePort final : public remote::Port {
     }
 
     std::uint64_t ask(const remote::Request& request) override {
+      const std::string other =
+          std::holds_alternative<remote::Stop>(request) ? "" : take_controls();
       const std::lock_guard lock(port_.mutex_);
-      const std::string fault = port_.take(request);
+      const std::string fault = other.empty() ? port_.take(request) : other;
       if (!port_.answers_) return ++asked_;
       const auto verdict = fault.empty() ? remote::Verdict::done : remote::Verdict::refused;
       answers_.push_back({.request = ++asked_,

@@ -10,6 +10,8 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <cmath>
+#include <iostream>
 #include <memory>
 #include <vector>
 
@@ -41,6 +43,26 @@ void wait_while(Connection& connection, const std::string& motion) {
   }
 }
 
+/// The motion of the reference has ended. Where no controller follows it, the joints are elsewhere.
+void warn_of_joints_elsewhere(Connection& connection, const Json& targets) {
+  connection.subscribe("/joint_states");
+  const auto message = connection.next(Connection::default_patience);
+  if (!message) return;
+  const Json names = message->content.value("name", Json::array()),
+             positions = message->content.value("position", Json::array());
+  for (std::size_t i = 0; i < names.size() && i < positions.size(); ++i) {
+    const auto target = targets.find(names[i].get<std::string>());
+    constexpr double far = 0.05;  // [rad or m]; beyond the usual error of a controller
+    if (target == targets.end() || !positions[i].is_number()) continue;
+    const double position = positions[i].get<double>(), wanted = target->get<double>();
+    if (std::abs(position - wanted) <= far) continue;
+    std::cerr
+        << "note: joint '" << target.key() << "' is at " << shown(position) << ", not at "
+        << shown(wanted)
+        << ": does an active controller follow positions, or has somebody ended the motion?\n";
+  }
+}
+
 void go(const Program& program, const std::vector<std::string>& arguments, double speed,
         bool waits) {
   const Json request{{"positions", values_by_name(arguments, "joint")}, {"speed", speed}};
@@ -49,6 +71,7 @@ void go(const Program& program, const std::vector<std::string>& arguments, doubl
   const Json answer = connection.call("/go", request);
   wait_while(connection, "go");
   connection.call("/release_controls");
+  warn_of_joints_elsewhere(connection, request["positions"]);
   print_answer(program, answer);
 }
 

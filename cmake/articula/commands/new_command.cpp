@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file new: a project that compiles the loop which `articula run` makes from the same files.
+#include "commands/notes.hpp"
 #include "files/robot_file.hpp"
 #include "program.hpp"
 #include "project/project.hpp"
@@ -31,12 +32,14 @@ void write_new(const Program& program, const New& options) {
   const articula::UrdfDescription robot =
       read_robot(source, plan, options.allows_unphysical,
                  options.bus.empty() ? Mover::simulation : Mover::drives);
+  const std::vector<PlannedGroup> groups = joint_groups(robot, plan);
+  print_notes(plan, groups, robot, options.robot);
   PlannedDrives drives;
   if (!options.bus.empty()) drives = read_drives(plan, options.bus, robot);
   const Project project = make_project({.robot = options.robot,
                                         .urdf = source.text(),
                                         .controllers = plan,
-                                        .groups = joint_groups(robot, plan),
+                                        .groups = groups,
                                         .allows_unphysical = options.allows_unphysical,
                                         .is_kinematic = robot->kinematic,
                                         .drives = drives});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file run: a robot from a URDF with the controllers of a YAML file, without a compiler.
+#include "commands/notes.hpp"
 #include "files/controllers_file.hpp"
 #include "files/drives_file.hpp"
 #include "files/joint_groups.hpp"
@@ -169,18 +170,7 @@ void run(const Program& program, const Run& options) {
                   ": its controllers command efforts, which do not move a mock; leave --mock out "
                   "for a simulation");
   }
-  for (const std::string& note : controllers.notes)
-    std::fprintf(stderr, "note: %s\n", note.c_str());
-  for (const PlannedGroup& group : groups) {
-    if (!group.controllers.empty()) continue;
-    for (const std::string& joint : group.joints) {
-      std::fprintf(stderr, "note: %s: no controller has joint '%s', which is held at rest\n",
-                   options.controllers.c_str(), joint.c_str());
-    }
-  }
-  for (const std::string& notice : robot->notices) {
-    std::fprintf(stderr, "note: %s: %s\n", options.robot.c_str(), notice.c_str());
-  }
+  print_notes(controllers, groups, robot, options.robot);
 
   const std::string text = source.text();
   if (options.compiles || !options.bus.empty()) {

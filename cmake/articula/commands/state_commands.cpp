@@ -83,16 +83,17 @@ void print_status(const Program& program) {
   robot.erase("urdf");  // long, and of no use here
 
   const bool is_simulated = robot.value("is_simulated", false);
-  const std::string fault = situation.value("fault", "ok");
+  const std::string mode = situation.value("mode", ""), fault = situation.value("fault", "ok");
   const std::string operating = situation.value("operator", "");
   std::vector<Row> rows{
       {"robot", robot.value("name", "") + (is_simulated ? ", simulated" : "") + ", " +
                     shown(1 / robot.value("period", 1e-3)) + " Hz"},
-      {"mode", situation.value("mode", "") + (situation.value("paused", false) ? ", paused" : "") +
+      {"mode", mode + (situation.value("paused", false) ? ", paused" : "") +
                    (situation.value("speed", 1.0) != 1
                         ? ", time runs " + shown(situation.value("speed", 1.0)) + " times as fast"
                         : "")},
-      {"fault", fault == "ok" ? "none" : fault + ": " + situation.value("advice", "")},
+      {mode == "fault" || fault == "ok" ? "fault" : "last fault",
+       fault == "ok" ? "none" : fault + ": " + situation.value("advice", "")},
       {"motion", situation.value("motion", "")},
       {"operator", operating.empty() ? "nobody" : operating},
       {"requests", situation.value("operates", false) ? "allowed" : "not allowed: read-only"},
@@ -126,7 +127,10 @@ void watch(const Program& program, double rate, double seconds) {
   while (!is_ended()) {
     const auto message = connection.next(Connection::default_patience);
     if (is_ended()) break;
-    if (!message) throw NoConnection("the server sends no states of the joints any more");
+    if (!message) {
+      if (connection.call("/situation").value("paused", false)) continue;
+      throw NoConnection("the server sends no states of the joints any more");
+    }
     const Json stamp =
         message->content.value("header", Json::object()).value("stamp", Json::object());
     const double now = stamp.value("sec", 0.0) + 1e-9 * stamp.value("nsec", 0.0);

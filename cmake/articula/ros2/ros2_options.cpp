@@ -53,6 +53,15 @@ ros2::FastDdsOptions dds_of(const Ros2Options& options) {
   return {.domain = options.domain, .interfaces = options.interfaces};
 }
 
+/// Prints where programs of ROS 2 find the loop.
+void tell(const Ros2Options& options) {
+  std::string where;
+  for (const std::string& interface : options.interfaces) where += " " + interface;
+  std::printf("ROS 2 %s, domain %u, by%s%s%s\n", options.distribution.c_str(), options.domain,
+              where.c_str(), options.name_space.empty() ? "" : ", below ",
+              options.name_space.c_str());
+}
+
 /// What the numbers for a controller are.
 std::string quantity_of(ControllerKind kind) {
   using enum ControllerKind;
@@ -110,7 +119,8 @@ Attach ros2_bridge(const Ros2Options& options, const ControllersPlan& plan) {
       bridge.controller_joints[name].push_back(joint.name);
     }
   }
-  return [bridge](articula::remote::Port& port) -> std::shared_ptr<void> {
+  return [bridge, options](articula::remote::Port& port) -> std::shared_ptr<void> {
+    tell(options);
     return std::make_shared<ros2::Bridge>(port, bridge);
   };
 #else
@@ -125,6 +135,7 @@ Attach ros2_robot(const Ros2Options& options) {
 #ifdef ARTICULA_PROGRAM_HAS_ROS2
   if (!options.operates) throw Refusal("--read-only: a robot behind topics takes commands");
   return [options](articula::remote::Port& port) -> std::shared_ptr<void> {
+    tell(options);
     const ros2::Distribution distribution = distribution_of(options);
     ros2::TopicRobotOptions topics{.distribution = distribution};
     topics.name_space = options.name_space;

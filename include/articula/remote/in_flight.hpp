@@ -88,7 +88,7 @@ class InFlight {
       if (follow == nullptr) continue;
       own.task->clock.update();
       const TrajectoryClock& clock = own.task->clock.value();
-      if (clock.runs()) function(*follow->trajectory, own.task->bridge, clock);
+      if (clock.own) function(*follow->trajectory, own.task->bridge, clock);
     }
   }
 

@@ -77,6 +77,7 @@ class MotionTaskMaker {
 
   [[nodiscard]] Wish make(const PlayTrajectory& play, const Reference& present) const {
     task::Follow<R> wish{.trajectory = nullptr, .delay = play.delay};
+    check_.check_efforts(play.trajectory);
     Excess excess = excess_at_points(play.trajectory);
     if (!(excess.factor <= most_excess)) excess = {};  // refused by `arrange`
     wish.trajectory = arranged(slower(play.trajectory, excess.factor), present);
@@ -138,6 +139,7 @@ class MotionTaskMaker {
       }
     }
     for (int j = 0; j < joint_count; ++j) {
+      if (joints[j]) check_.check_positions(signals, j, around[j]);
       check_.check_size("signals", "velocity", j, velocity[j], limits_.velocity[j]);
       if (std::abs(begin[j]) > 1e-9) {  // rounding of a phase
         articula::detail::refuse(

@@ -16,6 +16,7 @@
 #include "articula/remote/sheet/robot_sheet_of.hpp"
 #include "articula/remote/task_maker.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -114,10 +115,11 @@ class Outside {
     const std::lock_guard lock(mutex_);
     pump();
     const LoopCondition<joint_count>& now = published_.condition();
-    if (now.mode != LoopMode::active || !is_finite(time) || time < published_.time()) {
+    if (now.mode != LoopMode::active || !is_finite(time)) {
       return std::vector<std::optional<JointMotion>>(std::size_t{joint_count});
     }
-    return planned_motions(in_flight_, now, published_.reference(), time);
+    return planned_motions(in_flight_, now, published_.reference(), is_supervised<LoopType>,
+                           std::max(time, published_.time()));
   }
 
   // Sessions, by their numbers:

@@ -92,9 +92,10 @@ class Port {
   [[nodiscard]] virtual std::vector<LinkPose> link_poses(
       const std::vector<double>& position) const = 0;
   /// The motion of each joint's reference at a time to come, if no further request changes it: that
-  /// of a trajectory at its present speed, or rest. None for a joint that another motion moves, or
-  /// that waits for the start of a trajectory.
-  /// @param time  of the loop [s]. If it is not finite, or before the last cycle, no joint has one.
+  /// of a trajectory, or rest. None for a joint that another motion moves, or that waits for the
+  /// start of a trajectory; none at all while the loop is not active.
+  /// @param time  of the loop [s]; before that of the last cycle it means that one. If it is not
+  ///              finite, no joint has a motion.
   [[nodiscard]] virtual std::vector<std::optional<JointMotion>> planned(double) {
     return std::vector<std::optional<JointMotion>>(robot().joints.size());
   }

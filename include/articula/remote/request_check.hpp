@@ -7,9 +7,11 @@
 #include "articula/core/name.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
+#include "articula/reference/signal_bounds.hpp"
 #include "articula/remote/request.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -77,6 +79,37 @@ class RequestCheck {
     if (is_finite(value) && std::abs(value) <= limit) return;
     articula::detail::refuse({what, ": ", quantity, " ", value, " of joint '", name_of(joint),
                               "' is above the limit ", limit});
+  }
+
+  /// The efforts of a trajectory's points.
+  void check_efforts(const NamedTrajectory& trajectory) const {
+    for (std::size_t k = 0; k < trajectory.joint_names.size(); ++k) {
+      for (int j = 0; j < joint_count<R>; ++j) {
+        if (trajectory.joint_names[k] != name_of(j)) continue;
+        for (const NamedTrajectoryPoint& point : trajectory.points) {
+          if (k >= point.effort.size()) continue;
+          check_size("trajectory", "effort", j, point.effort[k], limits_of(j).effort);
+        }
+      }
+    }
+  }
+  /// The positions to which signals move a joint. A joint outside its limits may come back.
+  /// @param around  the position to which they are added
+  void check_positions(const std::vector<JointSignal>& signals, int joint, double around) const {
+    std::vector<Signal> own;
+    for (const JointSignal& each : signals) {
+      const bool is_own = each.joint.view() == name_of(joint);
+      if (is_own && each.target == SignalTarget::position) own.push_back(each.signal);
+    }
+    constexpr double rounding = 1e-9;  // of the present position
+    const ValueRange bounds = signal_bounds(own);
+    const double highest = around + bounds.highest, lowest = around + bounds.lowest;
+    if (bounds.highest > 0 && highest > limits_of(joint).upper + rounding) {
+      check_position("signals", joint, highest);
+    }
+    if (bounds.lowest < 0 && lowest < limits_of(joint).lower - rounding) {
+      check_position("signals", joint, lowest);
+    }
   }
 
  private:

@@ -5,6 +5,7 @@
 #include "articula/remote/engine/task.hpp"
 #include "articula/remote/request.hpp"
 
+#include <cstddef>
 #include <string>
 #include <variant>
 
@@ -31,8 +32,15 @@ template <Robot R>
         const bool strict = own->request.strictness == Strictness::strict;
         return {.verdict = strict ? Verdict::refused : Verdict::done, .text = text};
       }
-      if (std::holds_alternative<task::Follow<R>>(task.wish)) {
-        return {.verdict = Verdict::done, .text = "goal reached"};
+      if (const auto* own = std::get_if<task::Follow<R>>(&task.wish)) {
+        std::string text = "goal reached";
+        const std::size_t first =
+            next_point(own->trajectory->points(), task.bridge.from.time_from_start);
+        if (task.has_begun && task.bridge.index > first) {
+          text += ", without " + std::to_string(task.bridge.index - first) +
+                  " of its first points: no motion within the limits reaches them in time";
+        }
+        return {.verdict = Verdict::done, .text = text};
       }
       return {.verdict = Verdict::done};
     case not_active:

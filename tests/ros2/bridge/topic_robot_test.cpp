@@ -103,6 +103,34 @@ TEST_CASE("commands by name become the loop's reference, until none follows") {
   CHECK(arm.loop->port().situation().operator_name.empty());
 }
 
+TEST_CASE("refused commands do not prolong the one before") {
+  RobotBehindTopics arm;
+  arm.command({.name = {shoulder_joint}, .effort = {0.5}});
+  arm.run(3);
+  REQUIRE(arm.reference_effort(0) == 0.5);
+  for (int k = 0; k < 150; ++k) {
+    arm.command({.name = {shoulder_joint}, .effort = {1000}});
+    arm.run(10);
+  }
+  CHECK(arm.reference_effort(0) == 0);
+  CHECK(arm.topics.statistics().expired == 1);
+  CHECK(arm.topics.statistics().refused == 150);
+}
+
+TEST_CASE("a loop that stood still ends old commands when it goes on") {
+  RobotBehindTopics arm;
+  arm.command({.name = {shoulder_joint}, .effort = {0.5}});
+  arm.run(3);
+  for (int k = 0; k < 100; ++k) arm.command({.name = {shoulder_joint}, .effort = {0.75}});
+  for (int k = 0; k < 2600; ++k) {
+    arm.now += std::chrono::milliseconds(1);
+    arm.topics.update(arm.now);
+  }
+  arm.run(1200);  // it takes those that wait; their lifetime begins then
+  CHECK(arm.reference_effort(0) == 0);
+  CHECK(arm.loop->port().situation().operator_name.empty());
+}
+
 TEST_CASE("commands that are wrong, foreign or refused change nothing") {
   std::vector<std::string> warnings;
   RobotBehindTopics arm({.warn = [&](const std::string& warning) { warnings.push_back(warning); }});

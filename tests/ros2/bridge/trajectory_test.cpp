@@ -493,10 +493,37 @@ TEST_CASE("the reference of the past and of the trajectory to come is asked for"
       to_message<builtin_interfaces::msg::Time>(arm.now + std::chrono::seconds(1));
   REQUIRE(arm.send(3, waiting).accepted);
   arm.run(20);
-  const auto unknown = at(arm.now + std::chrono::milliseconds(10));
+  const auto unknown = at(arm.now + std::chrono::milliseconds(50));
   CHECK_FALSE(unknown.success);
   CHECK(unknown.message ==
-        "joint " + std::string(shoulder_joint) + " neither follows a trajectory nor rests");
+        "joint " + std::string(shoulder_joint) +
+            " does not rest, and its motion is none of a trajectory that has begun");
+}
+
+TEST_CASE(
+    "the present is asked for between two cycles, and the loop has made more than are known") {
+  using Query = control_msgs::srv::QueryTrajectoryState<Jazzy>;
+  ActiveArm arm;
+  arm.run(100);
+  const auto at = [&](std::chrono::nanoseconds time) {
+    return arm.call<Query>(controller + "query_state",
+                           {.time = to_message<builtin_interfaces::msg::Time>(time)});
+  };
+  for (const int late : {-1, 0, 1, 3}) {
+    CAPTURE(late);
+    arm.loop->cycles(3);  // of which the bridge does not know yet
+    const auto rest = at(arm.now + std::chrono::milliseconds(late));
+    CHECK(rest.success);
+    CHECK(rest.velocity == std::vector<double>{0, 0});
+  }
+  // The present of another motion is its last reference; its future is not known.
+  arm.publish(controller + "reference", trajectory_msgs::msg::JointTrajectoryPoint<Jazzy>{
+                                            .positions = {0, 0}, .velocities = {0.1, 0}});
+  arm.run(5);
+  const auto now = at(arm.now + std::chrono::milliseconds(2));
+  CHECK(now.success);
+  CHECK(now.velocity == std::vector<double>{0.1, 0});
+  CHECK_FALSE(at(arm.now + std::chrono::seconds(1)).success);
 }
 
 TEST_CASE("a goal for a loop that has made no cycle waits for one") {

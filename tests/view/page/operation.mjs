@@ -219,11 +219,17 @@ export async function two_operators(browser, url) {
     'its sliders are disabled',
   );
   await second.picture('two_operators');
-  const answer = await second.page.evaluate(() => articula.session.askQuietly('/stop'));
+  const answer = await second.page.evaluate(() => articula.session.askQuietly('/deactivate'));
   check(
     !answer.success && /controls/.test(answer.message),
     `a refusal with its reason, not ${JSON.stringify(answer)}`,
   );
+  check(
+    await second.page.$eval('button.stop', ({disabled}) => !disabled),
+    'everybody may stop the robot',
+  );
+  const stop = await second.page.evaluate(() => articula.session.askQuietly('/stop'));
+  check(stop.success, `a stop, not ${JSON.stringify(stop)}`);
   await first.click('button::-p-text(Release controls)');
   await second.until('the second may operate', () => articula.session.mayOperate);
   await second.click('button::-p-text(Take controls)');

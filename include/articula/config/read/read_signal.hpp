@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file One waveform in a configuration file, and the bounds of a sum of waveforms.
+/// @file One waveform in a configuration file.
 #pragma once
 
 #include "articula/config/read/section.hpp"
@@ -116,49 +116,5 @@ class SignalShapeReader {
   ConfigMap& map_;
   double limit_;
 };
-
-/// The range of a sum of signals, 0 included.
-struct SignalBounds {
-  double low = 0;
-  double high = 0;
-};
-
-/// The range of a sum of signals. Steps and ramps are added in the course of time, so that opposite
-/// ones cancel. Waves are added as if their peaks coincided.
-[[nodiscard]] inline SignalBounds bounds_of(const std::vector<Signal>& signals) {
-  SignalBounds waves, lines;
-  std::vector<double> corners;
-  for (const Signal& signal : signals) {
-    std::visit(
-        [&](const auto& any) {
-          if constexpr (requires { any.height; }) {
-            corners.push_back(any.start);
-            if constexpr (requires { any.duration; }) corners.push_back(any.start + any.duration);
-          } else {
-            double offset = 0;
-            if constexpr (requires { any.offset; }) offset = any.offset;
-            waves.high += offset + std::abs(any.amplitude);
-            waves.low += offset - std::abs(any.amplitude);
-          }
-        },
-        signal);
-  }
-  for (const double corner : corners) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (const double time : {std::nextafter(corner, -infinity), corner}) {
-      double sum = 0;
-      for (const Signal& signal : signals) {
-        std::visit(
-            [&](const auto& any) {
-              if constexpr (requires { any.height; }) sum += any.sample(time).value;
-            },
-            signal);
-      }
-      lines.high = std::max(lines.high, sum);
-      lines.low = std::min(lines.low, sum);
-    }
-  }
-  return {std::min(0.0, waves.low + lines.low), std::max(0.0, waves.high + lines.high)};
-}
 
 }  // namespace articula::detail

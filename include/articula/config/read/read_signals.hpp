@@ -9,6 +9,7 @@
 #include "articula/config/read/unused_parameters.hpp"
 #include "articula/config/yaml/config_map.hpp"
 #include "articula/reference/joint_signals.hpp"
+#include "articula/reference/signal_bounds.hpp"
 #include "articula/text/characters.hpp"
 #include "articula/text/file_error.hpp"
 #include "articula/text/similar_word.hpp"
@@ -94,8 +95,8 @@ class SignalReader {
       config_.notes.push_back(place.text() + "there is no waveform in it");
     }
     for (std::size_t j = 0; j < drives_.size(); ++j) {
-      const SignalBounds bounds = bounds_of(drives_[j].signals);
-      const double highest = std::max(bounds.high, -bounds.low);
+      const ValueRange bounds = signal_bounds(drives_[j].signals);
+      const double highest = std::max(bounds.highest, -bounds.lowest);
       constexpr double rounding = 1e-12;  // of a sum, relative to it
       if (highest <= limits_[j] * (1 + rounding)) continue;
       throw FileError(drives_[j].last,

@@ -205,14 +205,13 @@ class TrajectoryFollower {
   [[nodiscard]] const TrajectoryRefusal& refusal() const noexcept { return refusal_; }
   /// Where the last sample lies on the present trajectory.
   struct Progress {
-    double time = 0;                         ///< in the trajectory's own time [s]
-    double speed = 1;                        ///< at which that runs, see SpeedOverride
+    SpeedOverride clock{};                   ///< the trajectory's own time
     TrajectoryBridge<joint_count> bridge{};  ///< into the trajectory
   };
   /// None while the trajectory waits for its start. Real-time: yes.
   [[nodiscard]] std::optional<Progress> progress() const noexcept {
     if (waiting_) return std::nullopt;
-    return Progress{motion_.speed().time(), motion_.speed().speed(), motion_.bridge()};
+    return Progress{motion_.speed(), motion_.bridge()};
   }
   /// Whether the reference moves. Real-time: yes.
   [[nodiscard]] bool moves() const noexcept { return motion_.moves(); }

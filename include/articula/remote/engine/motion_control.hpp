@@ -2,11 +2,15 @@
 /// @file The motions of a remote loop's reference, and the tasks that begin and end them.
 #pragma once
 
+#include "articula/core/finite.hpp"
+#include "articula/reference/joint_range.hpp"
 #include "articula/remote/engine/mode_control.hpp"
 #include "articula/remote/engine/task_returns.hpp"
 #include "articula/remote/motion/reference_source.hpp"
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace articula::remote {
@@ -26,7 +30,8 @@ class MotionControl {
       : loop_(loop),
         returns_(returns),
         modes_(modes),
-        source_(loop.hardware().robot(), limits, tolerances) {}
+        source_(loop.hardware().robot(), limits, tolerances),
+        range_(joint_range(loop.hardware().robot())) {}
 
   [[nodiscard]] MotionKind kind() const noexcept { return source_.kind(); }
   /// What each joint does.
@@ -55,6 +60,7 @@ class MotionControl {
   void note_cycle() noexcept {
     if (!modes_.active()) return leave_active();
     source_.check(loop_.state());
+    note_joints_apart();
     if (!source_.leads(Source::signals)) {
       returns_.give_back(waiting(Source::signals), TaskEnd::done);
     }
@@ -85,6 +91,20 @@ class MotionControl {
     Joints all;
     all.fill(true);
     stop(all);
+  }
+  /// Begins the reference of joints that do not follow it anew, at rest where they are. For
+  /// controllers that start, which would pull the joints to it.
+  void begin_where_joints_are() noexcept {
+    const JointState<joint_count>& state = loop_.state();
+    if (!modes_.active() || !is_finite(state) || !is_finite(reference())) return;
+    JointSetting<joint_count> own{
+        .values = {.position = range_.clamp(state.position), .effort = reference().effort}};
+    for (int j = 0; j < joint_count; ++j) {
+      own.joints[j] = own.positions[j] =
+          static_cast<double>(apart_[j]) * loop_.period() > time_to_follow;
+    }
+    source_.set(reference(), own);
+    give_back_replaced();
   }
   /// Ends all motions at once, since the robot is put elsewhere.
   void abandon() noexcept {
@@ -132,6 +152,10 @@ class MotionControl {
   using Reference = JointReference<joint_count>;
   using Source = ReferenceSource<R>;
   using Joints = typename Source::Joints;
+  // A joint that is so far from a resting reference, for so long, does not follow it.
+  static constexpr double far_turn = 0.1;      ///< [rad]
+  static constexpr double far = 0.01;          ///< [m]
+  static constexpr double time_to_follow = 1;  ///< [s]
 
   [[nodiscard]] const Reference& reference() const noexcept {
     return std::as_const(loop_).reference();
@@ -146,13 +170,27 @@ class MotionControl {
     return false;
   }
 
+  /// Counts the cycles in which joints are far from a reference that rests.
+  void note_joints_apart() noexcept {
+    const auto& joints = model_of(loop_.hardware().robot()).joints;
+    for (int j = 0; j < joint_count; ++j) {
+      const double limit = joints[j].type == JointType::prismatic ? far : far_turn;
+      double apart = reference().position[j] - loop_.state().position[j];
+      if (std::abs(apart) > limit && range_.turn[j] > 0) {
+        apart = std::remainder(apart, range_.turn[j]);
+      }
+      const bool rests = source_.kind(j) == MotionKind::rest && reference().velocity[j] == 0;
+      apart_[j] = rests && std::abs(apart) > limit ? apart_[j] + 1 : 0;
+    }
+  }
+
   /// Tells the outside where a trajectory is.
   void note_progress(Task<R>& own, int source) noexcept {
     const auto progress = source_.progress(source);
     if (!progress) return;
     if (!own.has_begun) own.bridge = progress->bridge;
     own.has_begun = true;
-    own.clock.write({loop_.time(), progress->time, progress->speed});
+    own.clock.write({loop_.time(), progress->clock});
   }
 
   void stop(const Joints& joints) noexcept {
@@ -186,6 +224,8 @@ class MotionControl {
   TaskReturns<R>& returns_;
   const ModeControl<LoopType>& modes_;
   Source source_;
+  JointRange<joint_count> range_;
+  JointArray<std::uint64_t, joint_count> apart_{};        ///< cycles, see note_joints_apart
   std::array<Task<R>*, Source::source_count> waiting_{};  ///< end with their motion, by source
 };
 

@@ -2,23 +2,25 @@
 /// @file The time of a trajectory beside that of its loop.
 #pragma once
 
-#include "articula/core/finite.hpp"
+#include "articula/reference/speed_override.hpp"
 
-#include <limits>
+#include <optional>
 
 namespace articula::remote {
 
 /// How the time of a trajectory runs at the moment.
 struct TrajectoryClock {
-  double loop_time = 0;                                    ///< the present of the loop [s]
-  double time = std::numeric_limits<double>::quiet_NaN();  ///< that of the trajectory [s]
-  double speed = 1;                                        ///< trajectory's time per loop's time
+  double loop_time = 0;  ///< the present of the loop [s]
+  /// The trajectory's own time then. None before its start and after its end.
+  std::optional<SpeedOverride> own{};
 
-  /// False before the trajectory's start and after its end. Real-time: yes.
-  [[nodiscard]] bool runs() const noexcept { return is_finite(time); }
-  /// The trajectory's time at a time of the loop, at the present speed [s]. Real-time: yes.
-  [[nodiscard]] double at(double other) const noexcept {
-    return time + speed * (other - loop_time);
+  /// The trajectory's own time at a later time of the loop [s], if nobody changes the speed.
+  /// @pre  own
+  /// Real-time: yes.
+  [[nodiscard]] SpeedOverride at(double later) const noexcept {
+    SpeedOverride then = *own;
+    then.advance(later - loop_time);
+    return then;
   }
 };
 

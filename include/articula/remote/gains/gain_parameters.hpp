@@ -25,10 +25,15 @@
 namespace articula::remote {
 
 /// A part of a controller that has gains of its own, of a kind that gain_fields lists.
+template <class Part>
+concept ListsGains = requires(const Part& part) {
+  part.gains()[0];
+} && (!gain_fields<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>>.empty());
+
+/// Likewise, and they can be changed while it runs.
 template <class Part, int N>
 concept HasGains =
-    requires(const Part& part) { part.gains()[0]; } &&
-    (!gain_fields<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>>.empty()) &&
+    ListsGains<Part> &&
     articula::detail::SetsGains<
         Part, ValidGains<std::remove_cvref_t<decltype(std::declval<const Part&>().gains()[0])>, N>>;
 
@@ -122,6 +127,11 @@ class GainParameters {
   template <class Part>
   void add(Part& part, const Scope& scope, const std::string& name, NameIterator& next,
            NameIterator end) {
+    static_assert(
+        !ListsGains<Part> || HasGains<Part, joint_count>,
+        "gain_fields lists the gains of this part, but set_gains does not take them: "
+        "expected void set_gains(const ValidGains<G, N>&) noexcept, where gains() returns "
+        "std::array<G, N>");
     if constexpr (HasGains<Part, joint_count>) {
       add_gains(part, scope, name);
     } else if constexpr (HasParts<Part>) {

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -83,12 +84,7 @@ class TopicRobot {
   /// @param now  of a clock that never jumps
   void update(std::chrono::nanoseconds now) {
     const std::lock_guard lock(mutex_);
-    if (std::exchange(has_new_command_, false)) commanded_ = now;
-    while (const auto answer = session_->answer()) {
-      const bool is_done = answer->verdict == remote::Verdict::done;
-      ++(is_done ? statistics_.accepted : statistics_.refused);
-      if (!is_done) warn(now, answer->text);
-    }
+    while (const auto answer = session_->answer()) note(*answer, now);
     if (std::exchange(unusable_, false)) {
       warn(now, "a command has none of the quantities that the drives take");
     }
@@ -102,6 +98,11 @@ class TopicRobot {
   }
 
  private:
+  /// What goes on until another command ends it.
+  struct Lasting {
+    bool moves = false, pushes = false;  ///< by velocities, by efforts
+  };
+
   TopicRobot(remote::Port& port, std::unique_ptr<detail::TopicThread> thread,
              const TopicRobotOptions& options)
       : TopicRobot(port, thread->transport(), options) {
@@ -166,10 +167,8 @@ class TopicRobot {
       unusable_ = true;
       return;
     }
-    moves_ = !reference.velocities.empty();
-    pushes_ = !reference.efforts.empty();
-    has_new_command_ = true;
-    static_cast<void>(session_->ask(reference));
+    const Lasting own{.moves = !reference.velocities.empty(), .pushes = !reference.efforts.empty()};
+    pending_.emplace(session_->ask(reference), own);
   }
 
   void warn(std::chrono::nanoseconds now, const std::string& reason) {
@@ -178,19 +177,39 @@ class TopicRobot {
     options_.warn(options_.joint_commands_topic + ": " + reason);
   }
 
+  /// A command counts when the loop has taken it. So one that is refused prolongs no other.
+  void note(const remote::Answer& answer, std::chrono::nanoseconds now) {
+    const bool is_done = answer.verdict == remote::Verdict::done;
+    if (!is_done) warn(now, answer.text);
+    if (answer.request == end_request_) {
+      end_request_ = 0;
+      if (is_done) (lasting_.pushes ? lasting_.pushes : lasting_.moves) = false;
+      return;
+    }
+    ++(is_done ? statistics_.accepted : statistics_.refused);
+    const auto own = pending_.extract(answer.request);
+    if (!is_done || own.empty()) return;
+    commanded_ = now;
+    is_expired_ = false;
+    lasting_.moves |= own.mapped().moves;
+    lasting_.pushes |= own.mapped().pushes;
+  }
+
+  /// Ends efforts, then velocities, until the loop has done it: one that stands still does it when
+  /// it goes on.
   void end_old_command(std::chrono::nanoseconds now) {
     if (!session_->has_controls()) return;
-    if (now - commanded_ <= to_duration(options_.command_lifetime)) return session_->keep_alive();
-    if (moves_ || pushes_) {
+    if (now - commanded_ <= to_duration(options_.command_lifetime) || end_request_ != 0) {
+      return session_->keep_alive();
+    }
+    if (!lasting_.moves && !lasting_.pushes) return session_->release_controls();
+    if (!std::exchange(is_expired_, true)) ++statistics_.expired;
+    if (lasting_.pushes) {
       remote::SetReference rest;
       for (const std::string& joint : state_.name) rest.efforts.push_back({joint, 0});
-      if (pushes_) static_cast<void>(session_->ask(rest));
-      if (moves_) static_cast<void>(session_->ask(remote::Stop{}));
-      moves_ = pushes_ = false;
-      ++statistics_.expired;
-      commanded_ = now;  // the controls are released when it is done
+      end_request_ = session_->ask(rest);
     } else {
-      session_->release_controls();
+      end_request_ = session_->ask(remote::Stop{});
     }
   }
 
@@ -219,9 +238,11 @@ class TopicRobot {
   std::optional<Publisher<rosgraph_msgs::msg::Clock>> clock_{};
   Message state_{};
   remote::Cycle cycle_{};
-  std::chrono::nanoseconds commanded_{0};  ///< when the last command came
-  bool has_new_command_ = false;
-  bool moves_ = false, pushes_ = false;  ///< the last command has velocities, efforts
+  std::chrono::nanoseconds commanded_{0};       ///< when the loop took the last command
+  std::map<std::uint64_t, Lasting> pending_{};  ///< commands without an answer, by their numbers
+  Lasting lasting_{};                           ///< of all commands that the loop has taken
+  std::uint64_t end_request_ = 0;               ///< that ends them; 0: none waits for its answer
+  bool is_expired_ = false;
   std::uint64_t refused_messages_ = 0;
   bool unusable_ = false;                             ///< a command that moves nothing has come
   std::optional<std::chrono::nanoseconds> warned_{};  ///< when the last warning was given

@@ -116,10 +116,11 @@ class View::Server {
     if (!error) acceptor_.bind(endpoint, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error) {
-      throw std::system_error(
-          std::error_code(error.value(), std::system_category()),
-          "view: cannot listen on " + address_.to_string() + ", port " + std::to_string(port) +
-              "; end the program that uses it, or choose another ViewOptions::port (0: any)");
+      throw std::system_error(std::error_code(error.value(), std::system_category()),
+                              "view: cannot listen on " + address_.to_string() + ", port " +
+                                  std::to_string(port) +
+                                  "; end the program that uses it, or choose another port, by "
+                                  "--port or ViewOptions::port (0: any)");
     }
   }
 

@@ -132,7 +132,7 @@ void ControllerTopics::take(const TrajectoryMessage& message) {
     }
     return refuse("Incoming joint " + joint + " doesn't match the controller's joints.");
   }
-  remote::PlayTrajectory request = to_request(message, core_.context.now);
+  remote::PlayTrajectory request = to_request(message, core_.context.now, core_.watch.speed());
   controller_.constraints.complete(request, controller_.joints);
   ask(request);
 }
@@ -213,23 +213,31 @@ control_msgs::srv::QueryTrajectoryState<Jazzy>::Response ControllerTopics::query
     response.message = "the references of that time are not known any more";
     return response;
   }
-  std::vector<std::optional<JointMotion>> motions;
-  if (wanted > core_.context.now) {
-    motions = core_.port.planned(core_.watch.loop_time(wanted));
-  } else {
-    const auto later =
-        std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.time > wanted; });
-    const PastReference& past = *std::prev(later);
+  const auto motions_of = [](const PastReference& past) {
+    std::vector<std::optional<JointMotion>> motions;
     for (std::size_t j = 0; j < past.position.size(); ++j) {
       motions.push_back(JointMotion{past.position[j], past.velocity[j], past.acceleration[j]});
+    }
+    return motions;
+  };
+  const auto later =
+      std::find_if(all.begin(), all.end(), [&](const auto& own) { return own.time > wanted; });
+  auto motions = motions_of(*std::prev(later));
+  if (wanted > all.back().time) {
+    auto planned = core_.port.planned(core_.watch.loop_time(wanted));
+    // A client's present is a little after the last cycle that is known here.
+    constexpr std::chrono::milliseconds present(10);
+    const bool is_present = wanted <= all.back().time + present;
+    for (std::size_t j = 0; j < motions.size() && j < planned.size(); ++j) {
+      if (planned[j] || !is_present) motions[j] = planned[j];
     }
   }
   const auto is_unknown = [&](std::size_t j) { return !motions[j]; };
   const auto unknown = std::ranges::find_if(controller_.indices, is_unknown);
   if (unknown != controller_.indices.end()) {
     const auto place = static_cast<std::size_t>(unknown - controller_.indices.begin());
-    response.message =
-        "joint " + controller_.joints[place] + " neither follows a trajectory nor rests";
+    response.message = "joint " + controller_.joints[place] +
+                       " does not rest, and its motion is none of a trajectory that has begun";
     return response;
   }
   response.success = true;

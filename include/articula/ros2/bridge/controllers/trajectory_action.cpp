@@ -77,7 +77,8 @@ class Action final : public ControllerAction {
       }
       return reject(id, "Incoming joint " + joint + " doesn't match the controller's joints.");
     }
-    remote::PlayTrajectory request = to_request(goal.trajectory, core_.context.now);
+    remote::PlayTrajectory request =
+        to_request(goal.trajectory, core_.context.now, core_.watch.speed());
     request.path_tolerances = to_request(goal.path_tolerance);
     request.goal_tolerances = to_request(goal.goal_tolerance);
     const double goal_time = seconds_of(goal.goal_time_tolerance);

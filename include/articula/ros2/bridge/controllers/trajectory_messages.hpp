@@ -28,10 +28,12 @@ using TrajectoryMessage = trajectory_msgs::msg::JointTrajectory<Jazzy>;
 /// remote::PlayTrajectory itself.
 /// @param message  its stamp is the time of the start; the stamp 0 means at once
 /// @param now      the present time of ROS, from which the delay counts
+/// @param speed    seconds of the loop in one of ROS
 /// Real-time: no (allocates).
 template <class Layout>
 [[nodiscard]] remote::PlayTrajectory to_request(
-    const trajectory_msgs::msg::JointTrajectory<Layout>& message, std::chrono::nanoseconds now) {
+    const trajectory_msgs::msg::JointTrajectory<Layout>& message, std::chrono::nanoseconds now,
+    double speed = 1) {
   remote::PlayTrajectory request;
   request.trajectory.joint_names = message.joint_names;
   for (const auto& point : message.points) {
@@ -43,7 +45,7 @@ template <class Layout>
   }
   const std::chrono::nanoseconds stamp = from_message(message.header.stamp);
   if (stamp.count() != 0) {
-    request.delay = std::chrono::duration<double>(stamp - now).count();
+    request.delay = speed * std::chrono::duration<double>(stamp - now).count();
   }
   return request;
 }

@@ -36,6 +36,7 @@ class LoopWatch {
   /// @param has_loops_time  ROS has the loop's time
   void update(std::chrono::nanoseconds now, bool has_loops_time) {
     situation = port_.situation();
+    has_loops_time_ = has_loops_time;
     const std::size_t known = references.size();
     while (session_.next(cycle)) {
       has_cycle = true;
@@ -44,15 +45,19 @@ class LoopWatch {
                             cycle.reference_acceleration});
     }
     if (!has_loops_time && references.size() > known) {
-      shift_ = now - references.back().time;
-      for (std::size_t i = known; i < references.size(); ++i) references[i].time += shift_;
+      const auto shift = now - references.back().time;
+      for (std::size_t i = known; i < references.size(); ++i) references[i].time += shift;
     }
     while (references.size() > kept_references) references.pop_front();
   }
 
-  /// The loop's time at a time of ROS [s].
+  /// The seconds of the loop in one of ROS, while a simulation is not paused.
+  [[nodiscard]] double speed() const { return has_loops_time_ ? 1 : situation.speed; }
+  /// The loop's time at a time of ROS that is not before the last cycle [s]. The time of a paused
+  /// simulation stands still.
   [[nodiscard]] double loop_time(std::chrono::nanoseconds time) const {
-    return std::chrono::duration<double>(time - shift_).count();
+    const auto since = std::chrono::duration<double>(time - references.back().time).count();
+    return cycle.time + (situation.paused && !has_loops_time_ ? 0 : since * speed());
   }
 
   /// Whether there was a cycle since the one of a number. A loop that stands still says nothing.
@@ -89,7 +94,7 @@ class LoopWatch {
 
   remote::Port& port_;
   remote::Session& session_;
-  std::chrono::nanoseconds shift_{0};  ///< the time of ROS less the loop's
+  bool has_loops_time_ = false;
 };
 
 }  // namespace articula::ros2

@@ -79,6 +79,11 @@ export class Session extends Emitter<Events> {
     return this.connected && s !== null && s.operates && (s.you_operate || s.operator === '');
   }
 
+  /** True if this page can stop the robot, also while somebody else has the controls. */
+  get mayStop(): boolean {
+    return this.connected && this.situation !== null && this.situation.operates;
+  }
+
   /** Asks for something. A refusal is shown to the user and returned. */
   async ask(service: string, request: object = {}): Promise<ServiceAnswer> {
     const answer = await this.askQuietly(service, request);

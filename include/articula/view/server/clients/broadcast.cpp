@@ -62,7 +62,11 @@ void Broadcast::tell_cycles() {
     }
     if (count < cycles_.size()) break;
   }
-  if (newest != nullptr) tell_newest(*newest);
+  if (newest != nullptr) newest_ = *newest;
+  // A loop that stands still, as a paused simulation, has no new cycle for a new client.
+  bool is_lacking = false;
+  for (Client* client : clients_) is_lacking |= client->take_lack_of_state();
+  if (newest_ && (newest != nullptr || is_lacking)) tell_newest(*newest_);
 }
 
 void Broadcast::tell_newest(const remote::Cycle& cycle) {

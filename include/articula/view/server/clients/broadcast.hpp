@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -53,9 +54,10 @@ class Broadcast {
   Latest latest_;
   std::set<Client*> clients_{};
   std::vector<remote::Cycle> cycles_{};  ///< of a message; reused
-  std::uint64_t next_number_ = 0;        ///< of the cycle that follows the last one; 0: unknown
-  double loop_start_ = 0;                ///< time of the day at the loop's time 0 [s]; 0: unknown
-  std::string situation_{};              ///< as text, to see changes
+  std::optional<remote::Cycle> newest_{};
+  std::uint64_t next_number_ = 0;  ///< of the cycle that follows the last one; 0: unknown
+  double loop_start_ = 0;          ///< time of the day at the loop's time 0 [s]; 0: unknown
+  std::string situation_{};        ///< as text, to see changes
   std::vector<remote::Parameter> parameters_{};
   TimePoint half_second_{};
 };

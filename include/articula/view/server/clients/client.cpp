@@ -13,7 +13,7 @@ namespace articula::view {
 namespace {
 
 constexpr const char* only_shows =
-    "this view only shows: the program of the loop lets clients operate by ViewOptions::operates";
+    "this view only shows: its program runs with --read-only, or without ViewOptions::operates";
 constexpr std::size_t watch_limit = 4096;  // names of parameters
 constexpr std::size_t asset_limit = 1024;  // files that wait to be read
 
@@ -90,10 +90,12 @@ void Client::act(const Subscribed& action) {
       return;
     case Topic::joint_states:
     case Topic::transforms:
-    case Topic::cycles:
     case Topic::ros_joint_states:
     case Topic::ros_reference:
     case Topic::ros_command:
+      lacks_state_ = true;
+      return;
+    case Topic::cycles:
       return;
   }
 }
@@ -170,10 +172,7 @@ void Client::ask(const remote::Request& request, const Reply& to) {
   if (pending_.size() >= pending_limit) {
     return reply(to, false, "too many requests of this client wait for their answer; wait for it");
   }
-  if (const std::string reason = change_controls(true); !reason.empty()) {
-    return reply(to, false, reason);
-  }
-  pending_.emplace(session_->ask(request), to);
+  pending_.emplace(session_->ask(request), to);  // takes the controls, if the request needs them
 }
 
 // They take a core's time, so those who only watch cannot ask.

@@ -18,6 +18,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -50,6 +51,8 @@ class Client {
   }
   /// Sends a message of a topic of which the newest counts, if the client wants it.
   void stream(Topic topic, const SharedText& message);
+  /// Whether the client has asked for states of the joints since the last call.
+  [[nodiscard]] bool take_lack_of_state() noexcept { return std::exchange(lacks_state_, false); }
   /// Sends a message of a topic of which each counts, if the client wants it.
   void announce(Topic topic, const SharedText& message);
   /// Sends parameters that have changed, as far as the client watches them.
@@ -109,6 +112,7 @@ class Client {
   std::deque<AssetQuestion> assets_{};       ///< read one by one, when the last one is sent
   std::set<std::string> watched_{};
   bool watches_all_ = false;
+  bool lacks_state_ = false;
   std::uint64_t told_situation_ = 0;
   bool told_controls_ = false;
   std::size_t complaints_ = 0;

@@ -46,7 +46,7 @@ export function addTopBar(bar: HTMLElement, banner: HTMLElement, session: Sessio
   banner.append(cause, acknowledge);
 
   addEventListener('keydown', (event) => {
-    if (event.key === 'Escape' && session.mayOperate) void session.ask('/stop');
+    if (event.key === 'Escape' && session.mayStop) void session.ask('/stop');
   });
   session.on('robot', (sheet) => {
     name.textContent = sheet.name;
@@ -73,7 +73,8 @@ export function addTopBar(bar: HTMLElement, banner: HTMLElement, session: Sessio
     release.hidden = !s.you_operate;
     activate.hidden = s.mode !== 'inactive';
     deactivate.hidden = s.mode !== 'active' && s.mode !== 'starting';
-    for (const each of [activate, deactivate, stop, acknowledge]) each.disabled = !may;
+    for (const each of [activate, deactivate, acknowledge]) each.disabled = !may;
+    stop.disabled = !session.mayStop;
     banner.hidden = s.mode !== 'fault' || !session.connected;
     cause.replaceChildren(element('b', {}, `Fault: ${s.fault}. `), s.advice);
   };
