@@ -117,6 +117,34 @@ TEST_CASE("refused commands do not prolong the one before") {
   CHECK(arm.topics.statistics().refused == 150);
 }
 
+TEST_CASE("a single command ends after its lifetime, also if the loop takes it late") {
+  RobotBehindTopics arm;
+  for (int round = 0; round < 2; ++round) {
+    arm.command({.name = {shoulder_joint}, .effort = {0.5}});
+    arm.topics.update(arm.now);  // before the loop makes a cycle
+    arm.run(500);
+    CHECK(arm.reference_effort(0) == 0.5);
+    arm.run(1000);
+    CHECK(arm.reference_effort(0) == 0);
+    CHECK(arm.loop->port().situation().operator_name.empty());
+    arm.run(2000);
+  }
+  CHECK(arm.topics.statistics().expired == 2);
+}
+
+TEST_CASE("who takes the controls away ends the command") {
+  RobotBehindTopics arm;
+  arm.command({.name = {shoulder_joint}, .effort = {0.5}});
+  arm.run(10);
+  REQUIRE(arm.reference_effort(0) == 0.5);
+  arm.loop->port().connect("a stop", true)->ask(articula::remote::Stop{});  // needs no controls
+  arm.run(1100);
+  CHECK(arm.reference_effort(0) == 0);
+  arm.run(1100);
+  const auto other = arm.loop->port().connect("another client", true);
+  CHECK(other->take_controls().empty());
+}
+
 TEST_CASE("a loop that stood still ends old commands when it goes on") {
   RobotBehindTopics arm;
   arm.command({.name = {shoulder_joint}, .effort = {0.5}});

@@ -65,13 +65,35 @@ TEST_CASE("so many participants may be new at once, and then one a second") {
   ParticipantGate gate;
   CHECK(admitted(gate, 0, 1000, start) == ParticipantGate::most_at_once);
   CHECK(admitted(gate, 1000, 2000, start + milliseconds(999)) == 0);
-  CHECK(admitted(gate, 1000, 2000, start + seconds(1)) == 1);
-  CHECK(admitted(gate, 2000, 3000, start + milliseconds(3500)) == 2);
+  CHECK(admitted(gate, 2000, 3000, start + seconds(1)) == 1);
+  CHECK(admitted(gate, 3000, 4000, start + milliseconds(3500)) == 2);
   // Those that are known pass all the time.
   CHECK(admitted(gate, 0, ParticipantGate::most_at_once, start + milliseconds(3500)) ==
         ParticipantGate::most_at_once);
   // After a quiet time there is room for as many as at the beginning.
   CHECK(admitted(gate, 5000, 7000, start + std::chrono::hours(1)) == ParticipantGate::most_at_once);
+}
+
+TEST_CASE("who announces itself again comes in during a storm of ever new ones") {
+  ParticipantGate gate;
+  std::uint32_t other = 0;
+  for (int second = 0; second < 20; ++second) {
+    CHECK(admitted(gate, other, other + 1000, start + seconds(second)) <=
+          ParticipantGate::most_at_once);
+    other += 1000;
+  }
+  const std::uint32_t newcomer = 1'000'000;
+  CHECK_FALSE(gate.admits(announcement(newcomer), start + seconds(19)));
+  CHECK(admitted(gate, other, other + 3000, start + seconds(19)) == 0);
+  CHECK(gate.admits(announcement(newcomer), start + seconds(19)));
+  CHECK(gate.admits(announcement(newcomer), start + seconds(19)));
+  // As many of them as of the first ones, and then one a second.
+  int count = 0;
+  for (int round = 0; round < 2; ++round) {
+    count += admitted(gate, 2'000'000, 2'001'000, start + seconds(19));
+  }
+  CHECK(count == ParticipantGate::most_at_once - 1);
+  CHECK(admitted(gate, 2'000'500, 2'001'000, start + seconds(20)) == 2);  // of each one
 }
 
 TEST_CASE("a storm without end lets in one participant a second, and those that stay pass") {

@@ -167,7 +167,6 @@ class LoopSide {
   void begin(Task<R>& own, [[maybe_unused]] task::Switch& wish) noexcept {
     if constexpr (switched) {
       wish.outcome = switch_in(loop_.controller()).request(wish.request);
-      if (wish.outcome.started > 0) motions_.begin_where_joints_are();
       rings_.changed.push(&own);
     }
     returns_.finish(own, TaskEnd::done);

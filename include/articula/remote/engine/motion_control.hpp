@@ -2,15 +2,11 @@
 /// @file The motions of a remote loop's reference, and the tasks that begin and end them.
 #pragma once
 
-#include "articula/core/finite.hpp"
-#include "articula/reference/joint_range.hpp"
 #include "articula/remote/engine/mode_control.hpp"
 #include "articula/remote/engine/task_returns.hpp"
 #include "articula/remote/motion/reference_source.hpp"
 
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <utility>
 
 namespace articula::remote {
@@ -30,8 +26,7 @@ class MotionControl {
       : loop_(loop),
         returns_(returns),
         modes_(modes),
-        source_(loop.hardware().robot(), limits, tolerances),
-        range_(joint_range(loop.hardware().robot())) {}
+        source_(loop.hardware().robot(), limits, tolerances) {}
 
   [[nodiscard]] MotionKind kind() const noexcept { return source_.kind(); }
   /// What each joint does.
@@ -60,7 +55,6 @@ class MotionControl {
   void note_cycle() noexcept {
     if (!modes_.active()) return leave_active();
     source_.check(loop_.state());
-    note_joints_apart();
     if (!source_.leads(Source::signals)) {
       returns_.give_back(waiting(Source::signals), TaskEnd::done);
     }
@@ -91,20 +85,6 @@ class MotionControl {
     Joints all;
     all.fill(true);
     stop(all);
-  }
-  /// Begins the reference of joints that do not follow it anew, at rest where they are. For
-  /// controllers that start, which would pull the joints to it.
-  void begin_where_joints_are() noexcept {
-    const JointState<joint_count>& state = loop_.state();
-    if (!modes_.active() || !is_finite(state) || !is_finite(reference())) return;
-    JointSetting<joint_count> own{
-        .values = {.position = range_.clamp(state.position), .effort = reference().effort}};
-    for (int j = 0; j < joint_count; ++j) {
-      own.joints[j] = own.positions[j] =
-          static_cast<double>(apart_[j]) * loop_.period() > time_to_follow;
-    }
-    source_.set(reference(), own);
-    give_back_replaced();
   }
   /// Ends all motions at once, since the robot is put elsewhere.
   void abandon() noexcept {
@@ -152,10 +132,6 @@ class MotionControl {
   using Reference = JointReference<joint_count>;
   using Source = ReferenceSource<R>;
   using Joints = typename Source::Joints;
-  // A joint that is so far from a resting reference, for so long, does not follow it.
-  static constexpr double far_turn = 0.1;      ///< [rad]
-  static constexpr double far = 0.01;          ///< [m]
-  static constexpr double time_to_follow = 1;  ///< [s]
 
   [[nodiscard]] const Reference& reference() const noexcept {
     return std::as_const(loop_).reference();
@@ -168,20 +144,6 @@ class MotionControl {
     const TaskEnd inactive = faulty ? TaskEnd::in_fault : TaskEnd::not_active;
     returns_.finish(own, modes_.active() ? TaskEnd::bad_reference : inactive);
     return false;
-  }
-
-  /// Counts the cycles in which joints are far from a reference that rests.
-  void note_joints_apart() noexcept {
-    const auto& joints = model_of(loop_.hardware().robot()).joints;
-    for (int j = 0; j < joint_count; ++j) {
-      const double limit = joints[j].type == JointType::prismatic ? far : far_turn;
-      double apart = reference().position[j] - loop_.state().position[j];
-      if (std::abs(apart) > limit && range_.turn[j] > 0) {
-        apart = std::remainder(apart, range_.turn[j]);
-      }
-      const bool rests = source_.kind(j) == MotionKind::rest && reference().velocity[j] == 0;
-      apart_[j] = rests && std::abs(apart) > limit ? apart_[j] + 1 : 0;
-    }
   }
 
   /// Tells the outside where a trajectory is.

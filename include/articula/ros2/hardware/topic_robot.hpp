@@ -167,7 +167,11 @@ class TopicRobot {
       unusable_ = true;
       return;
     }
-    const Lasting own{.moves = !reference.velocities.empty(), .pushes = !reference.efforts.empty()};
+    const auto is_any = [](const std::vector<remote::JointValue>& values) {
+      return std::any_of(values.begin(), values.end(),
+                         [](const auto& own) { return own.value != 0; });
+    };
+    const Lasting own{.moves = is_any(reference.velocities), .pushes = is_any(reference.efforts)};
     pending_.emplace(session_->ask(reference), own);
   }
 
@@ -183,33 +187,40 @@ class TopicRobot {
     if (!is_done) warn(now, answer.text);
     if (answer.request == end_request_) {
       end_request_ = 0;
-      if (is_done) (lasting_.pushes ? lasting_.pushes : lasting_.moves) = false;
+      if (is_done || is_out_of_hand()) (lasting_.pushes ? lasting_.pushes : lasting_.moves) = false;
+      end_due_ = now + std::chrono::milliseconds(100);
       return;
     }
     ++(is_done ? statistics_.accepted : statistics_.refused);
     const auto own = pending_.extract(answer.request);
     if (!is_done || own.empty()) return;
     commanded_ = now;
+    end_due_ = now;
     is_expired_ = false;
     lasting_.moves |= own.mapped().moves;
     lasting_.pushes |= own.mapped().pushes;
   }
 
+  /// The joints are not commanded any more, or by another client.
+  [[nodiscard]] bool is_out_of_hand() {
+    const remote::Situation now = port_.situation();
+    return now.mode != LoopMode::active ||
+           (!session_->has_controls() && !now.operator_name.empty());
+  }
+
   /// Ends efforts, then velocities, until the loop has done it: one that stands still does it when
   /// it goes on.
   void end_old_command(std::chrono::nanoseconds now) {
-    if (!session_->has_controls()) return;
-    if (now - commanded_ <= to_duration(options_.command_lifetime) || end_request_ != 0) {
-      return session_->keep_alive();
-    }
-    if (!lasting_.moves && !lasting_.pushes) return session_->release_controls();
-    if (!std::exchange(is_expired_, true)) ++statistics_.expired;
-    if (lasting_.pushes) {
+    const bool is_old = now - commanded_ > to_duration(options_.command_lifetime);
+    if (!is_old || !pending_.empty() || end_request_ != 0) {
+      if (session_->has_controls()) session_->keep_alive();
+    } else if (!lasting_.moves && !lasting_.pushes) {
+      if (session_->has_controls()) session_->release_controls();
+    } else if (now >= end_due_) {
+      if (!std::exchange(is_expired_, true)) ++statistics_.expired;
       remote::SetReference rest;
       for (const std::string& joint : state_.name) rest.efforts.push_back({joint, 0});
-      end_request_ = session_->ask(rest);
-    } else {
-      end_request_ = session_->ask(remote::Stop{});
+      end_request_ = lasting_.pushes ? session_->ask(rest) : session_->ask(remote::Stop{});
     }
   }
 
@@ -242,6 +253,7 @@ class TopicRobot {
   std::map<std::uint64_t, Lasting> pending_{};  ///< commands without an answer, by their numbers
   Lasting lasting_{};                           ///< of all commands that the loop has taken
   std::uint64_t end_request_ = 0;               ///< that ends them; 0: none waits for its answer
+  std::chrono::nanoseconds end_due_{0};         ///< not before: after a refusal
   bool is_expired_ = false;
   std::uint64_t refused_messages_ = 0;
   bool unusable_ = false;                             ///< a command that moves nothing has come

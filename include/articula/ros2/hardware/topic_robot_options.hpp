@@ -46,7 +46,7 @@ inline void validate(const TopicRobotOptions& options) {
 
 /// Counters of a TopicRobot since its construction.
 struct TopicRobotStatistics {
-  std::uint64_t accepted = 0;   ///< requests that the loop has done, stops included
+  std::uint64_t accepted = 0;   ///< commands that the loop has done
   std::uint64_t foreign = 0;    ///< messages without any joint of the robot
   std::uint64_t malformed = 0;  ///< messages that were refused as a whole
   std::uint64_t refused = 0;    ///< commands that the loop does not take

@@ -226,8 +226,8 @@ control_msgs::srv::QueryTrajectoryState<Jazzy>::Response ControllerTopics::query
   if (wanted > all.back().time) {
     auto planned = core_.port.planned(core_.watch.loop_time(wanted));
     // A client's present is a little after the last cycle that is known here.
-    constexpr std::chrono::milliseconds present(10);
-    const bool is_present = wanted <= all.back().time + present;
+    const bool is_present =
+        wanted <= all.back().time + core_.watch.present(core_.port.robot().period);
     for (std::size_t j = 0; j < motions.size() && j < planned.size(); ++j) {
       if (planned[j] || !is_present) motions[j] = planned[j];
     }

@@ -4,6 +4,7 @@
 
 #include "articula/remote/port.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -58,6 +59,16 @@ class LoopWatch {
   [[nodiscard]] double loop_time(std::chrono::nanoseconds time) const {
     const auto since = std::chrono::duration<double>(time - references.back().time).count();
     return cycle.time + (situation.paused && !has_loops_time_ ? 0 : since * speed());
+  }
+
+  /// How long after the last cycle the present of ROS may be: two periods of the loop, and some
+  /// milliseconds of messages on their way; in a paused simulation without end.
+  /// @param period  of the loop [s]
+  [[nodiscard]] std::chrono::nanoseconds present(double period) const {
+    if (situation.paused && !has_loops_time_) return std::chrono::hours(24 * 365);
+    return std::chrono::milliseconds(10) +
+           std::chrono::duration_cast<std::chrono::nanoseconds>(
+               std::chrono::duration<double>(2 * period / std::max(speed(), 0.01)));
   }
 
   /// Whether there was a cycle since the one of a number. A loop that stands still says nothing.

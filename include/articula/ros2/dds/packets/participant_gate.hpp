@@ -9,7 +9,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <set>
 
 namespace articula::ros2::dds {
 
@@ -17,15 +19,17 @@ namespace articula::ros2::dds {
 /// bytes for ever of each participant that has ever announced itself, also of those for which it
 /// has no room. Under a storm of announcements its memory would grow without end.
 ///
-/// So many participants may be new at once, and then one per second. Those that are known may
-/// announce themselves as often as they like. All other packets pass. Participants repeat their
-/// announcements, so one that was not let in comes in later. For one thread at a time.
+/// So many participants may be new at once, and then one per second. As many more come in at their
+/// second announcement: participants repeat theirs, and a storm of ever new ones does not. Those
+/// that are known may announce themselves as often as they like. All other packets pass. For one
+/// thread at a time.
 class ParticipantGate {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr int most_at_once = 256;
   static constexpr std::size_t most_known = 1024;
+  static constexpr std::size_t most_waiting = 8192;  ///< for their second announcement
 
   /// Whether to hand a packet on.
   /// @param packet  well-formed
@@ -50,16 +54,32 @@ class ParticipantGate {
  private:
   using Prefix = std::array<std::byte, 12>;  ///< of the identity of all that a participant has
 
+  /// Places that are free at the beginning, and come back one per second.
+  class Places {
+   public:
+    [[nodiscard]] bool take(Time now) {
+      const double seconds = std::chrono::duration<double>(now - last_).count();
+      const double free = std::min<double>(most_at_once, free_ + seconds);
+      if (free < 1) return false;
+      free_ = free - 1;
+      last_ = now;
+      return true;
+    }
+
+   private:
+    double free_ = most_at_once;  ///< when the last one was taken
+    Time last_{};
+  };
+
   [[nodiscard]] bool admits(const Prefix& source, Time now) {
     if (const auto known = last_seen_.find(source); known != last_seen_.end()) {
       known->second = now;
       return true;
     }
-    const double seconds = std::chrono::duration<double>(now - last_newcomer_).count();
-    const double places = std::min<double>(most_at_once, places_ + seconds);
-    if (places < 1) return false;
-    places_ = places - 1;
-    last_newcomer_ = now;
+    if (!first_.take(now) && !(waiting_.contains(source) && second_.take(now))) {
+      await(source);
+      return false;
+    }
     if (last_seen_.size() >= most_known) {
       last_seen_.erase(std::min_element(
           last_seen_.begin(), last_seen_.end(),
@@ -69,9 +89,19 @@ class ParticipantGate {
     return true;
   }
 
+  /// Remembers a participant until it announces itself again, or many others have come.
+  void await(const Prefix& source) {
+    if (!waiting_.insert(source).second) return;
+    order_.push_back(source);
+    if (order_.size() <= most_waiting) return;
+    waiting_.erase(order_.front());
+    order_.pop_front();
+  }
+
   std::map<Prefix, Time> last_seen_{};
-  double places_ = most_at_once;  ///< for newcomers, at the last one
-  Time last_newcomer_{};
+  std::set<Prefix> waiting_{};
+  std::deque<Prefix> order_{};  ///< of those that wait, the oldest first
+  Places first_{}, second_{};   ///< for first and second announcements
 };
 
 }  // namespace articula::ros2::dds
