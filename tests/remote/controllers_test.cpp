@@ -57,38 +57,6 @@ TEST_CASE("a single controller is listed by its name, active while the loop is")
   CHECK(answer.text == "this loop has one controller, 'pid_plus_gravity', and nothing to switch");
 }
 
-TEST_CASE(
-    "a controller that starts does not pull joints to a reference that nothing has followed") {
-  using ByEffort = Switch<Q2d, Bypass<Q2d>, PidPlusGravity<Q2d>>;
-  RemoteArm<SupervisedControlLoop<Q2dSim, ByEffort>> arm({}, Q2dSim(), ByEffort());
-  REQUIRE(arm.ask(Activate{}).verdict == support::Verdict::done);
-  REQUIRE(status_of(arm.remote, "bypass") == ControllerStatus::active);
-  REQUIRE(arm.ask(Go{{{elbow, 1}}}).verdict == support::Verdict::done);
-  arm.ask(SetReference{{{shoulder, 0.05}}});
-  arm.cycles(3000);
-  REQUIRE(arm.remote.reference().position[1] == 1);
-  const JointVector<2> here = arm.loop.state().position;
-  REQUIRE(std::abs(here[1]) < 0.05);
-
-  REQUIRE(arm.ask(SwitchControllers{{"pid_plus_gravity"}, {}, false, true}).verdict ==
-          support::Verdict::done);
-  double fastest = 0;
-  for (int k = 0; k < 1000; ++k) {
-    arm.cycles(1);
-    fastest = std::max(fastest, std::abs(arm.loop.state().velocity[1]));
-  }
-  CHECK(fastest < 0.5);  // The shoulder's small step shakes it; from 1 rad it was at 5 rad/s.
-  CHECK(std::abs(arm.remote.reference().position[1] - here[1]) < 1e-3);
-  CHECK(arm.remote.reference().position[0] == 0.05);  // which is near
-  // A reference that is followed goes on, also in motion.
-  REQUIRE(arm.ask(Go{{{elbow, 0.5}}}).verdict == support::Verdict::done);
-  arm.cycles(100);
-  REQUIRE(arm.ask(SwitchControllers{{"pid_plus_gravity"}, {}, true}).verdict ==
-          support::Verdict::done);
-  arm.cycles(3000);
-  CHECK(arm.remote.reference().position[1] == 0.5);
-}
-
 TEST_CASE("controllers of a Switch are switched, and the list shows it with the answer") {
   SwitchedArm arm;
   arm.ask(Activate{});

@@ -186,8 +186,6 @@ class MotionControl {
   TaskReturns<R>& returns_;
   const ModeControl<LoopType>& modes_;
   Source source_;
-  JointRange<joint_count> range_;
-  JointArray<std::uint64_t, joint_count> apart_{};        ///< cycles, see note_joints_apart
   std::array<Task<R>*, Source::source_count> waiting_{};  ///< end with their motion, by source
 };
 
