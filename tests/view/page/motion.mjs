@@ -149,6 +149,11 @@ export async function plots(browser, url) {
   await robot.page.mouse.move(box.x + 0.05 * box.width, y);
   await robot.page.mouse.down();
   await robot.page.mouse.move(box.x + 0.95 * box.width, y, {steps: 5});
+  // A busy browser draws the selection later. Its left part is of a time before the first cycle.
+  await robot.until('the selection follows the mouse', () => {
+    const plot = document.querySelector('.pane .u-over');
+    return plot.querySelector('.u-select').offsetWidth > 0.8 * plot.offsetWidth;
+  });
   await robot.page.mouse.up();
   await robot.until(
     'the plots are paused',
