@@ -132,7 +132,8 @@ TEST_CASE("a single command ends after its lifetime, also if the loop takes it l
   CHECK(arm.topics.statistics().expired == 2);
 }
 
-TEST_CASE("who takes the controls away ends the command") {
+TEST_CASE(
+    "a stop of another client leaves the end of the command, and then the controls are free") {
   RobotBehindTopics arm;
   arm.command({.name = {shoulder_joint}, .effort = {0.5}});
   arm.run(10);

@@ -187,13 +187,15 @@ class TopicRobot {
     if (!is_done) warn(now, answer.text);
     if (answer.request == end_request_) {
       end_request_ = 0;
-      if (is_done || is_out_of_hand()) (lasting_.pushes ? lasting_.pushes : lasting_.moves) = false;
+      if (is_done || port_.situation().mode != LoopMode::active)
+        (lasting_.pushes ? lasting_.pushes : lasting_.moves) = false;
       end_due_ = now + std::chrono::milliseconds(100);
       return;
     }
     ++(is_done ? statistics_.accepted : statistics_.refused);
     const auto own = pending_.extract(answer.request);
-    if (!is_done || own.empty()) return;
+    // A loop that stood still in a command may still do it.
+    if ((!is_done && answer.verdict != remote::Verdict::failed) || own.empty()) return;
     commanded_ = now;
     end_due_ = now;
     is_expired_ = false;
@@ -201,11 +203,9 @@ class TopicRobot {
     lasting_.pushes |= own.mapped().pushes;
   }
 
-  /// The joints are not commanded any more, or by another client.
-  [[nodiscard]] bool is_out_of_hand() {
-    const remote::Situation now = port_.situation();
-    return now.mode != LoopMode::active ||
-           (!session_->has_controls() && !now.operator_name.empty());
+  /// Nobody else has the controls.
+  [[nodiscard]] bool may_operate() {
+    return session_->has_controls() || port_.situation().operator_name.empty();
   }
 
   /// Ends efforts, then velocities, until the loop has done it: one that stands still does it when
@@ -216,7 +216,7 @@ class TopicRobot {
       if (session_->has_controls()) session_->keep_alive();
     } else if (!lasting_.moves && !lasting_.pushes) {
       if (session_->has_controls()) session_->release_controls();
-    } else if (now >= end_due_) {
+    } else if (now >= end_due_ && may_operate()) {
       if (!std::exchange(is_expired_, true)) ++statistics_.expired;
       remote::SetReference rest;
       for (const std::string& joint : state_.name) rest.efforts.push_back({joint, 0});
