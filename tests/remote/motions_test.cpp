@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each joint follows a motion of its own.
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -207,6 +208,28 @@ TEST_CASE(
     arm.cycles(2000);
     CHECK(arm.reference().position[0] == 1);
   }
+}
+
+TEST_CASE("references that wait are set in one cycle, and what is asked after them in the next") {
+  Arm arm;
+  std::vector<std::uint64_t> numbers;
+  for (int k = 1; k <= 20; ++k) {
+    numbers.push_back(arm.session->ask(SetReference{.positions = {{shoulder, 0.001 * k}}}));
+  }
+  numbers.push_back(arm.session->ask(SetReference{.positions = {{elbow, 0.125}}}));
+  const auto later = arm.session->ask(SetSpeed{2});
+  const auto last = arm.session->ask(SetReference{.positions = {{shoulder, 0.25}}});
+  arm.cycles(1);
+  for (const auto number : numbers) CHECK(done(arm.answer_to(number).value()));
+  CHECK(arm.reference().position[0] == 0.02);
+  CHECK(arm.reference().position[1] == 0.125);
+  CHECK_FALSE(arm.answer_to(later));
+  arm.cycles(1);
+  CHECK(done(arm.answer_to(later).value()));
+  CHECK_FALSE(arm.answer_to(last));
+  arm.cycles(1);
+  CHECK(done(arm.answer_to(last).value()));
+  CHECK(arm.reference().position[0] == 0.25);
 }
 
 TEST_CASE("a joint that is not named may be outside its limits") {

@@ -37,7 +37,7 @@ class InFlight {
 
   /// Whether the loop has as many tasks as it can. Some places are for those that end a motion.
   [[nodiscard]] bool full(bool ends_motion) const {
-    return pending_.size() + (ends_motion ? 0 : Rings::reserved_tasks) >= Rings::most_tasks;
+    return pending_.size() + (ends_motion ? 0 : Rings::reserved_tasks) >= most_tasks;
   }
 
   /// Hands a task over.

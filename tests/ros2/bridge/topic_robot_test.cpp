@@ -4,9 +4,16 @@
 
 #include "bridged_arm.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 using namespace articula::ros2;
@@ -19,15 +26,17 @@ namespace {
 
 // A Q2D that takes efforts, its topics, and a clock that a test moves.
 struct RobotBehindTopics {
-  explicit RobotBehindTopics(const TopicRobotOptions& options = {})
-      : topics(loop->port(), transport, options) {
+  explicit RobotBehindTopics(const TopicRobotOptions& options = {},
+                             std::unique_ptr<support::AnyLoop> own = support::bypass_arm())
+      : loop(std::move(own)) {
+    topics.emplace(loop->port(), transport, options);
     run(1);
   }
   void run(int milliseconds) {
     for (int k = 0; k < milliseconds; ++k) {
       loop->cycles(1);
       now += std::chrono::milliseconds(1);
-      topics.update(now);
+      if (topics) topics->update(now);
     }
   }
   void command(const States& message) {
@@ -42,9 +51,9 @@ struct RobotBehindTopics {
 
   articula::remote::Cycle cycle{};
   support::MemoryTransport transport{};
-  std::unique_ptr<support::AnyLoop> loop = support::bypass_arm();
+  std::unique_ptr<support::AnyLoop> loop;
   std::unique_ptr<articula::remote::Session> watcher = loop->port().connect("watcher", false);
-  TopicRobot topics;
+  std::optional<TopicRobot> topics{};
   std::chrono::nanoseconds now{1'000'000'000};
 };
 
@@ -67,7 +76,7 @@ TEST_CASE("a robot behind topics publishes states and clock with the loop's time
   CHECK(clock->clock.nanosec == states->header.stamp.nanosec);
 
   const std::size_t sent = arm.transport.topics.at("/robot_joint_states").count;
-  arm.topics.update(arm.now);  // without a cycle
+  arm.topics->update(arm.now);  // without a cycle
   CHECK(arm.transport.topics.at("/robot_joint_states").count == sent);
 }
 
@@ -98,7 +107,7 @@ TEST_CASE("commands by name become the loop's reference, until none follows") {
   arm.run(1010);  // command_lifetime is 1 s
   CHECK(arm.reference_effort(0) == 0);
   CHECK(arm.reference_effort(1) == 0);
-  CHECK(arm.topics.statistics().expired == 1);
+  CHECK(arm.topics->statistics().expired == 1);
   arm.run(1010);
   CHECK(arm.loop->port().situation().operator_name.empty());
 }
@@ -113,15 +122,15 @@ TEST_CASE("refused commands do not prolong the one before") {
     arm.run(10);
   }
   CHECK(arm.reference_effort(0) == 0);
-  CHECK(arm.topics.statistics().expired == 1);
-  CHECK(arm.topics.statistics().refused == 150);
+  CHECK(arm.topics->statistics().expired == 1);
+  CHECK(arm.topics->statistics().refused == 150);
 }
 
 TEST_CASE("a single command ends after its lifetime, also if the loop takes it late") {
   RobotBehindTopics arm;
   for (int round = 0; round < 2; ++round) {
     arm.command({.name = {shoulder_joint}, .effort = {0.5}});
-    arm.topics.update(arm.now);  // before the loop makes a cycle
+    arm.topics->update(arm.now);  // before the loop makes a cycle
     arm.run(500);
     CHECK(arm.reference_effort(0) == 0.5);
     arm.run(1000);
@@ -129,7 +138,7 @@ TEST_CASE("a single command ends after its lifetime, also if the loop takes it l
     CHECK(arm.loop->port().situation().operator_name.empty());
     arm.run(2000);
   }
-  CHECK(arm.topics.statistics().expired == 2);
+  CHECK(arm.topics->statistics().expired == 2);
 }
 
 TEST_CASE(
@@ -153,11 +162,80 @@ TEST_CASE("a loop that stood still ends old commands when it goes on") {
   for (int k = 0; k < 100; ++k) arm.command({.name = {shoulder_joint}, .effort = {0.75}});
   for (int k = 0; k < 2600; ++k) {
     arm.now += std::chrono::milliseconds(1);
-    arm.topics.update(arm.now);
+    arm.topics->update(arm.now);
   }
   arm.run(1200);  // it takes those that wait; their lifetime begins then
   CHECK(arm.reference_effort(0) == 0);
   CHECK(arm.loop->port().situation().operator_name.empty());
+}
+
+TEST_CASE("a robot behind topics that is destroyed leaves no effort behind") {
+  RobotBehindTopics arm;
+  arm.command({.name = {shoulder_joint}, .effort = {0.5}});
+  arm.run(3);
+  REQUIRE(arm.reference_effort(0) == 0.5);
+  arm.command({.name = {elbow_joint}, .effort = {0.25}});  // the loop has not taken it yet
+  arm.topics.reset();
+  arm.run(3);
+  CHECK(arm.reference_effort(0) == 0);
+  CHECK(arm.reference_effort(1) == 0);
+  CHECK(arm.loop->port().situation().operator_name.empty());
+}
+
+TEST_CASE("a robot behind topics whose transport fails leaves no effort behind, and says so") {
+  // One command, and later an error.
+  struct Failing : support::MemoryTransport {
+    void poll(std::chrono::milliseconds) override {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      if (!std::exchange(has_begun, true)) {
+        publish("/robot_joint_commands",
+                bytes_of(States{.name = {shoulder_joint}, .effort = {0.5}}));
+      }
+      if (fails) throw std::runtime_error("the network is gone");
+    }
+    bool has_begun = false;
+    std::atomic<bool> fails = false;
+  };
+  const auto loop = support::bypass_arm();
+  const auto watcher = loop->port().connect("watcher", false);
+  articula::remote::Cycle cycle{};
+  const auto runs_until = [&](double effort) {
+    for (int k = 0; k < 5000; ++k) {
+      loop->cycles(1);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      while (watcher->next(cycle)) {
+      }
+      if (!cycle.reference_effort.empty() && cycle.reference_effort[0] == effort) return true;
+    }
+    return false;
+  };
+  auto transport = std::make_unique<Failing>();
+  Failing& network = *transport;
+  std::mutex mutex;
+  std::string warning;
+  {
+    const TopicRobot topics(loop->port(), std::move(transport),
+                            {.warn = [&](const std::string& text) {
+                              const std::lock_guard lock(mutex);
+                              warning = text;
+                            }});
+    REQUIRE(runs_until(0.5));
+    network.fails = true;
+    CHECK(runs_until(0));
+  }
+  CHECK(warning == "the topics have ended: the network is gone");
+}
+
+TEST_CASE("commands for a loop that is not active leave the controls to others") {
+  std::vector<std::string> warnings;
+  RobotBehindTopics arm({.warn = [&](const std::string& warning) { warnings.push_back(warning); }},
+                        support::switched_arm());
+  arm.command({.name = {shoulder_joint}, .effort = {0.5}});
+  CHECK(arm.loop->port().situation().operator_name.empty());
+  arm.run(3);
+  CHECK(arm.topics->statistics().refused == 1);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("not active") != std::string::npos);
 }
 
 TEST_CASE("commands that are wrong, foreign or refused change nothing") {
@@ -174,7 +252,7 @@ TEST_CASE("commands that are wrong, foreign or refused change nothing") {
   arm.transport.publish("/robot_joint_commands", std::vector<std::byte>(3));
   arm.run(3);
   CHECK(arm.reference_effort(0) == 0);
-  TopicRobotStatistics statistics = arm.topics.statistics();
+  TopicRobotStatistics statistics = arm.topics->statistics();
   CHECK(statistics.malformed == 3);
   CHECK(statistics.foreign == 1);
   CHECK(statistics.refused == 1);
@@ -187,7 +265,7 @@ TEST_CASE("commands that are wrong, foreign or refused change nothing") {
   arm.command(good);
   arm.run(3);
   CHECK(arm.reference_effort(0) == 0);
-  CHECK(arm.topics.statistics().refused == 2);
+  CHECK(arm.topics->statistics().refused == 2);
   CHECK(warnings.size() == 1);  // within a second of the other
   arm.run(1000);
   arm.command(good);
@@ -198,7 +276,7 @@ TEST_CASE("commands that are wrong, foreign or refused change nothing") {
   arm.command(good);
   arm.run(3);
   CHECK(arm.reference_effort(0) == 0.5);
-  CHECK(arm.topics.statistics().accepted == 1);
+  CHECK(arm.topics->statistics().accepted == 1);
 }
 
 TEST_CASE("options of a robot behind topics are refused by name") {

@@ -20,8 +20,7 @@ namespace articula::remote {
 template <Robot R, class Command>
 struct LoopRings {
   using Record = RemoteRecord<joint_count<R>, Command>;
-  static constexpr std::size_t most_tasks = 64;      ///< that have not been given back
-  static constexpr std::size_t reserved_tasks = 8;   ///< of them, only for Stop and Deactivate
+  static constexpr std::size_t reserved_tasks = 8;   ///< of all, only for Stop and Deactivate
   static constexpr std::size_t most_records = 1024;  ///< that were not taken yet
 
   explicit LoopRings(double operator_lifetime_in_periods) : watch(operator_lifetime_in_periods) {}

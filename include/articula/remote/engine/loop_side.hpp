@@ -12,6 +12,7 @@
 #include "articula/remote/engine/simulation_control.hpp"
 #include "articula/remote/engine/task_returns.hpp"
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -92,11 +93,11 @@ class LoopSide {
   }
 
  private:
-  /// Takes the next task, and begins it. A period in which an operator is lost begins nothing. So
-  /// the task of the next operator finds the loop as the loss leaves it.
+  /// Takes the next task, and begins it. References that wait are set in one cycle, so a client
+  /// that is faster than the loop makes no queue. A period in which an operator is lost begins
+  /// nothing. So the task of the next operator finds the loop as the loss leaves it.
   void take() noexcept {
-    // A change of mode takes some cycles, and what is asked after it is meant for the new mode.
-    if (next_ == nullptr && !modes_.changes()) static_cast<void>(rings_.tasks.pop(next_));
+    if (due_count_ == 0) take_due();
     const OperatorWatch::News news = rings_.watch.look();
     if (const std::uint64_t stop = rings_.stop.load(std::memory_order_acquire); stop > stopped_) {
       stopped_ = stop;
@@ -104,7 +105,23 @@ class LoopSide {
     }
     if (news.left) simulation_.end_pull();
     if (news.lost) return lose_operator();
-    if (next_ != nullptr) begin(*std::exchange(next_, nullptr));
+    for (std::size_t k = 0; k < due_count_; ++k) begin(*due_[k]);
+    due_count_ = 0;
+  }
+  /// Takes one task, or all references that wait.
+  void take_due() noexcept {
+    while (has_next() && (due_count_ == 0 || (sets(*due_[0]) && sets(*next_)))) {
+      due_[due_count_++] = std::exchange(next_, nullptr);
+    }
+  }
+  [[nodiscard]] bool has_next() noexcept {
+    // A change of mode takes some cycles, and what is asked after it is meant for the new mode.
+    if (modes_.changes()) return false;
+    if (next_ == nullptr) static_cast<void>(rings_.tasks.pop(next_));
+    return next_ != nullptr;
+  }
+  [[nodiscard]] static bool sets(const Task<R>& task) noexcept {
+    return std::holds_alternative<task::Set<joint_count>>(task.wish);
   }
 
   static constexpr bool switched =
@@ -213,7 +230,9 @@ class LoopSide {
   MotionControl<LoopType> motions_;
   SimulationControl<LoopType> simulation_;
   decltype(switches_of(std::declval<const LoopType&>())) switches_;
-  Task<R>* next_ = nullptr;    ///< taken, and not begun yet
+  Task<R>* next_ = nullptr;                 ///< out of the ring
+  std::array<Task<R>*, most_tasks> due_{};  ///< of this period
+  std::size_t due_count_ = 0;
   std::uint64_t stopped_ = 0;  ///< motions that were asked before this task are not begun
   Status status_ = Status::ok;
   std::uint64_t updates_ = 0;

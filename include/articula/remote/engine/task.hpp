@@ -12,6 +12,7 @@
 #include "articula/remote/motion/reference_source.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -108,6 +109,9 @@ enum class TaskEnd : unsigned char {
   failed,            ///< A trajectory: Task::outcome.
   loop_left_active,  ///< The loop became inactive, or went into the fault Task::status.
 };
+
+/// Tasks that the loop has not given back.
+inline constexpr std::size_t most_tasks = 64;
 
 /// A request on its way through the loop. The outside owns it, and leaves it alone until the loop
 /// has given it back.

@@ -36,8 +36,7 @@ class TaskReturns {
   }
 
  private:
-  // One begins in a period. One each is waited for of modes, single steps and sources of reference.
-  std::array<Task<R>*, ReferenceSource<R>::source_count + 3> ending_{};
+  std::array<Task<R>*, most_tasks> ending_{};
   std::size_t count_ = 0;
 };
 

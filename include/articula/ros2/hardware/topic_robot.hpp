@@ -2,8 +2,8 @@
 /// @file A running loop as a robot behind two topics, which controllers in ROS 2 command.
 #pragma once
 
-#include "articula/core/finite.hpp"
 #include "articula/remote/port.hpp"
+#include "articula/ros2/hardware/joint_command.hpp"
 #include "articula/ros2/hardware/topic_robot_options.hpp"
 #include "articula/ros2/hardware/topic_thread.hpp"
 #include "articula/ros2/messages/rosgraph_msgs.hpp"
@@ -14,14 +14,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -73,9 +72,10 @@ class TopicRobot {
     subscribe<Message>(node_, options.joint_commands_topic, quality_of_service::states,
                        [this](const Message& message) { take(message); });
   }
-  /// Ends the thread, if there is one.
+  /// Ends the thread, if there is one, and what the last commands began.
   ~TopicRobot() {
     if (thread_ != nullptr) thread_->stop();
+    leave();
   }
   TopicRobot(const TopicRobot&) = delete;
   TopicRobot& operator=(const TopicRobot&) = delete;
@@ -85,9 +85,7 @@ class TopicRobot {
   void update(std::chrono::nanoseconds now) {
     const std::lock_guard lock(mutex_);
     while (const auto answer = session_->answer()) note(*answer, now);
-    if (std::exchange(unusable_, false)) {
-      warn(now, "a command has none of the quantities that the drives take");
-    }
+    if (!complaint_.empty()) warn(now, std::exchange(complaint_, {}));
     statistics_.malformed = refused_messages_ + context_.dropped.malformed;
     end_old_command(now);
     publish_newest();
@@ -98,81 +96,57 @@ class TopicRobot {
   }
 
  private:
-  /// What goes on until another command ends it.
-  struct Lasting {
-    bool moves = false, pushes = false;  ///< by velocities, by efforts
-  };
-
   TopicRobot(remote::Port& port, std::unique_ptr<detail::TopicThread> thread,
              const TopicRobotOptions& options)
       : TopicRobot(port, thread->transport(), options) {
     thread_ = std::move(thread);
-    thread_->start([this] { update(std::chrono::steady_clock::now().time_since_epoch()); });
+    thread_->start([this] { update(std::chrono::steady_clock::now().time_since_epoch()); },
+                   [this] {
+                     leave();
+                     if (options_.warn) options_.warn("the topics have ended: " + thread_->error());
+                   });
   }
 
-  [[nodiscard]] bool commands(std::string_view quantity) const {
-    const auto& all = port_.robot().commands;
-    return std::find(all.begin(), all.end(), quantity) != all.end();
-  }
-
-  /// The numbers of a field by joint, without NaN.
-  static std::vector<remote::JointValue> named(const Message& message,
-                                               const std::vector<double>& values) {
-    std::vector<remote::JointValue> all;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (is_finite(values[i])) all.push_back({message.name[i], values[i]});
+  /// Ends what lasts of commands. Nobody waits for the answers.
+  void leave() noexcept {
+    try {
+      const std::lock_guard lock(mutex_);
+      if ((pending_.empty() && !moves_ && !pushes_) || !may_operate()) return;
+      bool pushes = pushes_;
+      for (const auto& own : pending_) pushes |= own.second.pushes();
+      ask_to_end(pushes);
+      // Otherwise the loss of the operator would make the request void.
+      session_->release_controls();
+    } catch (const std::exception&) {  // without memory, the loss of the operator is what is left
     }
-    return all;
   }
 
-  /// Leaves the robot's joints in a message.
-  /// @return whether there is any; nothing if the message is wrong
-  [[nodiscard]] std::optional<bool> keep_own_joints(Message& message) const {
-    const std::size_t size = message.name.size();
-    for (const std::vector<double>* field :
-         {&message.position, &message.velocity, &message.effort}) {
-      if (!field->empty() && field->size() != size) return std::nullopt;
-    }
-    Message own;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::string& name = message.name[i];
-      if (std::find(state_.name.begin(), state_.name.end(), name) == state_.name.end()) continue;
-      if (std::find(own.name.begin(), own.name.end(), name) != own.name.end()) return std::nullopt;
-      own.name.push_back(name);
-      for (auto field : {&Message::position, &Message::velocity, &Message::effort}) {
-        if (!(message.*field).empty()) (own.*field).push_back((message.*field)[i]);
-      }
-    }
-    message = std::move(own);
-    return !message.name.empty();
-  }
-
-  void take(Message message) {
+  void take(const Message& message) {
+    using Kind = detail::JointCommand::Kind;
     const std::lock_guard lock(mutex_);
-    const std::optional<bool> has_joints = keep_own_joints(message);
-    if (!has_joints) {
-      ++refused_messages_;
-      return;
+    const detail::JointCommand command = detail::read_joint_command(message, port_.robot());
+    switch (command.kind) {
+      case Kind::malformed:
+        ++refused_messages_;
+        return;
+      case Kind::foreign:
+        ++statistics_.foreign;
+        return;
+      case Kind::unusable:
+        return refuse("a command has none of the quantities that the drives take");
+      case Kind::usable:
+        break;
     }
-    if (!*has_joints) {
-      ++statistics_.foreign;
-      return;
+    // Without a request, which would take the controls from those who may activate the loop.
+    if (port_.situation().mode != LoopMode::active) {
+      return refuse("the loop is not active: activate it first");
     }
-    remote::SetReference reference;
-    if (commands("position")) reference.positions = named(message, message.position);
-    if (commands("velocity")) reference.velocities = named(message, message.velocity);
-    if (commands("effort")) reference.efforts = named(message, message.effort);
-    if (reference.positions.empty() && reference.velocities.empty() && reference.efforts.empty()) {
-      ++statistics_.refused;
-      unusable_ = true;
-      return;
-    }
-    const auto is_any = [](const std::vector<remote::JointValue>& values) {
-      return std::any_of(values.begin(), values.end(),
-                         [](const auto& own) { return own.value != 0; });
-    };
-    const Lasting own{.moves = is_any(reference.velocities), .pushes = is_any(reference.efforts)};
-    pending_.emplace(session_->ask(reference), own);
+    pending_.emplace(session_->ask(command.reference), command);
+  }
+
+  void refuse(std::string reason) {
+    ++statistics_.refused;
+    complaint_ = std::move(reason);
   }
 
   void warn(std::chrono::nanoseconds now, const std::string& reason) {
@@ -188,7 +162,7 @@ class TopicRobot {
     if (answer.request == end_request_) {
       end_request_ = 0;
       if (is_done || port_.situation().mode != LoopMode::active)
-        (lasting_.pushes ? lasting_.pushes : lasting_.moves) = false;
+        (pushes_ ? pushes_ : moves_) = false;
       end_due_ = now + std::chrono::milliseconds(100);
       return;
     }
@@ -199,8 +173,8 @@ class TopicRobot {
     commanded_ = now;
     end_due_ = now;
     is_expired_ = false;
-    lasting_.moves |= own.mapped().moves;
-    lasting_.pushes |= own.mapped().pushes;
+    moves_ |= own.mapped().moves();
+    pushes_ |= own.mapped().pushes();
   }
 
   /// Nobody else has the controls.
@@ -214,14 +188,18 @@ class TopicRobot {
     const bool is_old = now - commanded_ > to_duration(options_.command_lifetime);
     if (!is_old || !pending_.empty() || end_request_ != 0) {
       if (session_->has_controls()) session_->keep_alive();
-    } else if (!lasting_.moves && !lasting_.pushes) {
+    } else if (!moves_ && !pushes_) {
       if (session_->has_controls()) session_->release_controls();
     } else if (now >= end_due_ && may_operate()) {
       if (!std::exchange(is_expired_, true)) ++statistics_.expired;
-      remote::SetReference rest;
-      for (const std::string& joint : state_.name) rest.efforts.push_back({joint, 0});
-      end_request_ = lasting_.pushes ? session_->ask(rest) : session_->ask(remote::Stop{});
+      end_request_ = ask_to_end(pushes_);
     }
+  }
+  std::uint64_t ask_to_end(bool pushes) {
+    if (!pushes) return session_->ask(remote::Stop{});
+    remote::SetReference rest;  // which sets velocities to 0 as well
+    for (const std::string& joint : state_.name) rest.efforts.push_back({joint, 0});
+    return session_->ask(rest);
   }
 
   void publish_newest() {
@@ -249,14 +227,14 @@ class TopicRobot {
   std::optional<Publisher<rosgraph_msgs::msg::Clock>> clock_{};
   Message state_{};
   remote::Cycle cycle_{};
-  std::chrono::nanoseconds commanded_{0};       ///< when the loop took the last command
-  std::map<std::uint64_t, Lasting> pending_{};  ///< commands without an answer, by their numbers
-  Lasting lasting_{};                           ///< of all commands that the loop has taken
-  std::uint64_t end_request_ = 0;               ///< that ends them; 0: none waits for its answer
-  std::chrono::nanoseconds end_due_{0};         ///< not before: after a refusal
+  std::chrono::nanoseconds commanded_{0};  ///< when the loop took the last command
+  std::map<std::uint64_t, detail::JointCommand> pending_{};  ///< without an answer, by numbers
+  bool moves_ = false, pushes_ = false;  ///< what lasts of the commands that the loop has taken
+  std::uint64_t end_request_ = 0;        ///< that ends them; 0: none waits for its answer
+  std::chrono::nanoseconds end_due_{0};  ///< not before: after a refusal
   bool is_expired_ = false;
   std::uint64_t refused_messages_ = 0;
-  bool unusable_ = false;                             ///< a command that moves nothing has come
+  std::string complaint_{};                           ///< of a command; for the next warning
   std::optional<std::chrono::nanoseconds> warned_{};  ///< when the last warning was given
   mutable std::mutex mutex_{};
   TopicRobotStatistics statistics_{};  ///< under the mutex
