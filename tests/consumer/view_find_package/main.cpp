@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <articula/articula.hpp>
-#include <articula/robots/q2d.hpp>
-#include <articula/view/show.hpp>
+#include "arm.hpp"
 
 int main() {
-  articula::Loop<articula::Q2dSim, articula::PidPlusGravity> arm;
+  Arm arm;
   return articula::show(arm, {.view = {.port = 0}, .run = {.cycles = 100}});
 }
