@@ -2,6 +2,7 @@
 /// @file The clients of a port: who operates, and which answers each still gets.
 #pragma once
 
+#include "articula/remote/engine/operator_watch.hpp"
 #include "articula/remote/port.hpp"
 
 #include <chrono>
@@ -16,10 +17,10 @@
 namespace articula::remote {
 
 /// The clients of a port, the one that has the controls, the answers and events that they have not
-/// taken yet. Not for several threads at a time.
+/// taken yet. The loop learns of the operator by an OperatorWatch, the clients by events. Times are
+/// the loop's [s]. Not for several threads at a time.
 class Clients {
  public:
-  using Clock = std::chrono::steady_clock;
   static constexpr std::size_t most_events = 1000;  ///< that are kept
   static constexpr std::size_t first_events = 100;  ///< that a new client gets
 
@@ -34,7 +35,8 @@ class Clients {
   };
 
   /// @param lifetime  of a silent operator [s]
-  explicit Clients(double lifetime) : lifetime_(lifetime) {}
+  /// @param watch     outlives this
+  Clients(double lifetime, OperatorWatch& watch) : lifetime_(lifetime), watch_(watch) {}
 
   /// @return the number of the new client, from 1
   [[nodiscard]] std::uint64_t add(std::string name, bool operates, std::uint64_t next_cycle) {
@@ -43,7 +45,10 @@ class Clients {
     clients_[++last_client_] = {std::move(name), operates, 0, next_cycle, begin, {}};
     return last_client_;
   }
-  void remove(std::uint64_t client) { clients_.erase(client); }
+  void remove(std::uint64_t client, double time) {
+    if (has_controls(client)) lose_operator("has left", time);
+    clients_.erase(client);
+  }
   [[nodiscard]] Client& of(std::uint64_t client) { return clients_.at(client); }
   [[nodiscard]] Client* find(std::uint64_t client) {
     const auto found = clients_.find(client);
@@ -52,15 +57,24 @@ class Clients {
 
   /// Gives the controls to a client if they are free.
   /// @return empty if it has them now, else the reason
-  [[nodiscard]] std::string take_controls(std::uint64_t client) {
+  [[nodiscard]] std::string take_controls(std::uint64_t client, double time) {
     if (!of(client).operates) return "this client may watch only";
     if (operator_ != 0 && operator_ != client) {
       return "somebody else has the controls: " + operator_name();
     }
-    operator_ = client;
+    if (std::exchange(operator_, client) == 0) {
+      tell({time, Event::Level::info, operator_name() + " has taken the controls"});
+    }
+    note_sign(client);
     return {};
   }
-  void release_controls() { operator_ = 0; }
+  /// Takes the controls back from a client, if it has them.
+  void release_controls(std::uint64_t client, double time) {
+    if (!has_controls(client)) return;
+    watch_.report_release();
+    tell({time, Event::Level::info, operator_name() + " has released the controls"});
+    operator_ = 0;
+  }
   [[nodiscard]] bool has_controls(std::uint64_t client) const { return operator_ == client; }
   /// Of the client that has the controls; empty if there is none.
   [[nodiscard]] std::string operator_name() const {
@@ -68,12 +82,22 @@ class Clients {
     return found == clients_.end() ? std::string() : found->second.name;
   }
 
-  /// The operator has given a sign of life.
-  void note_sign(Clock::time_point now) { last_sign_ = now; }
-  [[nodiscard]] bool has_operator() const { return operator_ != 0; }
-  /// Whether there is an operator that has been silent for too long.
-  [[nodiscard]] bool operator_is_silent(Clock::time_point now) const {
-    return operator_ != 0 && std::chrono::duration<double>(now - last_sign_).count() > lifetime_;
+  /// A client has given a sign of life. That of the operator counts.
+  void note_sign(std::uint64_t client) {
+    if (!has_controls(client)) return;
+    last_sign_ = Clock::now();
+    watch_.report_alive();
+  }
+  /// Notices an operator that has been silent for too long. The silence is measured in the host's
+  /// time. The loop counts its periods, which a simulation may make much faster: it learns here
+  /// that the operator is not silent yet.
+  void watch_operator(double time) {
+    if (operator_ == 0) return;
+    if (std::chrono::duration<double>(Clock::now() - last_sign_).count() > lifetime_) {
+      lose_operator("is silent", time);
+    } else {
+      watch_.report_alive();
+    }
   }
 
   /// Adds an event for all clients.
@@ -92,7 +116,16 @@ class Clients {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  void lose_operator(const std::string& how, double time) {
+    tell({time, Event::Level::warning, "the operator " + operator_name() + " " + how});
+    watch_.report_loss();
+    operator_ = 0;
+  }
+
   double lifetime_;  ///< [s]
+  OperatorWatch& watch_;
   std::map<std::uint64_t, Client> clients_{};
   std::uint64_t last_client_ = 0;
   std::uint64_t operator_ = 0;  ///< 0: nobody

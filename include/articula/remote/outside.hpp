@@ -3,7 +3,6 @@
 #pragma once
 
 #include "articula/core/finite.hpp"
-#include "articula/loop/status_advice.hpp"
 #include "articula/remote/clients.hpp"
 #include "articula/remote/engine/loop_side.hpp"
 #include "articula/remote/engine/mutex.hpp"
@@ -17,9 +16,9 @@
 #include "articula/remote/task_maker.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -53,7 +52,7 @@ class Outside {
         forecast_(loop),
         maker_(robot_, limits_of(loop, options), options.largest_force),
         published_(rings_, side_, initial_position(robot_, SimulatorOptions<joint_count>{})),
-        clients_(options.operator_lifetime),
+        clients_(options.operator_lifetime, rings_.watch),
         in_flight_(robot_, rings_, options.answer_time) {
     if (!is_supervised<LoopType> && options.when_operator_is_lost == OperatorLoss::deactivate) {
       articula::detail::refuse(
@@ -70,19 +69,7 @@ class Outside {
   [[nodiscard]] Situation situation() {
     const std::lock_guard lock(mutex_);
     pump();
-    const LoopCondition<joint_count>& now = published_.condition();
-    std::vector<std::string> motions;
-    for (const MotionKind motion : now.motions) motions.emplace_back(to_string(motion));
-    return {.mode = now.mode,
-            .fault = published_.fault(),
-            .advice = std::string(advice_on(published_.fault())),
-            .motion = std::string(to_string(now.motion)),
-            .joint_motions = std::move(motions),
-            .operator_name = clients_.operator_name(),
-            .controllers = published_.controllers(),
-            .paused = now.paused,
-            .speed = now.speed,
-            .trajectory_speed = now.trajectory_speed};
+    return published_.situation(clients_.operator_name());
   }
 
   [[nodiscard]] std::vector<Parameter> parameters() {
@@ -131,22 +118,18 @@ class Outside {
   }
   void disconnect(std::uint64_t client) {
     const std::lock_guard lock(mutex_);
-    if (clients_.has_controls(client)) lose_operator("has left");
-    clients_.remove(client);
+    clients_.remove(client, published_.time());
   }
 
   std::string take_controls(std::uint64_t client) {
     const std::lock_guard lock(mutex_);
     pump();
-    return take(client);
+    return clients_.take_controls(client, published_.time());
   }
   void release_controls(std::uint64_t client) {
     const std::lock_guard lock(mutex_);
     pump();
-    if (!clients_.has_controls(client)) return;
-    rings_.watch.report_release();
-    tell(Event::Level::info, clients_.operator_name() + " has released the controls");
-    clients_.release_controls();
+    clients_.release_controls(client, published_.time());
   }
   [[nodiscard]] bool has_controls(std::uint64_t client) {
     const std::lock_guard lock(mutex_);
@@ -156,7 +139,7 @@ class Outside {
   void keep_alive(std::uint64_t client) {
     const std::lock_guard lock(mutex_);
     pump();
-    if (clients_.has_controls(client)) note_sign();
+    clients_.note_sign(client);
   }
 
   std::uint64_t ask(std::uint64_t client, const Request& request) {
@@ -169,10 +152,11 @@ class Outside {
     };
     // Whoever may operate may stop, also without the controls.
     const bool stops = std::holds_alternative<Stop>(request);
-    if (!stops || !clients_.of(client).operates) {
-      if (std::string reason = take(client); !reason.empty()) return refuse(std::move(reason));
-    } else if (clients_.has_controls(client)) {
-      note_sign();
+    if (stops && clients_.of(client).operates) {
+      clients_.note_sign(client);
+    } else {
+      std::string reason = clients_.take_controls(client, published_.time());
+      if (!reason.empty()) return refuse(std::move(reason));
     }
     if (in_flight_.full(stops || std::holds_alternative<Deactivate>(request)))
       return refuse("too many requests are waiting for the loop");
@@ -184,7 +168,7 @@ class Outside {
       return refuse(error.what());
     }
     if (!is_frequent(request)) {
-      tell(Event::Level::info, clients_.of(client).name + ": " + std::string(name_of(request)));
+      tell(clients_.of(client).name + ": " + std::string(name_of(request)));
     }
     return number;
   }
@@ -222,32 +206,11 @@ class Outside {
     return limits;
   }
 
-  // Operator:
-
-  std::string take(std::uint64_t client) {
-    const bool had = clients_.has_controls(client);
-    std::string reason = clients_.take_controls(client);
-    if (reason.empty()) {
-      note_sign();
-      if (!had) tell(Event::Level::info, clients_.operator_name() + " has taken the controls");
-    }
-    return reason;
-  }
-  void note_sign() {
-    clients_.note_sign(Clients::Clock::now());
-    rings_.watch.report_alive();
-  }
-  void lose_operator(const std::string& how) {
-    tell(Event::Level::warning, "the operator " + clients_.operator_name() + " " + how);
-    rings_.watch.report_loss();
-    clients_.release_controls();
-  }
-
   void hand_over(std::uint64_t client, std::uint64_t number, const Request& request) {
     Changes changes;
     typename Task<R>::Wish wish = maker_.make(request, published_.reference());
     if (const auto* follow = std::get_if<task::Follow<R>>(&wish); follow && !follow->note.empty()) {
-      tell(Event::Level::info, clients_.of(client).name + ": " + follow->note);
+      tell(clients_.of(client).name + ": " + follow->note);
     }
     if (const auto* set = std::get_if<SetParameters>(&request)) {
       std::vector<GainSetting> settings;
@@ -266,17 +229,10 @@ class Outside {
                            found->answers.push_back(std::move(answer));
                          }
                        });
-    // The operator's silence is measured in the host's time. The loop counts its periods, which a
-    // simulation may make much faster: it learns here that the operator is not silent yet.
-    if (!clients_.has_operator()) return;
-    if (clients_.operator_is_silent(Clients::Clock::now())) {
-      lose_operator("is silent");
-    } else {
-      rings_.watch.report_alive();
-    }
+    clients_.watch_operator(published_.time());
   }
-  void tell(Event::Level level, std::string text) {
-    clients_.tell({published_.time(), level, std::move(text)});
+  void tell(std::string text) {
+    clients_.tell({published_.time(), Event::Level::info, std::move(text)});
   }
 
   Rings rings_;

@@ -81,6 +81,21 @@ class Published {
     }
   }
 
+  [[nodiscard]] Situation situation(std::string operator_name) const {
+    std::vector<std::string> motions;
+    for (const MotionKind motion : condition_.motions) motions.emplace_back(to_string(motion));
+    return {.mode = condition_.mode,
+            .fault = fault(),
+            .advice = std::string(advice_on(fault())),
+            .motion = std::string(to_string(condition_.motion)),
+            .joint_motions = std::move(motions),
+            .operator_name = std::move(operator_name),
+            .controllers = controllers(),
+            .paused = condition_.paused,
+            .speed = condition_.speed,
+            .trajectory_speed = condition_.trajectory_speed};
+  }
+
   [[nodiscard]] Statistics statistics() const {
     return {.cycles = last_.cycle.cycle,
             .overruns = last_.overruns,
