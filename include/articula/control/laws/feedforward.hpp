@@ -13,6 +13,8 @@ namespace articula {
 /// @tparam S       type of a number: double, or a pack with the numbers of several robots
 template <int N, auto Member, class S = double>
 struct Feedforward {
+  static constexpr bool follows_position = Member == &JointReference<N, S>::position;
+
   /// The reference's member, N x 1. Real-time: yes.
   [[nodiscard]] JointVector<N, S> output(const ControlInput<N, S>& in) const noexcept {
     return in.reference.*Member;

@@ -15,6 +15,7 @@ template <Robot R, class S = double>
 class FrictionCompensation {
  public:
   static constexpr int joint_count = articula::joint_count<R>;
+  static constexpr bool follows_position = false;
 
   FrictionCompensation()
     requires DescribedRobot<R>

@@ -18,6 +18,7 @@ class GravityCompensation {
 
  public:
   static constexpr int joint_count = articula::joint_count<R>;
+  static constexpr bool follows_position = false;
 
   GravityCompensation()
     requires DescribedRobot<R>

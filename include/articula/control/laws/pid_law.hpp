@@ -40,6 +40,8 @@ enum class PidOf : unsigned char {
 template <int N, PidOf Variable = PidOf::position, class S = double>
 class PidLaw {
  public:
+  static constexpr bool follows_position = Variable == PidOf::position;
+
   /// For joints that have two ends.
   /// @param gains  of the N joints
   /// @param names  of the same joints, for the error message

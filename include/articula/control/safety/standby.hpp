@@ -31,6 +31,7 @@ class Standby {
  public:
   static constexpr std::string_view name = "standby";
   static constexpr int joint_count = articula::joint_count<R>;
+  static constexpr bool follows_position = false;
   using Scalar = typename detail::CommandScalar<C>::Type;
   using Input = ControlInput<joint_count, Scalar>;
 

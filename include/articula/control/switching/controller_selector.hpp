@@ -38,6 +38,10 @@ class ControllerSelector : public ControllerTuple<Controllers...> {
   [[nodiscard]] ControllerStatus status_of(std::size_t controller) const noexcept {
     return statuses_[controller];
   }
+  /// Real-time: yes.
+  [[nodiscard]] bool is_active(std::size_t controller) const noexcept {
+    return controller == active_;
+  }
   /// The name of the active controller; empty if there is none. Real-time: yes.
   [[nodiscard]] Name active() const noexcept { return active_ == none ? Name() : name_of(active_); }
   /// All controllers and what they are doing. Real-time: yes.

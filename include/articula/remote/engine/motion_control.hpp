@@ -2,6 +2,8 @@
 /// @file The motions of a remote loop's reference, and the tasks that begin and end them.
 #pragma once
 
+#include "articula/control/composition/follows_position.hpp"
+#include "articula/core/finite.hpp"
 #include "articula/remote/engine/mode_control.hpp"
 #include "articula/remote/engine/task_returns.hpp"
 #include "articula/remote/motion/reference_source.hpp"
@@ -45,7 +47,8 @@ class MotionControl {
     if (!modes_.active()) return;
     const Reference& present = reference();
     if constexpr (is_supervised<LoopType>) {
-      loop_.post(modes_.takes_references() ? source_.next(present, loop_.period()) : present);
+      loop_.post(modes_.takes_references() ? along(source_.next(present, loop_.period()))
+                                           : present);
     } else if (source_.kind() != MotionKind::rest) {
       loop_.reference() = source_.next(present, loop_.period());
     }
@@ -135,6 +138,18 @@ class MotionControl {
 
   [[nodiscard]] const Reference& reference() const noexcept {
     return std::as_const(loop_).reference();
+  }
+
+  /// At rest, the reference of a joint whose controller does not follow its position goes along
+  /// with the measurement. So a controller that does and starts later holds the joint where it is.
+  [[nodiscard]] Reference along(Reference own) const noexcept {
+    const auto follows = joints_following_position<joint_count>(loop_.controller());
+    const JointVector<joint_count>& measured = loop_.state().position;
+    for (int j = 0; j < joint_count; ++j) {
+      if (follows[j] || source_.kind(j) != MotionKind::rest || !is_finite(measured[j])) continue;
+      own.position[j] = measured[j];
+    }
+    return own;
   }
 
   [[nodiscard]] bool can_begin(Task<R>& own) noexcept {
