@@ -2,6 +2,8 @@
 #include "connection.hpp"
 
 #include <articula/loop/realtime/stop_on_signal.hpp>
+#include <articula/ros2/cdr_decoder.hpp>
+#include <articula/ros2/messages/sensor_msgs.hpp>
 #include <articula/version.hpp>
 
 #include <boost/asio/connect.hpp>
@@ -14,6 +16,7 @@
 #include <chrono>
 #include <deque>
 #include <map>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -73,6 +76,19 @@ Json parsed(std::string_view text) {
   Json json = Json::parse(text.begin(), text.end(), nullptr, false);
   if (json.is_discarded()) throw NoConnection("the server sent a message that is not JSON");
   return json;
+}
+
+/// A message of ROS 2, with the members that one of /joint_states has.
+Json joint_state(std::string_view bytes) {
+  articula::ros2::sensor_msgs::msg::JointState<articula::ros2::Jazzy> message;
+  if (articula::ros2::decode(std::as_bytes(std::span(bytes)), message) !=
+      articula::ros2::CdrError::none) {
+    throw NoConnection("the server sent a message that is not CDR");
+  }
+  return {{"name", message.name},
+          {"position", message.position},
+          {"velocity", message.velocity},
+          {"effort", message.effort}};
 }
 
 }  // namespace
@@ -296,7 +312,9 @@ class Connection::Client {
       take_u32(bytes);  // time of the log, which the messages have inside
       take_u32(bytes);
       const auto topic = topics_.find(subscription);
-      if (topic != topics_.end()) messages_.push_back({topic->second, parsed(bytes)});
+      if (topic == topics_.end()) return;
+      const bool is_ros = topic->second.starts_with("/ros/");
+      messages_.push_back({topic->second, is_ros ? joint_state(bytes) : parsed(bytes)});
     } else if (op == 3) {
       take_u32(bytes);
       const std::uint32_t number = take_u32(bytes);

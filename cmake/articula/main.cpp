@@ -4,6 +4,8 @@
 /// Exit status: 0 done, 1 refused, 2 wrong usage, 3 no connection.
 #include "program.hpp"
 
+#include <articula/text/characters.hpp>
+#include <articula/text/similar_word.hpp>
 #include <articula/version.hpp>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +14,7 @@
 #include <exception>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace terminal {
 
@@ -43,6 +46,27 @@ int tell(const Program& program, ExitCode code, std::string message) {
     std::fprintf(stderr, "articula: %s\n", message.c_str());
   }
   return code;
+}
+
+/// What is wrong with a command line that lacks something which is required.
+std::string lack_of(const CLI::App& app, const CLI::RequiredError& error) {
+  const CLI::App* parent = &app;
+  while (!parent->get_subcommands().empty()) parent = parent->get_subcommands().front();
+  std::vector<std::string> names;
+  for (const CLI::App* command : parent->get_subcommands([](const CLI::App* each) {
+         return !each->get_group().empty();  // not hidden
+       })) {
+    names.push_back(command->get_name());
+  }
+  if (names.empty()) return error.what();  // an argument of a command
+  const std::vector<std::string> words = app.remaining(true);
+  const std::string word = words.empty() || words.front().starts_with('-') ? "" : words.front();
+  return (word.empty() ? "a command is missing"
+                       : "there is no command " + articula::detail::quoted_text(word)) +
+         ", expected one such as: articula " +
+         (parent == &app ? "go shoulder_active_joint=0.5"
+                         : parent->get_name() + " " + names.front()) +
+         articula::detail::choice_of(word, "commands", names);
 }
 
 int run(int count, char** words) {
@@ -80,6 +104,8 @@ int run(int count, char** words) {
     app.parse(count, words);
     program.command();
     return done;
+  } catch (const CLI::RequiredError& error) {
+    return tell(program, wrong_usage, lack_of(app, error));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return tell(program, wrong_usage, error.what());

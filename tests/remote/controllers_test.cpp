@@ -74,7 +74,7 @@ TEST_CASE("controllers of a Switch are switched, and the list shows it with the 
   CHECK(unknown.text == "controller 'knee': unknown name");
   const Answer occupied = arm.ask(SwitchControllers{{"computed_torque"}});
   CHECK(occupied.verdict == support::Verdict::refused);
-  CHECK(occupied.text.find("another controller is active") != std::string::npos);
+  CHECK(occupied.text.find("another controller of these joints") != std::string::npos);
   CHECK(
       arm.ask(SwitchControllers{{"knee", "computed_torque"}, {"pid_plus_gravity"}, true}).verdict ==
       support::Verdict::done);

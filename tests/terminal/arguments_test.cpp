@@ -137,6 +137,30 @@ TEST_CASE("a command line that makes no sense gets one line and exit status 2") 
   }
 }
 
+TEST_CASE("a command that is missing or misspelt gets an example and the nearest one") {
+  struct Row {
+    Words words;
+    Words told;
+  };
+  const std::string example = "articula go shoulder_active_joint=0.5";
+  for (const Row& row :
+       std::vector<Row>{{{}, {"a command is missing", example, "status", "completion"}},
+                        {{"--json", "statsu"}, {"'statsu'", example, "did you mean 'status'?"}},
+                        {{"goo", "elbow=0.5"}, {"'goo'", "did you mean 'go'?"}},
+                        {{"--port", "1", "nonsense"}, {"'nonsense'", example, "controllers"}},
+                        {{"gains", "sett", "p=1"}, {"'sett'", "gains get", "did you mean 'set'?"}},
+                        {{"fault"}, {"a command is missing", "articula fault ack"}},
+                        {{"go"}, {"go: ", "positions", example}}}) {
+    CAPTURE(joined(row.words));
+    const Result result = run_articula(row.words);
+    CHECK(result.exit_code == 2);
+    const std::string text = result.output + result.errors;
+    CAPTURE(text);
+    for (const std::string& word : row.told) CHECK(text.find(word) != std::string::npos);
+    CHECK(text.find("names") == std::string::npos);  // a hidden command
+  }
+}
+
 TEST_CASE("the refusal of a command line is JSON where JSON is asked for") {
   const auto json = run_articula({"--json", "go", "elbow=x"}).json();
   CHECK(json.at("success") == false);

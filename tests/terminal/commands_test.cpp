@@ -65,13 +65,21 @@ void check_refused(const Result& result, const std::vector<std::string>& words) 
   }
 }
 
-double position(const RunningArm& arm, const std::string& joint) {
+double of_joint(const RunningArm& arm, const std::string& joint, const char* member) {
   const Json status = done(arm.ask({"status"}));
   for (const Json& each : status.at("joints")) {
-    if (each.at("name") == joint) return each.at("position").get<double>();
+    if (each.at("name") == joint) return each.at(member).get<double>();
   }
   FAIL("no joint " + joint);
   return 0;
+}
+
+double position(const RunningArm& arm, const std::string& joint) {
+  return of_joint(arm, joint, "position");
+}
+
+double reference(const RunningArm& arm, const std::string& joint) {
+  return of_joint(arm, joint, "reference_position");
 }
 
 std::string mode(const RunningArm& arm) {
@@ -95,12 +103,13 @@ TEST_CASE("status shows robot, situation, statistics and joints") {
   CHECK(status.at("situation").at("operates") == true);
   CHECK(status.at("statistics").at("cycles").get<int>() > 0);
   CHECK(status.at("joints").at(0).at("name") == shoulder);
+  CHECK(status.at("joints").at(0).at("reference_position").is_number());
   CHECK(status.at("joints").at(0).at("effort").is_number());
 
   const Result text = support::run_articula({"status", "--port", arm.port()});
   CHECK(text.exit_code == 0);
   for (const char* word :
-       {"q2d, simulated, 1000 Hz", "active", "pid_plus_gravity", "nobody", elbow}) {
+       {"q2d, simulated, 1000 Hz", "active", "pid_plus_gravity", "nobody", "reference", elbow}) {
     CAPTURE(word);
     CHECK(text.output.find(word) != std::string::npos);
   }
@@ -116,6 +125,7 @@ TEST_CASE("watch prints a document for each state") {
     const Json line = Json::parse(result.output.substr(at, end - at));
     times.push_back(line.at("time").get<double>());
     CHECK(line.at("joints").size() == 2);
+    CHECK(line.at("joints").at(1).at("reference_position").is_number());
     at = end + 1;
   }
   REQUIRE(times.size() >= 2);
@@ -139,7 +149,9 @@ TEST_CASE("controllers are listed and switched") {
   done(arm.ask({"switch", "--start", "pid_plus_gravity", "--replace"}));
   CHECK(eventually([&] { return status_of("pid_plus_gravity") == "active"; }));
   check_refused(arm.ask({"switch", "--start", "nonsense"}), {"nonsense"});
-  check_refused(arm.ask({"switch", "--start", "bypass"}), {"bypass"});  // the other one is active
+  check_refused(arm.ask({"switch", "--start", "bypass"}), {"bypass", "active", "replace"});
+  check_refused(arm.ask({"switch", "--start", "bypass", "pid_plus_gravity", "--replace"}),
+                {"pid_plus_gravity", "another controller of these joints", "starts, too"});
   CHECK(status_of("pid_plus_gravity") == "active");
 }
 
@@ -199,6 +211,7 @@ TEST_CASE("go moves a joint and waits for it") {
   REQUIRE(eventually([&] { return mode(arm) == "active"; }));
   done(arm.ask({"go", std::string(shoulder) + "=0.2", "--wait"}));
   CHECK(eventually([&] { return std::abs(position(arm, shoulder) - 0.2) < 1e-3; }));
+  CHECK(std::abs(reference(arm, shoulder) - 0.2) < 1e-9);
   // Without --wait the motion goes on after the program's end.
   done(arm.ask(
       {"go", std::string(shoulder) + "=-0.1", std::string(elbow) + "=0.1", "--speed", "0.5"}));
@@ -300,6 +313,7 @@ TEST_CASE("a simulation is paused, stepped, slowed, reset and pulled at") {
   REQUIRE(eventually([&] { return mode(arm) == "active"; }));
   done(arm.ask({"pause"}));
   CHECK(eventually([&] { return arm.remote().situation().paused; }));
+  CHECK(std::isfinite(reference(arm, shoulder)));  // although no cycle comes
   done(arm.ask({"step", "10"}));
   done(arm.ask({"resume"}));
   CHECK(eventually([&] { return !arm.remote().situation().paused; }));
@@ -334,6 +348,12 @@ TEST_CASE("record writes all cycles to an MCAP file") {
   CHECK(bytes.find("\"shoulder_active_joint\":{\"position\":") != std::string::npos);
   check_refused(arm.ask({"record", "/no/such/folder/x.mcap", "--seconds", "0"}),
                 {"/no/such/folder"});
+
+  check_refused(arm.ask({"record", file.path().string(), "--seconds", "0"}),
+                {file.path().string(), "exists", "--force"});
+  CHECK(std::filesystem::file_size(file.path()) == bytes.size());
+  done(arm.ask({"record", file.path().string(), "--seconds", "0", "--force"}));
+  CHECK(std::filesystem::file_size(file.path()) < bytes.size());
 }
 
 TEST_CASE("record --ros writes all cycles as messages of ROS 2") {

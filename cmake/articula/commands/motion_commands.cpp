@@ -65,6 +65,10 @@ void warn_of_joints_elsewhere(Connection& connection, const Json& targets) {
 
 void go(const Program& program, const std::vector<std::string>& arguments, double speed,
         bool waits) {
+  if (arguments.empty()) {
+    throw WrongUsage(
+        "go: give joints and their positions, as in: articula go shoulder_active_joint=0.5");
+  }
   const Json request{{"positions", values_by_name(arguments, "joint")}, {"speed", speed}};
   Connection connection(program);
   if (!waits) return print_answer(program, connection.operate("/go", request));
@@ -167,8 +171,7 @@ void add_motion_commands(CLI::App& app, Program& program) {
   CLI::App* command = add_command(
       app, program, "go", "Moves joints along a jerk-limited profile; the others rest.",
       [&program, options] { go(program, options->positions, options->speed, options->waits); });
-  command->add_option("positions", options->positions, "as shoulder=0.5 [rad or m]")
-      ->required()
+  command->add_option("positions", options->positions, "one or more, as shoulder=0.5 [rad or m]")
       ->type_name("JOINT=VALUE");
   command->add_option("--speed", options->speed, "share of the velocity limits, 0.01 to 1")
       ->check(within(0.01, 1.0))

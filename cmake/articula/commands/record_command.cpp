@@ -16,9 +16,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -199,7 +201,18 @@ Counts record_ros(Connection& connection, const std::string& file, double second
   return counts;
 }
 
-void record(const Program& program, const std::string& file, double seconds, bool as_ros) {
+struct Options {
+  std::string file;
+  double seconds = 1e6;
+  bool as_ros = false, overwrites = false;
+};
+
+void record(const Program& program, const Options& options) {
+  const auto& [file, seconds, as_ros, overwrites] = options;
+  std::error_code ignored;
+  if (!overwrites && std::filesystem::is_regular_file(file, ignored)) {
+    throw Refusal(file + ": the file exists; --force overwrites it");
+  }
   Connection connection(program);
   const auto [cycles, lost] =
       as_ros ? record_ros(connection, file, seconds) : record_cycles(connection, file, seconds);
@@ -211,15 +224,10 @@ void record(const Program& program, const std::string& file, double seconds, boo
 }  // namespace
 
 void add_record_command(CLI::App& app, Program& program) {
-  struct Record {
-    std::string file;
-    double seconds = 1e6;
-    bool as_ros = false;
-  };
-  const auto options = std::make_shared<Record>();
-  CLI::App* command = add_command(
-      app, program, "record", "Records all cycles to an MCAP file until Ctrl-C.",
-      [&program, options] { record(program, options->file, options->seconds, options->as_ros); });
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      add_command(app, program, "record", "Records all cycles to an MCAP file until Ctrl-C.",
+                  [&program, options] { record(program, *options); });
   command->add_option("file", options->file, "for PlotJuggler and Foxglove, as out.mcap")
       ->required();
   command->add_option("--seconds", options->seconds, "how long [s]")
@@ -227,6 +235,7 @@ void add_record_command(CLI::App& app, Program& program) {
       ->default_str("until Ctrl-C");
   command->add_flag("--ros", options->as_ros,
                     "messages of ROS 2: /joint_states, /reference, /command");
+  command->add_flag("--force", options->overwrites, "overwrite a file that exists");
 }
 
 }  // namespace terminal

@@ -9,21 +9,41 @@
 
 #include <unistd.h>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace terminal {
 
 namespace {
 
-/// Waits for the newest state of the joints.
-Json joint_states(Connection& connection, double patience) {
-  connection.subscribe("/joint_states");
-  const auto message = connection.next(patience);
-  if (!message) throw NoConnection("the server sends no states of the joints");
-  return message->content;
-}
+/// The newest states of the joints, again and again.
+class JointStates {
+ public:
+  explicit JointStates(Connection& connection) : connection_(connection) {
+    connection_.subscribe("/joint_states");
+    connection_.subscribe("/ros/reference");
+  }
+
+  /// The message of /joint_states with a member "reference_position"; nothing as Connection::next.
+  std::optional<Json> next(double seconds) {
+    while (const auto message = connection_.next(seconds)) {
+      if (message->topic == "/joint_states") {
+        states_ = message->content;
+      } else if (states_.is_object()) {  // of the same cycle: the reference is sent after the state
+        states_["reference_position"] = message->content.at("position");
+        return states_;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Connection& connection_;
+  Json states_{};
+};
 
 /// The number of an array's place as a JSON number or null, and 0 if there is none.
 Json at(const Json& message, const char* member, std::size_t place) {
@@ -34,7 +54,8 @@ Json at(const Json& message, const char* member, std::size_t place) {
 
 std::string shown_at(const Json& message, const char* member, std::size_t place) {
   const Json number = at(message, member, place);
-  return number.is_number() ? shown(number.get<double>()) : "-";
+  return number.is_number() && std::isfinite(number.get<double>()) ? shown(number.get<double>())
+                                                                   : "-";
 }
 
 Json joints_json(const Json& states) {
@@ -43,6 +64,7 @@ Json joints_json(const Json& states) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     joints.push_back({{"name", names[i]},
                       {"position", at(states, "position", i)},
+                      {"reference_position", at(states, "reference_position", i)},
                       {"velocity", at(states, "velocity", i)},
                       {"effort", at(states, "effort", i)}});
   }
@@ -50,11 +72,12 @@ Json joints_json(const Json& states) {
 }
 
 std::string joints_text(const Json& states) {
-  std::vector<Row> rows{{"joint", "position", "velocity", "effort"}};
+  std::vector<Row> rows{{"joint", "position", "reference", "velocity", "effort"}};
   const Json names = states.value("name", Json::array());
   for (std::size_t i = 0; i < names.size(); ++i) {
     rows.push_back({names[i].get<std::string>(), shown_at(states, "position", i),
-                    shown_at(states, "velocity", i), shown_at(states, "effort", i)});
+                    shown_at(states, "reference_position", i), shown_at(states, "velocity", i),
+                    shown_at(states, "effort", i)});
   }
   return table(rows);
 }
@@ -79,7 +102,8 @@ void print_status(const Program& program) {
   Json robot = contents(connection.call("/robot"));
   const Json situation = contents(connection.call("/situation"));
   const Json statistics = contents(connection.call("/statistics"));
-  const Json states = joint_states(connection, Connection::default_patience);
+  const auto states = JointStates(connection).next(Connection::default_patience);
+  if (!states) throw NoConnection("the server sends no states of the joints");
   robot.erase("urdf");  // long, and of no use here
 
   const bool is_simulated = robot.value("is_simulated", false);
@@ -111,38 +135,37 @@ void print_status(const Program& program) {
   program.print({{"robot", robot},
                  {"situation", situation},
                  {"statistics", statistics},
-                 {"joints", joints_json(states)}},
+                 {"joints", joints_json(*states)}},
                 table(rows) + "\n\n" +
                     controllers_text(situation.value("controllers", Json::array())) + "\n\n" +
-                    joints_text(states));
+                    joints_text(*states));
 }
 
 /// Prints states until Ctrl-C, or for a time.
 void watch(const Program& program, double rate, double seconds) {
   Connection connection(program);
-  connection.subscribe("/joint_states");
+  JointStates joint_states(connection);
   end_on_signal();
   const bool is_screen = !program.json && isatty(fileno(stdout)) != 0;
   double first = -1, due = 0;
   while (!is_ended()) {
-    const auto message = connection.next(Connection::default_patience);
+    const auto states = joint_states.next(Connection::default_patience);
     if (is_ended()) break;
-    if (!message) {
+    if (!states) {
       if (connection.call("/situation").value("paused", false)) continue;
       throw NoConnection("the server sends no states of the joints any more");
     }
-    const Json stamp =
-        message->content.value("header", Json::object()).value("stamp", Json::object());
+    const Json stamp = states->value("header", Json::object()).value("stamp", Json::object());
     const double now = stamp.value("sec", 0.0) + 1e-9 * stamp.value("nsec", 0.0);
     if (first < 0) first = due = now;
     if (now - first > seconds) break;
     if (now < due) continue;
     due = std::max(due + 1 / rate, now);
     if (program.json) {
-      program.print({{"time", now - first}, {"joints", joints_json(message->content)}}, "");
+      program.print({{"time", now - first}, {"joints", joints_json(*states)}}, "");
     } else {
       if (is_screen) std::fputs("\x1b[H\x1b[J", stdout);  // in place of what was there before
-      program.print({}, joints_text(message->content) + (is_screen ? "" : "\n"));
+      program.print({}, joints_text(*states) + (is_screen ? "" : "\n"));
     }
   }
 }

@@ -124,7 +124,7 @@ TEST_CASE("controllers are switched, and refusals say why") {
 
   const auto occupied = switch_to(arm, {"pid_plus_gravity"}, {});
   CHECK_FALSE(occupied.ok);
-  CHECK(occupied.message.find("another controller is active") != std::string::npos);
+  CHECK(occupied.message.find("another controller of these joints") != std::string::npos);
   CHECK(switch_to(arm, {"pid_plus_gravity"}, {}, 4).ok);  // by force
   CHECK(controller(arm, "computed_torque").state == "inactive");
 

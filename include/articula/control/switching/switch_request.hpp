@@ -104,7 +104,7 @@ struct ControllerInfo {
     case SwitchAnswer::not_active:
       return "not active";
     case SwitchAnswer::occupied:
-      return "another controller is active on these joints";
+      return "another controller of these joints is active or starts, too; stop it or replace it";
   }
   return "unknown answer";
 }

@@ -110,7 +110,7 @@ export const services = {
     for (const name of stop) if (status(name) !== 'active') return refuse(`${name}: not active`);
     const left = arm.controllers.filter((c) => c.status === 'active' && !stop.includes(c.name));
     if (start.length > 0 && left.length > 0 && !replace)
-      return refuse(`${start[0]}: another controller is active on these joints`);
+      return refuse(`${start[0]}: another controller of these joints is active or starts, too; stop it or replace it`);
     for (const c of arm.controllers) {
       if (start.includes(c.name)) c.status = 'active';
       else if (stop.includes(c.name) || (start.length > 0 && replace)) c.status = 'inactive';
