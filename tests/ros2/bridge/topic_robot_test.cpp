@@ -164,6 +164,7 @@ TEST_CASE("a loop that stood still ends old commands when it goes on") {
     arm.now += std::chrono::milliseconds(1);
     arm.topics->update(arm.now);
   }
+  CHECK(arm.topics->statistics().refused == 68);  // 32 wait
   arm.run(1200);  // it takes those that wait; their lifetime begins then
   CHECK(arm.reference_effort(0) == 0);
   CHECK(arm.loop->port().situation().operator_name.empty());

@@ -2,12 +2,12 @@
 /// @file What a message of joint commands asks of a robot.
 #pragma once
 
-#include "articula/core/finite.hpp"
 #include "articula/remote/request.hpp"
 #include "articula/remote/sheet/robot_sheet.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -19,9 +19,9 @@ namespace articula::ros2::detail {
 struct JointCommand {
   enum class Kind : unsigned char {
     usable,
-    unusable,   ///< It has none of the quantities that the robot's drives take.
+    unusable,   ///< It has no number of the quantities that the robot's drives take.
     foreign,    ///< It names no joint of the robot.
-    malformed,  ///< Its fields differ in length, or it names a joint twice.
+    malformed,  ///< Its fields differ in length, or it names one of the robot's joints twice.
   };
   Kind kind = Kind::usable;
   remote::SetReference reference{};
@@ -65,7 +65,7 @@ struct JointCommand {
       return all;
     }
     for (const std::size_t i : own) {
-      if (is_finite(values[i])) all.push_back({message.name[i], values[i]});
+      if (!std::isnan(values[i])) all.push_back({message.name[i], values[i]});
     }
     return all;
   };

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <map>
@@ -96,6 +97,8 @@ class TopicRobot {
   }
 
  private:
+  static constexpr std::size_t most_pending = 32;
+
   TopicRobot(remote::Port& port, std::unique_ptr<detail::TopicThread> thread,
              const TopicRobotOptions& options)
       : TopicRobot(port, thread->transport(), options) {
@@ -117,6 +120,8 @@ class TopicRobot {
       ask_to_end(pushes);
       // Otherwise the loss of the operator would make the request void.
       session_->release_controls();
+      pending_.clear();
+      moves_ = pushes_ = false;
     } catch (const std::exception&) {  // without memory, the loss of the operator is what is left
     }
   }
@@ -133,7 +138,7 @@ class TopicRobot {
         ++statistics_.foreign;
         return;
       case Kind::unusable:
-        return refuse("a command has none of the quantities that the drives take");
+        return refuse("a command has no number of the quantities that the drives take");
       case Kind::usable:
         break;
     }
@@ -141,6 +146,9 @@ class TopicRobot {
     if (port_.situation().mode != LoopMode::active) {
       return refuse("the loop is not active: activate it first");
     }
+    // A loop takes all that wait in each cycle. Where more wait it stands still, and the end of a
+    // command needs a place.
+    if (pending_.size() >= most_pending) return refuse("the loop takes no commands");
     pending_.emplace(session_->ask(command.reference), command);
   }
 
