@@ -16,7 +16,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -111,19 +110,16 @@ class TopicRobot {
   }
 
   /// Ends what lasts of commands. Nobody waits for the answers.
-  void leave() noexcept {
-    try {
-      const std::lock_guard lock(mutex_);
-      if ((pending_.empty() && !moves_ && !pushes_) || !may_operate()) return;
-      bool pushes = pushes_;
-      for (const auto& own : pending_) pushes |= own.second.pushes();
-      ask_to_end(pushes);
-      // Otherwise the loss of the operator would make the request void.
-      session_->release_controls();
-      pending_.clear();
-      moves_ = pushes_ = false;
-    } catch (const std::exception&) {  // without memory, the loss of the operator is what is left
-    }
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    if ((pending_.empty() && !moves_ && !pushes_) || !may_operate()) return;
+    bool pushes = pushes_;
+    for (const auto& own : pending_) pushes |= own.second.pushes();
+    ask_to_end(pushes);
+    // Otherwise the loss of the operator would make the request void.
+    session_->release_controls();
+    pending_.clear();
+    moves_ = pushes_ = false;
   }
 
   void take(const Message& message) {
