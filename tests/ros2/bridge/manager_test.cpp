@@ -333,7 +333,7 @@ TEST_CASE("what best effort leaves out is in the log, and taken joints are a fai
   CHECK_FALSE(taken.ok);
   CHECK(taken.message ==
         "Could not activate controller : 'computed_torque': controller 'computed_torque': another "
-        "controller is active on these joints");
+        "controller of these joints is active or starts, too; stop it or replace it");
   CHECK(logged() == "switch_controller: " + taken.message);
   CHECK(switch_to(arm, {"pid_plus_gravity"}, {}, best_effort).ok);
   CHECK(logged() == "switch_controller: controller 'pid_plus_gravity': already active");
