@@ -71,7 +71,11 @@ TEST_CASE("controllers of a Switch are switched, and the list shows it with the 
 
   const Answer unknown = arm.ask(SwitchControllers{{"knee"}});
   CHECK(unknown.verdict == support::Verdict::refused);
-  CHECK(unknown.text == "controller 'knee': unknown name");
+  CHECK(unknown.text ==
+        "controller 'knee': unknown name; controllers: pid_plus_gravity, computed_torque");
+  const Answer misspelt = arm.ask(SwitchControllers{{"computed_torqe"}});
+  CHECK(misspelt.text ==
+        "controller 'computed_torqe': unknown name; did you mean 'computed_torque'?");
   const Answer occupied = arm.ask(SwitchControllers{{"computed_torque"}});
   CHECK(occupied.verdict == support::Verdict::refused);
   CHECK(occupied.text.find("another controller of these joints") != std::string::npos);

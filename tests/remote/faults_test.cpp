@@ -53,6 +53,24 @@ TEST_CASE("a fault ends a trajectory, is told with its cure, and is acknowledged
   CHECK(told);
 }
 
+TEST_CASE("a fault for a limit names the joint, what was measured, and the limit") {
+  support::SupervisedArm arm;
+  REQUIRE(arm.ask(Activate{}).verdict == support::Verdict::done);
+  arm.session->ask(Pull{.link = "elbow_active_link", .force = {0, 900, 0}});
+  arm.cycles(200);
+  const Situation now = arm.remote.situation();
+  CHECK(now.fault == Status::limit_exceeded);
+  INFO(now.advice);
+  const auto named = now.advice.find("Measured: joint 'shoulder_active_joint': velocity ");
+  CHECK(named != std::string::npos);
+  CHECK(now.advice.find("is above the limit 2.27") > named);
+  bool told = false;
+  while (const auto event = arm.session->event()) {
+    told = told || event->text == "fault: limit exceeded. " + now.advice;
+  }
+  CHECK(told);
+}
+
 TEST_CASE("an activation that fails is refused with the fault") {
   MockArm arm({}, failing(MockFaultKind::refuses_activation, 0, 1000));
   const Answer answer = arm.ask(Activate{});

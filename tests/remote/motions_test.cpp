@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each joint follows a motion of its own.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -168,6 +169,31 @@ TEST_CASE("a joint returns from signals whatever another joint does") {
   }
   CHECK(alone.reference().position[0] == 0);
   CHECK(alone.remote.situation().motion == "rest");
+}
+
+TEST_CASE("a joint leaves signals without leaving their range, however fast they are") {
+  // A sine of 0.03 rad at 5 Hz accelerates by 30 rad/s^2, stops with the shoulder's limits by 9.
+  const double amplitude = 0.03;
+  const PlaySignals sine{{{shoulder, SineSignal{amplitude, 5}}}, 10};
+  for (int cycles = 400; cycles < 600; cycles += 13) {
+    for (const bool by_stop : {false, true}) {
+      CAPTURE(cycles, by_stop);
+      Arm arm;
+      PlaySignals play = sine;
+      if (!by_stop) play.duration = cycles * 1e-3;
+      arm.session->ask(play);
+      arm.cycles(cycles);
+      if (by_stop) arm.session->ask(Stop{});
+      double farthest = 0;
+      for (int k = 0; k < 2000; ++k) {
+        arm.cycles(1);
+        farthest = std::max(farthest, std::abs(arm.reference().position[0]));
+      }
+      CHECK(farthest <= amplitude * (1 + 1e-12));
+      CHECK(arm.reference().velocity.isZero(0));
+      if (!by_stop) CHECK(std::abs(arm.reference().position[0]) < 1e-12);
+    }
+  }
 }
 
 TEST_CASE("a signal of effort leaves none behind") {

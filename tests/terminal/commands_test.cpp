@@ -452,13 +452,15 @@ TEST_CASE("show serves the URDF that it is given, and ends by Ctrl-C") {
   auto shown = std::async(std::launch::async, [&] {
     const std::string number = std::to_string(port);
     const std::array<const char*, 3> words{"arm", "--port", number.c_str()};
-    return articula::show_with_arguments(arm, 3, words.data(), {.urdf = file.path().string()});
+    return articula::show_with_arguments(
+        arm, 3, words.data(), {.view = {.client_limit = 4}, .urdf = file.path().string()});
   });
-  Json robot;
+  Json robot, situation;
   REQUIRE(eventually([&] {
     try {
       support::WebClient client(port);
       robot = client.call("/robot", Json::object());
+      situation = client.call("/situation", Json::object());
       return true;
     } catch (const std::exception&) {  // the port is not open yet
       return false;
@@ -466,6 +468,7 @@ TEST_CASE("show serves the URDF that it is given, and ends by Ctrl-C") {
   }));
   INFO(robot.dump());
   CHECK(robot.dump().find("of a file") != std::string::npos);
+  CHECK(situation.at("operates") == true);  // also with options of the view
   std::raise(SIGINT);
   CHECK(shown.get() == 0);
 
@@ -482,12 +485,12 @@ TEST_CASE("the command line changes the options of show") {
   CHECK(all.view.port == 0);
   CHECK(all.view.address == "::1");
   CHECK(all.view.token == "abc");
-  CHECK(!all.view.operates);
+  CHECK(all.view.operates == false);
   CHECK(all.opens_browser);
   CHECK(all.seconds == 2.5);
   CHECK(all.thread.priority == 7);
   CHECK(all.thread.lock_memory);
-  CHECK(read({"arm"}).view.operates);
+  CHECK(!read({"arm"}).view.operates.has_value());
   using Wrong = std::vector<const char*>;
   for (const Wrong& wrong : {Wrong{"arm", "--port"}, Wrong{"arm", "--port", "65536"},
                              Wrong{"arm", "--port", "1.5"}, Wrong{"arm", "--priority", "100"},

@@ -115,21 +115,22 @@ struct Counts {
 };
 
 /// Calls function(columns, k) for each cycle that comes, until Ctrl-C or the end of a time.
+/// @param robot    as the view describes it
+/// @param seconds  in the time of the loop, so that it is a number of cycles
 template <class Function>
-Counts for_each_cycle(Connection& connection, double seconds, Function&& function) {
+Counts for_each_cycle(Connection& connection, const Json& robot, double seconds,
+                      Function&& function) {
+  const double most = std::round(seconds / robot.at("period").get<double>());
   connection.subscribe("/cycles");
   end_on_signal();
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
   Counts counts;
   std::uint64_t last = 0;
-  for (;;) {
-    const double left = seconds - std::chrono::duration<double>(Clock::now() - begin).count();
-    if (is_ended() || left <= 0) return counts;
-    const auto message = connection.next(std::min(left, 1.0));
+  const auto full = [&] { return static_cast<double>(counts.cycles + counts.lost) >= most; };
+  while (!is_ended() && !full()) {
+    const auto message = connection.next(1.0);
     if (!message) continue;  // the simulated time may be stopped
     const Json& columns = message->content;
-    for (std::size_t k = 0; k < columns.at("time").size(); ++k) {
+    for (std::size_t k = 0; k < columns.at("time").size() && !full(); ++k) {
       const auto number = columns.at("number").at(k).get<std::uint64_t>();
       if (counts.cycles > 0 && number > last + 1) counts.lost += number - last - 1;
       last = number;
@@ -137,6 +138,7 @@ Counts for_each_cycle(Connection& connection, double seconds, Function&& functio
       ++counts.cycles;
     }
   }
+  return counts;
 }
 
 double time_of(const Json& columns, std::size_t k) {
@@ -146,12 +148,13 @@ double time_of(const Json& columns, std::size_t k) {
 
 /// Messages in JSON, from which the run can be computed again.
 Counts record_cycles(Connection& connection, const std::string& file, double seconds) {
-  const CycleRows rows(connection.call("/robot"));
+  const Json robot = connection.call("/robot");
+  const CycleRows rows(robot);
   articula::McapWriter writer(file, "cycle", "articula.Cycle",
                               articula::schema_of(rows.example()).dump());
   Json settings = present_settings(connection);
   const Counts counts =
-      for_each_cycle(connection, seconds, [&](const Json& columns, std::size_t k) {
+      for_each_cycle(connection, robot, seconds, [&](const Json& columns, std::size_t k) {
         Json row = rows.row(columns, k);
         if (!settings.empty()) row["changes"].push_back(std::exchange(settings, Json()));
         for (const Json& change : columns.at("changes")) {
@@ -173,7 +176,7 @@ Counts record_ros(Connection& connection, const std::string& file, double second
   using articula::RosRecordWriter;
   RosRecordWriter writer(file, joints);
   const Counts counts =
-      for_each_cycle(connection, seconds, [&](const Json& columns, std::size_t k) {
+      for_each_cycle(connection, robot, seconds, [&](const Json& columns, std::size_t k) {
         const auto all = [&](const Json& quantity) {
           std::vector<double> values;
           for (const Json& joint : quantity) {
@@ -230,7 +233,7 @@ void add_record_command(CLI::App& app, Program& program) {
                   [&program, options] { record(program, *options); });
   command->add_option("file", options->file, "for PlotJuggler and Foxglove, as out.mcap")
       ->required();
-  command->add_option("--seconds", options->seconds, "how long [s]")
+  command->add_option("--seconds", options->seconds, "how long, in the loop's time [s]")
       ->check(within(0.0, 1e6))
       ->default_str("until Ctrl-C");
   command->add_flag("--ros", options->as_ros,

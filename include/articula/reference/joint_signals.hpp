@@ -6,12 +6,14 @@
 #include "articula/motion/joint_motion.hpp"
 #include "articula/reference/joint_range.hpp"
 #include "articula/reference/signal.hpp"
+#include "articula/reference/signal_bounds.hpp"
 
 #include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <span>
 #include <variant>
+#include <vector>
 
 namespace articula {
 
@@ -76,6 +78,15 @@ class JointSignals {
       }
       entries_[size_++] = entry;
     }
+    for (int j = 0; j < joint_count; ++j) {
+      std::vector<Signal> own;
+      for (const Entry& entry : std::span(entries_.data(), size_)) {
+        if (entry.joint == j && entry.target == SignalTarget::position) own.push_back(entry.signal);
+      }
+      const ValueRange bounds = signal_bounds(own);
+      lowest_[j] = bounds.lowest;
+      highest_[j] = bounds.highest;
+    }
   }
   JointSignals(const R& robot, std::initializer_list<JointSignal> signals,
                const JointReference<joint_count>& around = {})
@@ -96,6 +107,15 @@ class JointSignals {
   void set_around(const JointReference<joint_count>& around) noexcept { around_ = around; }
   /// The reference to which the signals are added. Real-time: yes.
   [[nodiscard]] const JointReference<joint_count>& around() const noexcept { return around_; }
+
+  /// The positions between which the signals move the joints: `around` and signal_bounds, within
+  /// the joints' limits. Real-time: yes.
+  [[nodiscard]] JointRange<joint_count> range() const noexcept {
+    JointRange<joint_count> range = range_;
+    range.lower = range_.clamp(around_.position + lowest_);
+    range.upper = range_.clamp(around_.position + highest_);
+    return range;
+  }
 
   /// The reference at a time [s]. Real-time: yes. O(N + number of signals).
   [[nodiscard]] JointReference<joint_count> sample(double time) const noexcept {
@@ -134,6 +154,8 @@ class JointSignals {
 
   JointReference<joint_count> around_;
   JointRange<joint_count> range_;
+  /// What the signals add to the positions at least and at most [rad or m], N x 1.
+  JointVector<joint_count> lowest_ = JointVector<joint_count>::Zero(), highest_ = lowest_;
   std::array<Entry, static_cast<std::size_t>(Capacity)> entries_{};
   std::size_t size_ = 0;
 };

@@ -47,11 +47,17 @@ class JointStops {
   ///              not finite stays where its stop ends. The number is clamped to the joint's limits
   ///              or the present position, whichever is further out.
   void begin(const Joints& joints, const Reference& from, const Vector& back = nowhere()) noexcept {
+    begin(joints, from, back, range_);
+  }
+  /// The same with other limits of positions for the stops.
+  /// @param range  within the joints' limits
+  void begin(const Joints& joints, const Reference& from, const Vector& back,
+             const JointRange<joint_count>& range) noexcept {
     const JointRange<joint_count> reachable = range_.extended_to(from.position);
     const Vector target = reachable.clamp(back);
     for (int j = 0; j < joint_count; ++j) {
       if (!joints[j]) continue;
-      const double lower = range_.lower[j], upper = range_.upper[j];
+      const double lower = range.lower[j], upper = range.upper[j];
       constexpr double infinity = std::numeric_limits<double>::infinity();
       allowed_.lower[j] = from.position[j] >= lower ? lower : -infinity;
       allowed_.upper[j] = from.position[j] <= upper ? upper : infinity;
@@ -92,6 +98,9 @@ class JointStops {
     pass(period);
     return reference();
   }
+
+  /// The limits of the joints' positions.
+  [[nodiscard]] const JointRange<joint_count>& range() const noexcept { return range_; }
 
   /// Where each joint rests after its present motion, a stop or a return [rad or m], N x 1.
   [[nodiscard]] Vector end() const noexcept {

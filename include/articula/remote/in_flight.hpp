@@ -62,9 +62,10 @@ class InFlight {
   }
 
   /// Takes back what the loop has ended, and answers what it did not take in time.
-  /// @param note  called with each change of the controller that the loop has made
-  /// @param give  called with client and answer
-  void collect(auto&& note, auto&& give) {
+  /// @param note         called with each change of the controller that the loop has made
+  /// @param give         called with client and answer
+  /// @param controllers  a function that returns the ControllerInfo of each
+  void collect(auto&& note, auto&& give, auto&& controllers) {
     std::vector<Task<R>*> all_ended;
     for (Task<R>* ended = nullptr; rings_.ended.pop(ended);) all_ended.push_back(ended);
     note_changes(note);  // of tasks that ended, all are there by now
@@ -75,7 +76,7 @@ class InFlight {
       for (const auto& [holder, change] : found->changes) {
         holder->settle(*change, ended->end == TaskEnd::done);
       }
-      if (!found->answered) answer(*found, answer_to(robot_, *ended), give);
+      if (!found->answered) answer(*found, answer_to(robot_, *ended, controllers), give);
       pending_.erase(found);
     }
     check_times(give);

@@ -51,7 +51,8 @@ class Outside {
         parameters_(robot_, loop.controller()),
         forecast_(loop),
         maker_(robot_, limits_of(loop, options), options.largest_force),
-        published_(rings_, side_, initial_position(robot_, SimulatorOptions<joint_count>{})),
+        published_(rings_, side_, robot_,
+                   initial_position(robot_, SimulatorOptions<joint_count>{})),
         clients_(options.operator_lifetime, rings_.watch),
         in_flight_(robot_, rings_, options.answer_time) {
     if (!is_supervised<LoopType> && options.when_operator_is_lost == OperatorLoss::deactivate) {
@@ -228,7 +229,8 @@ class Outside {
                          if (auto* const found = clients_.find(client)) {
                            found->answers.push_back(std::move(answer));
                          }
-                       });
+                       },
+                       [this] { return published_.controllers(); });
     clients_.watch_operator(published_.time());
   }
   void tell(std::string text) {

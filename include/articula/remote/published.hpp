@@ -11,6 +11,7 @@
 #include "articula/remote/cycle.hpp"
 #include "articula/remote/engine/loop_side.hpp"
 #include "articula/remote/engine/record_history.hpp"
+#include "articula/remote/limit_excess.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -29,14 +30,16 @@ template <class LoopType>
 class Published {
  public:
   static constexpr int joint_count = LoopType::joint_count;
+  using R = typename LoopType::RobotType;
   using Rings = typename LoopSide<LoopType>::Rings;
   using Record = typename Rings::Record;
   using Reference = JointReference<joint_count>;
 
-  /// @param rings, side  outlive this
-  /// @param position     of the reference while none is known [rad or m], N x 1
-  Published(Rings& rings, LoopSide<LoopType>& side, const JointVector<joint_count>& position)
-      : rings_(rings), side_(side), reference_{.position = position} {
+  /// @param rings, side, robot  outlive this
+  /// @param position            of the reference while none is known [rad or m], N x 1
+  Published(Rings& rings, LoopSide<LoopType>& side, const R& robot,
+            const JointVector<joint_count>& position)
+      : rings_(rings), side_(side), robot_(robot), reference_{.position = position} {
     condition_.mode = is_supervised<LoopType> ? LoopMode::inactive : LoopMode::active;
   }
 
@@ -86,7 +89,7 @@ class Published {
     for (const MotionKind motion : condition_.motions) motions.emplace_back(to_string(motion));
     return {.mode = condition_.mode,
             .fault = fault(),
-            .advice = std::string(advice_on(fault())),
+            .advice = advice(fault()),
             .motion = std::string(to_string(condition_.motion)),
             .joint_motions = std::move(motions),
             .operator_name = std::move(operator_name),
@@ -160,15 +163,21 @@ class Published {
   [[nodiscard]] static double seconds(std::chrono::nanoseconds time) {
     return std::chrono::duration<double>(time).count();
   }
-  [[nodiscard]] static std::string in_words(Status status) {
+  [[nodiscard]] std::string advice(Status status) const {
+    std::string text(advice_on(status));
+    if (status == Status::limit_exceeded && !excess_.empty()) text += " Measured: " + excess_ + ".";
+    return text;
+  }
+  [[nodiscard]] std::string in_words(Status status) const {
     std::string text(to_string(status));
-    if (status != Status::ok) text += ". " + std::string(advice_on(status));
+    if (status != Status::ok) text += ". " + advice(status);
     return text;
   }
 
   void note(const ConditionChange<joint_count>& change, Clients& clients) {
     const LoopCondition<joint_count>& now = change.condition;
     if (now.mode == LoopMode::fault && condition_.mode != LoopMode::fault) {
+      excess_ = limit_excess(robot_, change.state);
       clients.tell({change.time, Event::Level::error, "fault: " + in_words(now.fault)});
     } else if (now.mode != condition_.mode) {
       const std::string text = "mode: " + std::string(to_string(now.mode));
@@ -193,6 +202,8 @@ class Published {
 
   Rings& rings_;
   LoopSide<LoopType>& side_;
+  const R& robot_;
+  std::string excess_{};  ///< of limits, when the last fault began
   RecordHistory<Record> history_{kept_records};
   std::deque<LoopChange> changes_{};
   Record last_{};

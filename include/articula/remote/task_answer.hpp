@@ -4,17 +4,21 @@
 
 #include "articula/remote/engine/task.hpp"
 #include "articula/remote/request.hpp"
+#include "articula/text/similar_word.hpp"
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <variant>
+#include <vector>
 
 namespace articula::remote {
 
 /// Verdict and text on a task that the loop has given back. Real-time: no (allocates).
-/// @param robot  whose joints the text names
+/// @param robot        whose joints the text names
+/// @param controllers  a function that returns the ControllerInfo of each
 template <Robot R>
-[[nodiscard]] Answer answer_text(const R& robot, const Task<R>& task) {
+[[nodiscard]] Answer answer_text(const R& robot, const Task<R>& task, auto&& controllers) {
   const std::string fault(to_string(task.status));
   const auto trajectory = [&] {
     std::string text(to_string(task.outcome));
@@ -27,8 +31,14 @@ template <Robot R>
       if (const auto* own = std::get_if<task::Switch>(&task.wish)) {
         const SwitchOutcome& outcome = own->outcome;
         if (outcome.answer == SwitchAnswer::done) return {.verdict = Verdict::done};
-        const std::string text = "controller '" + std::string(outcome.controller.view()) +
-                                 "': " + std::string(to_string(outcome.answer));
+        std::string text = "controller '" + std::string(outcome.controller.view()) +
+                           "': " + std::string(to_string(outcome.answer));
+        if (outcome.answer == SwitchAnswer::unknown_name) {
+          const auto known = controllers();
+          std::vector<std::string_view> names;
+          for (const auto& each : known) names.push_back(each.name.view());
+          text += articula::detail::choice_of(outcome.controller.view(), "controllers", names);
+        }
         const bool strict = own->request.strictness == Strictness::strict;
         return {.verdict = strict ? Verdict::refused : Verdict::done, .text = text};
       }
@@ -82,10 +92,11 @@ template <Robot R>
 }
 
 /// The answer to a task that the loop has given back. Real-time: no (allocates).
-/// @param robot  whose joints the text names
+/// @param robot        whose joints the text names
+/// @param controllers  a function that returns the ControllerInfo of each
 template <Robot R>
-[[nodiscard]] Answer answer_to(const R& robot, const Task<R>& task) {
-  Answer answer = answer_text(robot, task);
+[[nodiscard]] Answer answer_to(const R& robot, const Task<R>& task, auto&& controllers) {
+  Answer answer = answer_text(robot, task, controllers);
   answer.outcome = task.outcome;
   answer.cycle = task.cycle;
   return answer;

@@ -20,7 +20,7 @@ namespace articula {
 
 /// Options of `show`: a view that lets clients operate, and a run until Ctrl-C.
 struct ShowOptions {
-  ViewOptions view{.operates = true};
+  ViewOptions view{};                                        ///< clients operate by default
   RunOptions run{};                                          ///< `stop` is set by `show`
   double seconds = std::numeric_limits<double>::infinity();  ///< after which the run ends [s]
   /// The robot's URDF, whose visuals the view shows: a file's name, or XML. `view.mesh_folders` has
@@ -54,7 +54,9 @@ int show(LoopType& loop, const ShowOptions& options = {},
     Remote remote(loop, own);
     StopFlag stop;
     const StopOnSignal on_signal(stop);  // before anybody knows that it runs
-    const View view(remote, options.view);
+    ViewOptions view_options = options.view;
+    view_options.operates = view_options.operates.value_or(true);
+    const View view(remote, view_options);
     std::printf("%s shows the robot. Ctrl-C ends the program.\n", view.url().c_str());
     std::fflush(stdout);
     if (options.opens_browser) open_in_browser(view.url());

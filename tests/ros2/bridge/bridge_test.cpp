@@ -148,7 +148,9 @@ TEST_CASE("the requests of ROS 2's tools, as they were recorded, have replies of
   const auto switched = decoded(TypeOf<controller_manager_msgs::srv::SwitchController<Jazzy>>(),
                                 "cm_switch_unknown.switch_controller");
   CHECK_FALSE(switched.ok);
-  CHECK(switched.message == "controller 'arm_controller': unknown name");
+  CHECK(
+      switched.message ==
+      "controller 'arm_controller': unknown name; controllers: pid_plus_gravity, computed_torque");
   CHECK(answered.size() == replies.size());
   CHECK(arm.bridge.dropped().malformed == 0);
 }

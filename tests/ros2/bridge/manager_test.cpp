@@ -130,7 +130,8 @@ TEST_CASE("controllers are switched, and refusals say why") {
 
   const auto unknown = switch_to(arm, {"ghost"}, {});
   CHECK_FALSE(unknown.ok);
-  CHECK(unknown.message == "controller 'ghost': unknown name");
+  CHECK(unknown.message ==
+        "controller 'ghost': unknown name; controllers: pid_plus_gravity, computed_torque");
   CHECK(switch_to(arm, {"ghost", "computed_torque"}, {"pid_plus_gravity"}, 1).ok);
   CHECK(controller(arm, "computed_torque").state == "active");
   CHECK_FALSE(switch_to(arm, {}, {}, -2).ok);
@@ -340,7 +341,9 @@ TEST_CASE("what best effort leaves out is in the log, and taken joints are a fai
   CHECK(switch_to(arm, {}, {"computed_torque"}, best_effort).ok);
   CHECK(logged() == "switch_controller: controller 'computed_torque': not active");
   CHECK(switch_to(arm, {"ghost"}, {}, best_effort).ok);
-  CHECK(logged() == "switch_controller: controller 'ghost': unknown name");
+  CHECK(logged() ==
+        "switch_controller: controller 'ghost': unknown name; controllers: pid_plus_gravity, "
+        "computed_torque");
   CHECK(switch_to(arm, {"joint_state_broadcaster"}, {}, best_effort).ok);
   CHECK(logged() == "switch_controller: controller 'joint_state_broadcaster': already active");
   CHECK(controller(arm, "pid_plus_gravity").state == "active");

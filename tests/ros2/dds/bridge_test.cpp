@@ -230,7 +230,8 @@ TEST_CASE("clients of both middlewares steer a running loop while random bytes c
   CHECK(state_of(list.call({}), "computed_torque") == "active");
   const auto refused = switched(2, "ghost", "computed_torque");
   CHECK_FALSE(refused.success);
-  CHECK(refused.message == "controller 'ghost': unknown name");
+  CHECK(refused.message ==
+        "controller 'ghost': unknown name; controllers: pid_plus_gravity, computed_torque");
   CHECK(state_of(list.call({}), "computed_torque") == "active");
 
   // A late joiner.

@@ -217,7 +217,7 @@ class LoopSide {
                                          motions_.trajectory_speed()};
     if (!told_ || !(now == condition_)) {
       condition_ = now;
-      told_ = rings_.changes.push({loop_.time(), now});
+      told_ = rings_.changes.push({loop_.time(), now, loop_.state()});
     }
     returns_.hand_to(rings_.ended, now.mode == LoopMode::fault ? now.fault : Status::ok);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/core/joint_array.hpp"
+#include "articula/core/joint_state.hpp"
 #include "articula/loop/supervision/loop_mode.hpp"
 #include "articula/recording/cycle_record.hpp"
 #include "articula/remote/motion/motion_kind.hpp"
@@ -35,11 +36,12 @@ struct LoopCondition {
   friend bool operator==(const LoopCondition&, const LoopCondition&) = default;
 };
 
-/// A new state, and its time.
+/// A new state, its time, and what was measured then.
 template <int N>
 struct ConditionChange {
   double time = 0;  ///< of the loop [s]
   LoopCondition<N> condition{};
+  JointState<N> state{};
 };
 
 }  // namespace articula::remote

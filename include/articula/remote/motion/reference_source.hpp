@@ -179,7 +179,7 @@ class ReferenceSource {
         sources_.copy(signals, own, reference);
       } else {
         const Joints ended = sources_.joints_of(signals);
-        stops_.begin(ended, without_signals(present), signals_.around().position);
+        stop_joints(ended, without_signals(present), signals_.around().position);
         sources_.give(ended, stopping);
       }
     }
@@ -240,11 +240,24 @@ class ReferenceSource {
       for (int j = 0; j < joint_count; ++j) stop[j] |= sources_.of(j) == other && !joints[j];
     }
     for (int j = 0; j < joint_count; ++j) stop[j] |= source == stopping && joints[j];
-    stops_.begin(stop, here);
+    stop_joints(stop, here);
     sources_.give(stop, stopping);
     sources_.give(joints, source);
     if (std::find(joints.begin(), joints.end(), true) != joints.end()) latest_ = source;
     return here;
+  }
+
+  /// Begins stops. Joints stop within the range of the signals that they follow, which may
+  /// accelerate harder than the limits of stops. A joint that stops already keeps its range.
+  void stop_joints(const Joints& joints, const Reference& from,
+                   const Vector& back = JointStops<R>::nowhere()) noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      if (!joints[j] || sources_.of(j) == stopping) continue;
+      const auto& range = sources_.of(j) == signals ? signals_.range() : stops_.range();
+      stop_range_.lower[j] = range.lower[j];
+      stop_range_.upper[j] = range.upper[j];
+    }
+    stops_.begin(joints, from, back, stop_range_);
   }
 
   /// A reference without the efforts that signals have added to it. What they have added to
@@ -273,6 +286,7 @@ class ReferenceSource {
   GoMotion<R> go_;
   Reference set_{};
   JointStops<R> stops_;
+  JointRange<joint_count> stop_range_ = stops_.range();  ///< of the present stops
   SignalMotion<R> signals_;
   double trajectory_speed_ = 1;  ///< as asked for
 };

@@ -48,6 +48,8 @@ class SignalMotion {
 
   /// The reference to which the signals are added. After `begin`.
   [[nodiscard]] const Reference& around() const noexcept { return signals_->around(); }
+  /// The positions between which they move the joints. After `begin`.
+  [[nodiscard]] JointRange<joint_count> range() const noexcept { return signals_->range(); }
 
  private:
   JointStops<R> stop_;

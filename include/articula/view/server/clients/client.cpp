@@ -26,7 +26,8 @@ Client::Client(remote::Port& port, FuturesDesk& futures, const Latest& latest,
       number_(futures.next_number()),
       latest_(latest),
       options_(options),
-      session_(port.connect(name, options.operates)),
+      operates_(options.operates.value_or(false)),
+      session_(port.connect(name, operates_)),
       queue_(options.queue_limit) {
   queue_.add_answer(text_frame(latest.server_info));
   queue_.add_answer(text_frame(latest.advertise));
@@ -168,7 +169,7 @@ void Client::act(const Complaint& action) { complain(action.text); }
 // --- answers -----------------------------------------------------------------------------------
 
 void Client::ask(const remote::Request& request, const Reply& to) {
-  if (!options_.operates) return reply(to, false, only_shows);
+  if (!operates_) return reply(to, false, only_shows);
   if (pending_.size() >= pending_limit) {
     return reply(to, false, "too many requests of this client wait for their answer; wait for it");
   }
@@ -177,7 +178,7 @@ void Client::ask(const remote::Request& request, const Reply& to) {
 
 // They take a core's time, so those who only watch cannot ask.
 void Client::ask(const remote::FuturesQuestion& question, const CallReply& to) {
-  if (!options_.operates) return reply(to, false, only_shows);
+  if (!operates_) return reply(to, false, only_shows);
   if (futures_call_)
     reply(*futures_call_, false, "futures: a newer question has replaced this one");
   futures_call_ = to;
@@ -229,7 +230,7 @@ std::string Client::change_controls(bool take) {
     session_->release_controls();
     return {};
   }
-  if (!options_.operates) return only_shows;
+  if (!operates_) return only_shows;
   return session_->has_controls() ? std::string() : session_->take_controls();
 }
 
@@ -243,7 +244,7 @@ Json Client::answer_of(Query query) {
       json = parameters_json(port_.parameters());
       break;
     case Query::situation:
-      json = situation_json(port_.situation(), options_.operates, session_->has_controls());
+      json = situation_json(port_.situation(), operates_, session_->has_controls());
       break;
     case Query::statistics:
       json = statistics_json(port_.statistics());
@@ -260,7 +261,7 @@ void Client::tell_situation() {
   if (told_situation_ == latest_.situation_version && told_controls_ == controls) return;
   told_situation_ = latest_.situation_version;
   told_controls_ = controls;
-  announce(Topic::situation, share(situation_json(latest_.situation, options_.operates, controls)));
+  announce(Topic::situation, share(situation_json(latest_.situation, operates_, controls)));
 }
 
 void Client::send_parameters(const std::vector<std::string>& names,

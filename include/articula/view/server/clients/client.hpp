@@ -104,6 +104,7 @@ class Client {
   FuturesDesk::ClientNumber number_;  ///< at that desk
   const Latest& latest_;
   const ViewOptions& options_;
+  const bool operates_;  ///< the client may take the controls
   std::unique_ptr<remote::Session> session_;
   Protocol protocol_{};
   SendQueue queue_;

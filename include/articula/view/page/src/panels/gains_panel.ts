@@ -82,7 +82,10 @@ export class GainsPanel {
       const gain = parts.pop() ?? '';
       const joint = jointOf(parameter);
       const controller = parts.slice(0, -1).join('.');
-      const field = new GainField(parameter, gain, () => this.propose());
+      const field = new GainField(parameter, gain, () => {
+        this.outcome.textContent = '';
+        this.propose();
+      });
       const joints = groups.get(controller) ?? new Map<string, GainField[]>();
       joints.set(joint, [...(joints.get(joint) ?? []), field]);
       groups.set(controller, joints);

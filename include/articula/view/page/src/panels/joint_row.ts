@@ -50,6 +50,10 @@ export class JointRow {
       step: this.step,
       'aria-label': `Goal of ${joint.name} [${unit}]`,
       change: () => input(this.number),
+      // Enter moves the robot, and comes before the change.
+      keydown: ({key}: KeyboardEvent) => {
+        if (key === 'Enter') input(this.number);
+      },
     });
     this.box = element(
       'div',

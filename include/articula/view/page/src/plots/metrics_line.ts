@@ -14,8 +14,13 @@ export function stepLines(
   from: number,
   to: number,
 ): HTMLElement[] {
+  // A loop that is activated sets the reference to the position, which is no step of it.
+  const end = samples.rowAt(to);
+  let first = samples.rowAt(from);
+  for (let row = end - 1; row >= first; --row)
+    if (samples.value('status', row) !== 0) first = row + 1;
   return joints.flatMap((joint) => {
-    const step = lastStep(samples, joint, samples.rowAt(from), samples.rowAt(to));
+    const step = lastStep(samples, joint, first, end);
     if (!step) return [];
     const unit = positionUnit(sheet.joints[joint]);
     const name = element('b', {}, sheet.joints[joint].name);

@@ -12,7 +12,7 @@ export interface StepMetrics {
   error: number; // reference minus position at the end
 }
 
-const shortestRest = 0.02; // s that the reference must have rested after a change
+const shortestRest = 0.02; // s that the reference must have rested before and after a change
 
 /** The last step within the rows first..end; null if the reference never rested twice. */
 export function lastStep(
@@ -35,6 +35,9 @@ export function lastStep(
   const from = at(row);
   const way = to - from;
   if (Math.abs(way) <= 10 * least) return null;
+  let rest = row; // unless the turning point of a wave
+  while (rest > first && Math.abs(at(rest - 1) - from) <= least) --rest;
+  if (rest > first && samples.time(row) - samples.time(rest) < shortestRest) return null;
 
   const start = samples.time(row);
   let tenth = NaN;

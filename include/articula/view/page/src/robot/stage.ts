@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import {
+  BasicShadowMap,
   Box3,
   Color,
   DirectionalLight,
@@ -42,7 +43,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({antialias: !software, powerPreference: 'high-performance'});
     this.renderer.setPixelRatio(software ? 1 : Math.min(devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.shadowMap.type = software ? BasicShadowMap : PCFShadowMap;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.setScalar(software ? 512 : 2048);
     this.sun.shadow.bias = -1e-3;
