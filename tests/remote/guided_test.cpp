@@ -2,7 +2,10 @@
 // Joints that no controller moves to the reference: a robot that is guided by hand.
 #include <articula/control/composition/follows_position.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+#include <variant>
 
 #include "catch.hpp"
 #include "remote/remote_arm.hpp"
@@ -63,6 +66,47 @@ TEST_CASE("a controller that starts after one that lets the arm float holds it w
   arm.cycles(2000);
   CHECK(std::as_const(arm.loop).reference().position == reference);
   CHECK((arm.loop.state().position - reference).norm() < 0.01);
+}
+
+TEST_CASE("the reference goes along with a joint that follows a velocity or an effort") {
+  using Velocities = VelocityByEffort<Q2d>;
+  using Both = Switch<Q2d, PidPlusGravity<Q2d>, Velocities>;
+  constexpr PidGains gains{.proportional = 40};
+  const SetReference velocity{.velocities = {{shoulder, 0.1}}};
+  const PlaySignals effort{{{shoulder, StepSignal{3, 0}, SignalTarget::effort}}, 10};
+  for (const Request& request : {Request(velocity), Request(effort)}) {
+    RemoteArm<SupervisedControlLoop<Q2dSim, Both>> arm(
+        {}, Q2dSim(),
+        Both({.names = {"pid_plus_gravity", "velocities"}},
+             articula::detail::default_controller<PidPlusGravity<Q2d>>(),
+             Velocities(JointPidGains<2>{gains, gains})));
+    REQUIRE(done(arm.ask(Activate{})));
+    REQUIRE(done(arm.ask(SwitchControllers{{"velocities"}, {"pid_plus_gravity"}})));
+    arm.session->ask(request);
+    if (std::holds_alternative<PlaySignals>(request)) {
+      REQUIRE(done(arm.ask(Pull{"tool_link", {}, {0, 3, 0}})));
+    }
+    arm.cycles(2000);
+    const double before = arm.loop.state().position[0];
+    REQUIRE(std::abs(before) > 0.02);
+    arm.session->ask(SwitchControllers{{"pid_plus_gravity"}, {"velocities"}});
+    double farthest = 0;
+    for (int k = 0; k < 300; ++k) {
+      arm.cycles(1);
+      farthest = std::max(farthest, before - arm.loop.state().position[0]);
+    }
+    CHECK(farthest < 0.01);  // it does not go back to where the reference was set
+  }
+}
+
+TEST_CASE("of settings that wait, each starts from the one before") {
+  GuidedArm arm({}, Q2dSim(), controllers());
+  REQUIRE(done(arm.ask(Activate{})));
+  arm.session->ask(SetReference{.positions = {{shoulder, 0.05}}});
+  arm.session->ask(SetReference{.efforts = {{shoulder, 1}}});
+  arm.cycles(3);
+  CHECK(std::as_const(arm.loop).reference().position[0] == 0.05);
+  CHECK(std::as_const(arm.loop).reference().effort[0] == 1);
 }
 
 TEST_CASE("a controller that follows positions keeps its reference, whatever pulls at the arm") {

@@ -231,7 +231,7 @@ TEST_CASE(
       highest = std::max(highest, arm.reference().velocity[0]);
     }
     CHECK(highest <= limit * (1 + 1e-9));
-    arm.cycles(2000);
+    arm.cycles(4000);
     CHECK(arm.reference().position[0] == 1);
   }
 }

@@ -181,7 +181,7 @@ TEST_CASE("anybody may stop a motion, and a paused loop shows its state") {
   const Json stopped = running.ask({"stop"});
   CHECK(stopped.at("success") == true);
   CHECK(eventually([&] { return motion() == "rest"; }));
-  CHECK(operating.end().exit_code == 0);
+  CHECK(operating.end().exit_code == 1);  // it is not where it was to go
 
   running.ask({"pause"});
   const Json paused = running.ask({"status"});
@@ -195,9 +195,13 @@ TEST_CASE("a motion that no controller follows is told of") {
   const Running running({robot.name(), files + "/q2d.yaml", "--controller", "group_bypass"});
   const Result result =
       run_articula({"--port", running.port(), "go", "elbow_active_joint=0.3", "--wait"});
-  CHECK(result.exit_code == 0);
-  CHECK(result.errors.find("note: joint 'elbow_active_joint' is at ") != std::string::npos);
+  CHECK(result.exit_code != 0);
+  CHECK(result.errors.find("the reference of joint 'elbow_active_joint' is at ") !=
+        std::string::npos);
   CHECK(result.errors.find(", not at 0.3: ") != std::string::npos);
+  const Json told = running.ask({"go", "elbow_active_joint=0.3"});
+  CHECK(told.at("message") ==
+        "the reference moves, but no active controller moves to it: 'elbow_active_joint'");
 }
 
 TEST_CASE("positions go to simulated drives, and to a mock") {

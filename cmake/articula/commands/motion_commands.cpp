@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file go, publish, play: motion of the reference.
+#include "commands/joint_states.hpp"
 #include "connection.hpp"
 #include "files/joint_values.hpp"
 #include "files/trajectory_file.hpp"
@@ -43,23 +44,29 @@ void wait_while(Connection& connection, const std::string& motion) {
   }
 }
 
-/// The motion of the reference has ended. Where no controller follows it, the joints are elsewhere.
-void warn_of_joints_elsewhere(Connection& connection, const Json& targets) {
-  connection.subscribe("/joint_states");
-  const auto message = connection.next(Connection::default_patience);
-  if (!message) return;
-  const Json names = message->content.value("name", Json::array()),
-             positions = message->content.value("position", Json::array());
-  for (std::size_t i = 0; i < names.size() && i < positions.size(); ++i) {
+/// Where joints and reference are after a motion. The reference is elsewhere if another request took
+/// it there, and goes along with a joint that no controller moves to it.
+void check_arrival(Connection& connection, const Json& targets) {
+  const auto states = JointStates(connection).next(Connection::default_patience);
+  if (!states) return;
+  const Json& names = states->at("name");
+  for (std::size_t i = 0; i < names.size(); ++i) {
     const auto target = targets.find(names[i].get<std::string>());
-    constexpr double far = 0.05;  // [rad or m]; beyond the usual error of a controller
-    if (target == targets.end() || !positions[i].is_number()) continue;
-    const double position = positions[i].get<double>(), wanted = target->get<double>();
-    if (std::abs(position - wanted) <= far) continue;
-    std::cerr
-        << "note: joint '" << target.key() << "' is at " << shown(position) << ", not at "
-        << shown(wanted)
-        << ": does an active controller follow positions, or has somebody ended the motion?\n";
+    const Json &position = states->at("position").at(i),
+               &reference = states->at("reference_position").at(i);
+    if (target == targets.end() || !position.is_number() || !reference.is_number()) continue;
+    const double wanted = target->get<double>();
+    constexpr double rounding = 1e-6, far = 0.05;  // [rad or m]; the usual error of a controller
+    if (std::abs(reference.get<double>() - wanted) > rounding) {
+      throw Refusal("go: the reference of joint '" + target.key() + "' is at " +
+                    shown(reference.get<double>()) + ", not at " + shown(wanted) +
+                    ": another request has ended the motion, or no active controller follows it");
+    }
+    if (std::abs(position.get<double>() - wanted) > far) {
+      std::cerr << "note: joint '" << target.key() << "' is at " << shown(position.get<double>())
+                << ", its reference at " << shown(wanted)
+                << ": the controller needs more time or effort; 'articula status' shows both\n";
+    }
   }
 }
 
@@ -75,7 +82,7 @@ void go(const Program& program, const std::vector<std::string>& arguments, doubl
   const Json answer = connection.call("/go", request);
   wait_while(connection, "go");
   connection.call("/release_controls");
-  warn_of_joints_elsewhere(connection, request["positions"]);
+  check_arrival(connection, request["positions"]);
   print_answer(program, answer);
 }
 

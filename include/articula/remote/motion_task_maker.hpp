@@ -30,10 +30,8 @@ class MotionTaskMaker {
   using Reference = JointReference<joint_count>;
   using Vector = JointVector<joint_count>;
 
-  /// @param robot   stays where it is
-  /// @param limits  of signals' velocities
-  MotionTaskMaker(const R& robot, const MotionLimits<joint_count>& limits)
-      : robot_(robot), check_(robot), limits_(limits) {}
+  /// @param robot  stays where it is
+  explicit MotionTaskMaker(const R& robot) : robot_(robot), check_(robot) {}
 
   /// @param present  the last reference that is known; likewise below
   [[nodiscard]] Wish make(const Go& go, const Reference&) const {
@@ -140,7 +138,7 @@ class MotionTaskMaker {
     }
     for (int j = 0; j < joint_count; ++j) {
       if (joints[j]) check_.check_positions(signals, j, around[j]);
-      check_.check_size("signals", "velocity", j, velocity[j], limits_.velocity[j]);
+      check_.check_size("signals", "velocity", j, velocity[j], check_.limits_of(j).velocity);
       if (std::abs(begin[j]) > 1e-9) {  // rounding of a phase
         articula::detail::refuse(
             {"signals: joint '", check_.name_of(j), "' would jump by ", begin[j],
@@ -242,7 +240,6 @@ class MotionTaskMaker {
 
   const R& robot_;
   RequestCheck<R> check_;
-  MotionLimits<joint_count> limits_;
 };
 
 }  // namespace articula::remote

@@ -50,7 +50,7 @@ class Outside {
         sheet_(robot_sheet_of(loop, options.urdf)),
         parameters_(robot_, loop.controller()),
         forecast_(loop),
-        maker_(robot_, limits_of(loop, options), options.largest_force),
+        maker_(robot_, options.largest_force),
         published_(rings_, side_, robot_,
                    initial_position(robot_, SimulatorOptions<joint_count>{})),
         clients_(options.operator_lifetime, rings_.watch),

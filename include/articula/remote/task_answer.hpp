@@ -52,6 +52,18 @@ template <Robot R>
         }
         return {.verdict = Verdict::done, .text = text};
       }
+      if (const auto* own = std::get_if<task::Go<joint_count<R>>>(&task.wish)) {
+        std::string joints;
+        for (int j = 0; j < joint_count<R>; ++j) {
+          if (!own->unfollowed[j]) continue;
+          joints += (joints.empty() ? "'" : ", '");
+          joints += model_of(robot).joints[j].name.view();
+          joints += "'";
+        }
+        if (joints.empty()) return {.verdict = Verdict::done};
+        return {.verdict = Verdict::done,
+                .text = "the reference moves, but no active controller moves to it: " + joints};
+      }
       return {.verdict = Verdict::done};
     case not_active:
       return {.verdict = Verdict::refused, .text = "the loop is not active: activate it first"};

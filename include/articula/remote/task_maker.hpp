@@ -31,10 +31,9 @@ class TaskMaker {
   using Reference = JointReference<joint_count>;
 
   /// @param robot          stays where it is
-  /// @param limits         of signals' velocities
   /// @param largest_force  of a pull, in each direction [N]
-  TaskMaker(const R& robot, const MotionLimits<joint_count>& limits, double largest_force)
-      : robot_(robot), check_(robot), motions_(robot, limits), largest_force_(largest_force) {}
+  TaskMaker(const R& robot, double largest_force)
+      : robot_(robot), check_(robot), motions_(robot), largest_force_(largest_force) {}
 
   /// @param request  any but SetParameters, which GainParameters checks
   /// @param present  the last reference that is known

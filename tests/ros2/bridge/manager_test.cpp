@@ -251,6 +251,9 @@ TEST_CASE("a client that watches only cannot switch") {
   BridgedArm arm({.operates = false});
   CHECK_FALSE(set_hardware(arm, "active").ok);
   CHECK(arm.bridge.dropped().refused == 1);
+  // Nor what the bridge does itself.
+  CHECK_FALSE(switch_to(arm, {}, {"joint_state_broadcaster"}).ok);
+  CHECK(controller(arm, "joint_state_broadcaster").state == "active");
 }
 
 TEST_CASE("the controls go back to others when ROS has been silent") {

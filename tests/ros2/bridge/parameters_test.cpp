@@ -165,6 +165,26 @@ TEST_CASE("parameters are set atomically") {
   CHECK(get(arm, p) == 2000);
 }
 
+TEST_CASE("of several values for one parameter, the last one holds") {
+  BridgedArm arm;
+  const double before = get(arm, p);
+  CHECK(set(arm, {number(p, 300), number(p, before)}).at(1).successful);
+  CHECK(get(arm, p) == before);
+  CHECK(set_all(arm, {number(p, 300), number(p, before)}).successful);
+  CHECK(get(arm, p) == before);
+  CHECK(set_all(arm, {number(p, before), number(p, 300)}).successful);
+  CHECK(get(arm, p) == 300);
+}
+
+TEST_CASE("a client that watches only sets neither gains nor constraints") {
+  BridgedArm arm({.operates = false});
+  for (const std::string& name : {p, std::string("constraints.goal_time")}) {
+    const double before = get(arm, name);
+    CHECK_FALSE(set(arm, {number(name, before + 1)}).at(0).successful);
+    CHECK(get(arm, name) == before);
+  }
+}
+
 TEST_CASE("a dumped file loads again") {
   BridgedArm arm;
   set(arm, {number(p, 2000)});

@@ -172,9 +172,59 @@ TEST_CASE("packets are well-formed if all their parts are within them") {
         0x00U, 0x03U, 0x00U, 0x00U, 0x50U, 0x00U, 0x10U, 0x00U, 1U,    2U,    3U,    4U}) {
     fragment.push_back(static_cast<std::byte>(byte));
   }
+  CHECK_FALSE(dds::is_well_formed(fragment));   // of discovery: nobody sees what is in it
+  fragment.at(35) = static_cast<std::byte>(3);  // of a topic
   CHECK(dds::is_well_formed(fragment));
   fragment.at(26) = static_cast<std::byte>(0xff);  // as above: its payload begins behind the end
   CHECK_FALSE(dds::is_well_formed(fragment));
+}
+
+TEST_CASE("a part of statistics is the last one, and parts end at a multiple of four") {
+  Bytes packet = announcement(1, 1);
+  packet.resize(20);
+  const auto add = [&](unsigned kind, unsigned size) {
+    for (const unsigned byte : {kind, 1U, size, 0U}) packet.push_back(static_cast<std::byte>(byte));
+    packet.resize(packet.size() + size);
+  };
+  add(0x55, 4);
+  add(0x80, 56);
+  CHECK(dds::is_well_formed(packet));
+  add(0x01, 4);  // Fast DDS 2.9.1 would end the program
+  CHECK_FALSE(dds::is_well_formed(packet));
+  packet.resize(20);
+  add(0x55, 6);
+  CHECK(dds::is_well_formed(packet));
+  add(0x55, 4);
+  CHECK_FALSE(dds::is_well_formed(packet));
+}
+
+TEST_CASE("texts in messages of discovery are within their parameters") {
+  const auto good = [](std::uint32_t id, const std::vector<std::uint32_t>& words) {
+    Bytes value(4 * words.size());
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      value[k] = static_cast<std::byte>(words[k / 4] >> (8 * (k % 4)));
+    }
+    return dds::detail::worth_of(id, value, true) != dds::detail::Worth::broken;
+  };
+  constexpr std::uint32_t huge = 0xffffffff;  // Fast DDS 2.9.1 takes 4 GiB for it
+  for (const std::uint32_t id : {0x05U, 0x07U, 0x62U, 0x2cU, 0x2dU, 0x2eU}) {
+    CHECK(good(id, {3, 0}));
+    CHECK(good(id, {4, 0}));
+    CHECK_FALSE(good(id, {5, 0}));
+    CHECK_FALSE(good(id, {huge, 0}));
+    CHECK_FALSE(good(id, {}));
+  }
+  CHECK(good(0x29, {2, 1, 0, 4, 0}));
+  CHECK_FALSE(good(0x29, {3, 1, 0, 4, 0}));
+  CHECK_FALSE(good(0x29, {huge, 1, 0}));
+  CHECK(good(0x59, {1, 1, 0, 2, 0}));
+  CHECK_FALSE(good(0x59, {1, 1, 0, huge, 0}));
+  CHECK_FALSE(good(0x59, {huge}));
+  CHECK(good(0x73, {2, 0}));
+  CHECK_FALSE(good(0x73, {3, 0}));
+  CHECK(good(0x1a, {1, 2, 3}));
+  CHECK(good(0x1a, {1, 2}));  // of another size: hidden
+  CHECK(good(0x35, {huge}));  // unknown, and hidden
 }
 
 TEST_CASE("a storm of announced and mutilated participants takes no memory, and peers stay") {

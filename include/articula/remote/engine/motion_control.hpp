@@ -97,6 +97,10 @@ class MotionControl {
 
   void begin(Task<R>& own, task::Go<joint_count>& wish) noexcept {
     if (!can_begin(own)) return;
+    const auto follows = joints_following_position<joint_count>(loop_.controller());
+    for (int j = 0; j < joint_count; ++j) {
+      wish.unfollowed[j] = is_finite(wish.target[j]) && !follows[j];
+    }
     source_.go(reference(), wish.target, wish.speed);
     finish(own);
   }
@@ -140,14 +144,15 @@ class MotionControl {
     return std::as_const(loop_).reference();
   }
 
-  /// At rest, the reference of a joint whose controller does not follow its position goes along
-  /// with the measurement. So a controller that does and starts later holds the joint where it is.
-  [[nodiscard]] Reference along(Reference own) const noexcept {
+  /// The reference of a joint whose controller does not follow its position goes along with the
+  /// measurement, unless it moves. So a controller that does and starts later holds the joint where
+  /// it is.
+  [[nodiscard]] Reference along(Reference own) noexcept {
     const auto follows = joints_following_position<joint_count>(loop_.controller());
     const JointVector<joint_count>& measured = loop_.state().position;
     for (int j = 0; j < joint_count; ++j) {
-      if (follows[j] || source_.kind(j) != MotionKind::rest || !is_finite(measured[j])) continue;
-      own.position[j] = measured[j];
+      if (follows[j] || !is_finite(measured[j])) continue;
+      if (source_.place(j, measured[j])) own.position[j] = measured[j];
     }
     return own;
   }

@@ -33,6 +33,8 @@ template <int N>
 struct Go {
   JointVector<N> target;  ///< [rad or m]; NaN for joints that have none
   double speed = 1;
+  JointArray<bool, N>
+      unfollowed{};  ///< filled in by the loop: joints that no controller moves there
 };
 template <int N>
 struct Set {

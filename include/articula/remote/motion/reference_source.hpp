@@ -64,6 +64,16 @@ class ReferenceSource {
     return source != none && sources_.leads(source);
   }
 
+  /// Places the reference of a joint that has no motion of its position: a joint at rest, or one
+  /// with a setting or signals of effort alone.
+  /// @return whether it is such a joint
+  bool place(int joint, double position) noexcept {
+    const int source = sources_.of(joint);
+    if (source == setting) set_.position[joint] = position;
+    if (source == signals) return signals_.place(joint, position);
+    return source == none || source == setting;
+  }
+
   /// Ends all motions at once: for loops that set their reference themselves.
   void rest() noexcept { sources_ = {}; }
 
@@ -85,12 +95,15 @@ class ReferenceSource {
     go_.begin(with_motion_of(joints, here), target, speed);
   }
 
-  /// Sets the reference of some joints.
+  /// Sets the reference of some joints. Of several settings in one period, each starts from the one
+  /// before.
   void set(const Reference& from, const JointSetting<joint_count>& own) noexcept {
+    const Joints were_set = sources_.joints_of(setting);
     begin(setting, own.joints, from);
     for (int j = 0; j < joint_count; ++j) {
       if (!own.joints[j]) continue;
-      const double position = own.positions[j] ? own.values.position[j] : from.position[j];
+      const double present = (were_set[j] ? set_ : from).position[j];
+      const double position = own.positions[j] ? own.values.position[j] : present;
       set_motion(set_, j, {position, own.values.velocity[j], 0});
       set_.effort[j] = own.values.effort[j];
     }

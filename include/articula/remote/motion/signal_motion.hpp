@@ -48,6 +48,17 @@ class SignalMotion {
 
   /// The reference to which the signals are added. After `begin`.
   [[nodiscard]] const Reference& around() const noexcept { return signals_->around(); }
+  /// Places the reference to which they are added, of a joint whose position they leave. After
+  /// `begin`.
+  /// @return whether they leave it
+  bool place(int joint, double position) noexcept {
+    const JointRange<joint_count> own = range();
+    if (stop_.moves() || own.lower[joint] < own.upper[joint]) return false;
+    Reference around = signals_->around();
+    around.position[joint] = position;
+    signals_->set_around(around);
+    return true;
+  }
   /// The positions between which they move the joints. After `begin`.
   [[nodiscard]] JointRange<joint_count> range() const noexcept { return signals_->range(); }
 

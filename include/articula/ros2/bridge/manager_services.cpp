@@ -231,6 +231,8 @@ class Services final : public ManagerServices {
       core_.broadcasts = (core_.broadcasts && !end) || begin;
     };
     if (wanted.start.empty() && wanted.stop.empty()) {
+      const std::string refusal = core_.loop_operator.session().take_controls();
+      if (!refusal.empty()) return answer(false, refusal);
       broadcast();
       return answer(true, left_out);
     }

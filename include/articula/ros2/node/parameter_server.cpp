@@ -202,12 +202,15 @@ void ParameterServer::serve_setting() {
           messages::Parameter<Jazzy> own = request.parameters[i];
           const std::string reason = check(all, own);
           open->results[i] = {reason.empty(), reason};
-          if (!reason.empty() || same(find(all, own.name)->value, own.value)) continue;
+          if (!reason.empty()) continue;
+          const bool again = std::any_of(open->wanted.begin(), open->wanted.end(),
+                                         [&](const auto& other) { return other.name == own.name; });
+          if (!again && unchanged(*find(all, own.name), own.value)) continue;
           open->wanted.push_back(std::move(own));
           open->places.push_back(i);
         }
         if (open->wanted.empty()) return open->answer(open->results);
-        store_.set(open->wanted, [this, open](const std::string& reason) {
+        set(open->wanted, [this, open](const std::string& reason) {
           if (reason.empty()) return open->answer(open->results);
           set_next(open);
         });
@@ -227,11 +230,25 @@ void ParameterServer::serve_setting() {
         NamedValues wanted;
         for (messages::Parameter<Jazzy> own : request.parameters) {
           if (const std::string reason = check(all, own); !reason.empty()) return answer(reason);
-          if (!same(find(all, own.name)->value, own.value)) wanted.push_back(std::move(own));
+          std::erase_if(wanted, [&](const auto& other) { return other.name == own.name; });
+          if (!unchanged(*find(all, own.name), own.value)) wanted.push_back(std::move(own));
         }
-        wanted.empty() ? answer({}) : store_.set(wanted, answer);
+        wanted.empty() ? answer({}) : set(wanted, answer);
       },
       quality);
+}
+
+bool ParameterServer::unchanged(const NodeParameter& present, const Value& wanted) const {
+  if (present.descriptor.read_only) return true;
+  return on_their_way_ == 0 && same(present.value, wanted);
+}
+
+void ParameterServer::set(const NamedValues& values, const ParameterStore::OnSet& on_set) {
+  ++on_their_way_;
+  store_.set(values, [this, on_set](const std::string& reason) {
+    --on_their_way_;
+    on_set(reason);
+  });
 }
 
 std::string ParameterServer::check(const std::vector<NodeParameter>& all,
@@ -257,7 +274,7 @@ std::string ParameterServer::check(const std::vector<NodeParameter>& all,
 void ParameterServer::set_next(const std::shared_ptr<OpenSetting>& open) {
   if (open->next == open->wanted.size()) return open->answer(open->results);
   const std::size_t own = open->next++;
-  store_.set({open->wanted[own]}, [this, open, own](const std::string& reason) {
+  set({open->wanted[own]}, [this, open, own](const std::string& reason) {
     open->results[open->places[own]] = {reason.empty(), reason};
     set_next(open);
   });

@@ -56,6 +56,10 @@ class ParameterServer {
   /// Whether a request is too large. It is counted then.
   [[nodiscard]] bool too_many(const auto& names);
   [[nodiscard]] std::vector<NodeParameter> named(const std::vector<std::string>& names);
+  /// Whether a parameter has a value already, and no other that is on its way.
+  [[nodiscard]] bool unchanged(const NodeParameter& present, const Value& wanted) const;
+  /// Hands values to the store.
+  void set(const NamedValues& values, const ParameterStore::OnSet& on_set);
   /// The reason why a value cannot be set, or empty. Integers become numbers.
   [[nodiscard]] std::string check(const std::vector<NodeParameter>& all,
                                   rcl_interfaces::msg::Parameter<Jazzy>& wanted) const;
@@ -75,6 +79,7 @@ class ParameterServer {
   ParameterStore& store_;
   Publisher<rcl_interfaces::msg::ParameterEvent<Jazzy>> events_;
   std::map<std::string, Value> known_{};
+  std::size_t on_their_way_ = 0;  ///< changes that the store has not answered
   Periodic look_due_{4};
 };
 

@@ -111,8 +111,9 @@ void ControllerParameters::set(const NamedValues& values, OnSet on_set) {
     for (const auto& [constraint, value] : changes) *constraint = value;
   };
   if (request.values.empty()) {
-    apply();
-    return on_set({});
+    const std::string refusal = core_.loop_operator.session().take_controls();
+    if (refusal.empty()) apply();
+    return on_set(refusal);
   }
   core_.loop_operator.ask(request,
                           [on_set = std::move(on_set), apply](const remote::Answer& answer) {

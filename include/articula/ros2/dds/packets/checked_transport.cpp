@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/dds/packets/checked_transport.hpp"
 
+#include "articula/ros2/dds/packets/hide_unknown.hpp"
 #include "articula/ros2/dds/packets/packet_check.hpp"
 #include "articula/ros2/dds/packets/participant_gate.hpp"
 
@@ -12,6 +13,7 @@
 #include <cstdint>
 #include <mutex>
 #include <span>
+#include <vector>
 
 namespace articula::ros2::dds {
 
@@ -35,9 +37,10 @@ class CheckedTransport final : public transports::ChainingTransport {
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
     const Packet packet = std::as_bytes(std::span(bytes, size));
-    if (is_well_formed(packet) && gate_admits(packet)) {
-      receiver->OnDataReceived(bytes, size, local, remote);
-    }
+    if (!is_well_formed(packet) || !gate_admits(packet)) return;
+    std::vector<rtps::octet> known(bytes, bytes + size);
+    hide_unknown(packet, std::as_writable_bytes(std::span(known)));
+    receiver->OnDataReceived(known.data(), size, local, remote);
   }
 
  private:

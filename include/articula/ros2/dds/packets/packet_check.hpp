@@ -2,68 +2,72 @@
 /// @file A check that the parts of an RTPS packet are as long as they say.
 #pragma once
 
+#include "articula/ros2/dds/packets/discovery_check.hpp"
+#include "articula/ros2/dds/packets/packet_bytes.hpp"
+
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <optional>
 
 namespace articula::ros2::dds {
-
-/// A packet of RTPS, or a part of one.
-using Packet = std::span<const std::byte>;
 
 /// The bytes of a packet before its parts.
 inline constexpr std::size_t packet_header = 20;
 
 namespace detail {
 
-/// An unsigned number.
-/// @param at      its place; the bytes are there
-/// @param size    1, 2 or 4 bytes
-/// @param little  the least significant byte comes first
-constexpr std::uint32_t number_at(Packet bytes, std::size_t at, std::size_t size,
-                                  bool little) noexcept {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    value = value << 8 | std::to_integer<std::uint32_t>(bytes[at + (little ? size - 1 - i : i)]);
-  }
-  return value;
+/// The writers of discovery: of participants, of writers, of readers. Source: [RTPS], table 9.2.
+inline constexpr std::uint32_t participant_writer = 0x000100c2, writer_writer = 0x000003c2,
+                               reader_writer = 0x000004c2;
+
+/// The writer of a message or a fragment. Its fields are there.
+constexpr std::uint32_t writer_of(Packet part) noexcept { return number_at(part, 8, 4, false); }
+constexpr bool writes_discovery(std::uint32_t writer) noexcept {
+  return writer == participant_writer || writer == writer_writer || writer == reader_writer;
 }
 
-/// The length of a list of parameters with its end; 0 if it does not end within the bytes.
-constexpr std::size_t parameters_size(Packet bytes, bool little) noexcept {
-  constexpr std::uint32_t sentinel = 1;
-  for (std::size_t at = 0; bytes.size() - at >= 4;) {
-    const std::uint32_t id = number_at(bytes, at, 2, little);
-    if (id == sentinel) return at + 4;
-    const std::size_t size = number_at(bytes, at + 2, 2, little);
-    if (size > bytes.size() - at - 4) return 0;
-    at += 4 + size;
-  }
-  return 0;
-}
-
-/// A message or a fragment: its inline parameters and its payload begin within it.
-/// @param fields    bytes before the inline parameters, at least
-/// @param is_whole  it is no fragment
-constexpr bool is_good_data(Packet part, std::uint32_t flags, std::size_t fields,
-                            bool is_whole) noexcept {
+/// The payload of a message or a fragment.
+/// @param fields  bytes before the inline parameters, at least
+/// @return        nothing if it does not begin within the message
+constexpr std::optional<Packet> payload_of(Packet part, std::uint32_t flags,
+                                           std::size_t fields) noexcept {
   const bool little = (flags & 1U) != 0, has_parameters = (flags & 2U) != 0;
-  if (part.size() < fields) return false;
+  if (part.size() < fields) return std::nullopt;
   std::size_t at = 4 + number_at(part, 2, 2, little);
-  if (at < fields || at > part.size()) return false;
+  if (at < fields || at > part.size()) return std::nullopt;
   if (has_parameters) {
-    const std::size_t size = parameters_size(part.subspan(at), little);
-    if (size == 0) return false;
+    const auto any = [](std::uint32_t, Packet) { return true; };
+    const std::size_t size = for_each_parameter(part.subspan(at), little, any);
+    if (size == 0) return std::nullopt;
     at += size;
   }
-  // Messages of discovery are lists of parameters themselves; a fragment ends anywhere in the list.
-  const bool is_builtin = std::to_integer<unsigned>(part[11]) >= 0xc0;
-  const Packet payload = part.subspan(at);
-  if (!is_whole || !is_builtin || payload.size() < 4 ||
-      (number_at(payload, 0, 2, false) & ~1U) != 2) {
-    return true;
-  }
-  return parameters_size(payload.subspan(4), number_at(payload, 1, 1, false) == 3) > 0;
+  return part.subspan(at);
+}
+
+/// The parameters that a message of discovery announces.
+/// @param part  a message whose payload begins within it
+/// @return      nothing if it is of something else, or announces nothing
+constexpr std::optional<ParameterList> announced(Packet part, std::uint32_t flags) noexcept {
+  constexpr std::uint32_t has_data = 4;
+  if ((flags & has_data) == 0 || !writes_discovery(writer_of(part))) return std::nullopt;
+  const auto payload = payload_of(part, flags, 20);
+  if (!payload || payload->size() < 4) return ParameterList{};  // which does not end
+  const std::uint32_t encoding = number_at(*payload, 0, 2, false);
+  if (encoding != 2 && encoding != 3) return ParameterList{};
+  return ParameterList{payload->subspan(4), encoding == 3};
+}
+
+/// A message: its payload begins within it, and is whole if it is of discovery.
+constexpr bool is_good_message(Packet part, std::uint32_t flags) noexcept {
+  if (!payload_of(part, flags, 20)) return false;
+  const auto list = announced(part, flags);
+  return !list || list->is_whole();
+}
+
+/// A fragment: its payload begins within it. Fragments of discovery are refused, since nobody can
+/// check them before all are there.
+constexpr bool is_good_fragment(Packet part, std::uint32_t flags) noexcept {
+  return payload_of(part, flags, 32) && !writes_discovery(writer_of(part));
 }
 
 /// A set of sequence numbers: at most 256 bits, which are there.
@@ -96,9 +100,9 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
     case 0x13:  // HEARTBEAT_FRAG
       return part.size() >= 24;
     case 0x15:  // DATA
-      return is_good_data(part, flags, 20, true);
+      return is_good_message(part, flags);
     case 0x16:  // DATA_FRAG: neither the number of fragments nor their size is 0
-      return is_good_data(part, flags, 32, false) && number_at(part, 20, 4, little) > 0 &&
+      return is_good_fragment(part, flags) && number_at(part, 20, 4, little) > 0 &&
              number_at(part, 24, 2, little) > 0 && number_at(part, 26, 2, little) > 0;
     default:
       return true;  // Unknown parts are skipped.
@@ -122,6 +126,7 @@ constexpr bool for_each_part(Packet packet, auto&& function) {
     // The last part may leave its length out, except those that may be empty.
     if (size == 0 && kind != 0x01 && kind != 0x09) size = packet.size() - at;
     if (size > packet.size() - at) return false;
+    if (size % 4 != 0 && size < packet.size() - at) return false;  // [RTPS], 9.4.1
     if (!function(kind, flags, packet.subspan(at, size))) return false;
     at += size;
   }
@@ -129,13 +134,21 @@ constexpr bool for_each_part(Packet packet, auto&& function) {
 }
 
 /// Whether all parts of a packet are within it, and all that they contain is within them. Fast DDS
-/// 2.9.1 reads beyond the end of some packets for which this is not so. Source: [RTPS], 9.4.
+/// 2.9.1 reads beyond the end of some packets for which this is not so. It ends the program if its
+/// own part of statistics is not the last one. It takes gigabytes for some lengths in messages of
+/// discovery. Source: [RTPS], 9.4.
 /// @param packet  as it came from the network
 /// Real-time: yes. O(size).
 [[nodiscard]] constexpr bool is_well_formed(Packet packet) noexcept {
-  return packet.size() >= packet_header &&
-         detail::number_at(packet, 0, 4, false) == 0x52545053 &&  // RTPS
-         for_each_part(packet, detail::is_good_part);
+  if (packet.size() < packet_header) return false;
+  if (detail::number_at(packet, 0, 4, false) != 0x52545053) return false;  // RTPS
+  bool ended = false;
+  return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
+    constexpr std::uint32_t statistics = 0x80;
+    if (ended) return false;
+    ended = kind == statistics;
+    return detail::is_good_part(kind, flags, part);
+  });
 }
 
 }  // namespace articula::ros2::dds

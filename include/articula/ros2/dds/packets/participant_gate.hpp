@@ -2,6 +2,7 @@
 /// @file A limit on how many new participants of a domain are heard in a time.
 #pragma once
 
+#include "articula/ros2/dds/packets/known_endpoints.hpp"
 #include "articula/ros2/dds/packets/packet_check.hpp"
 
 #include <algorithm>
@@ -21,8 +22,10 @@ namespace articula::ros2::dds {
 ///
 /// So many participants may be new at once, and then one per second. As many more come in at their
 /// second announcement: participants repeat theirs, and a storm of ever new ones does not. Those
-/// that are known may announce themselves as often as they like. All other packets pass. For one
-/// thread at a time.
+/// that are known may announce themselves as often as they like.
+///
+/// Announcements of readers and writers pass if their participant is known, see KnownEndpoints. All
+/// other packets pass. For one thread at a time.
 class ParticipantGate {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -41,18 +44,28 @@ class ParticipantGate {
       std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), source.size(), source.begin());
     };
     read_source(packet, 8);
-    return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t, Packet part) {
-      constexpr std::uint32_t info_source = 0x0c, data = 0x15, fragment = 0x16;
-      constexpr std::uint32_t participant_writer = 0x000100c2;  // [RTPS], table 9.2
+    return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
+      constexpr std::uint32_t info_source = 0x0c, message = 0x15;
       if (kind == info_source) read_source(part, 8);
-      const bool announces = (kind == data || kind == fragment) &&
-                             detail::number_at(part, 8, 4, false) == participant_writer;
-      return !announces || admits(source, now);
+      if (kind != message || !detail::writes_discovery(detail::writer_of(part))) return true;
+      const auto list = detail::announced(part, flags);
+      if (detail::writer_of(part) == detail::participant_writer) {
+        constexpr std::uint32_t id = KnownEndpoints::participant;
+        std::uint32_t entity = 0;
+        if (list && !KnownEndpoints::is_of(source, *list, id, entity)) return false;
+        return admits(source, now) && (!list || known_[source].endpoints.admits(source, *list, id));
+      }
+      const auto known = known_.find(source);
+      return !list || (known != known_.end() &&
+                       known->second.endpoints.admits(source, *list, KnownEndpoints::endpoint));
     });
   }
 
  private:
-  using Prefix = std::array<std::byte, 12>;  ///< of the identity of all that a participant has
+  struct Known {
+    Time last{};  ///< announcement
+    KnownEndpoints endpoints{};
+  };
 
   /// Places that are free at the beginning, and come back one per second.
   class Places {
@@ -72,20 +85,20 @@ class ParticipantGate {
   };
 
   [[nodiscard]] bool admits(const Prefix& source, Time now) {
-    if (const auto known = last_seen_.find(source); known != last_seen_.end()) {
-      known->second = now;
+    if (const auto known = known_.find(source); known != known_.end()) {
+      known->second.last = now;
       return true;
     }
     if (!first_.take(now) && !(waiting_.contains(source) && second_.take(now))) {
       await(source);
       return false;
     }
-    if (last_seen_.size() >= most_known) {
-      last_seen_.erase(std::min_element(
-          last_seen_.begin(), last_seen_.end(),
-          [](const auto& one, const auto& other) { return one.second < other.second; }));
+    if (known_.size() >= most_known) {
+      known_.erase(std::min_element(
+          known_.begin(), known_.end(),
+          [](const auto& one, const auto& other) { return one.second.last < other.second.last; }));
     }
-    last_seen_.emplace(source, now);
+    known_[source].last = now;
     return true;
   }
 
@@ -98,7 +111,7 @@ class ParticipantGate {
     order_.pop_front();
   }
 
-  std::map<Prefix, Time> last_seen_{};
+  std::map<Prefix, Known> known_{};
   std::set<Prefix> waiting_{};
   std::deque<Prefix> order_{};  ///< of those that wait, the oldest first
   Places first_{}, second_{};   ///< for first and second announcements
