@@ -7,7 +7,6 @@
 #include "articula/reference/trajectory/trajectory_tolerances.hpp"
 #include "articula/remote/engine/operator_watch.hpp"
 
-#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -21,7 +20,8 @@ struct RemoteOptions {
   OperatorLoss when_operator_is_lost = OperatorLoss::stop;
   double answer_time = 1;  ///< within which the loop must take a request [s]
 
-  /// Of profiles and stops. Default: default_motion_limits.
+  /// Of profiles and stops. By default those of the robot's description, completed by
+  /// default_motion_limits. A joint may be too weak for its velocity limit, see GoMotion.
   std::optional<MotionLimits<N>> limits{};
   /// Of trajectories. By default a trajectory has succeeded when its reference has arrived.
   TrajectoryTolerances<N> tolerances{.stopped_velocity = JointVector<N>::Zero()};
@@ -31,25 +31,17 @@ struct RemoteOptions {
   std::string urdf{};
 };
 
-/// Limits of motions that the robot of a description can follow.
-///
-/// - The velocity V is its limit, or 1 rad/s or 1 m/s without one. At V, four fifths of the effort
-///   limit E are enough against damping d and friction f: V <= (0.8 E - f) / d. The rest is for
-///   acceleration and gravity.
-/// - The acceleration is its limit, or reaches the velocity limit in 0.25 s.
-/// - The jerk is its limit, or reaches the acceleration in 0.1 s.
-///
+/// The limits of the robot's description. Where it has none, the velocity is 1 rad/s or 1 m/s. The
+/// acceleration reaches it in 0.25 s, and the jerk reaches the acceleration in 0.1 s.
 /// Real-time: yes.
 template <Robot R>
 [[nodiscard]] MotionLimits<joint_count<R>> default_motion_limits(const R& robot) noexcept {
   MotionLimits<joint_count<R>> limits;
   for (int j = 0; j < joint_count<R>; ++j) {
-    const JointProperties& joint = model_of(robot).joints[j];
-    const JointLimits& own = joint.limits;
+    const JointLimits& own = model_of(robot).joints[j].limits;
     const double V = is_finite(own.velocity) ? own.velocity : 1;
     const double A = is_finite(own.acceleration) ? own.acceleration : V / 0.25;
-    const double sustained = (0.8 * own.effort - joint.friction) / joint.damping;
-    limits.velocity[j] = sustained > 0 ? std::min(V, sustained) : V;  // NaN and infinity bound none
+    limits.velocity[j] = V;
     limits.acceleration[j] = A;
     limits.jerk[j] = is_finite(own.jerk) ? own.jerk : A / 0.1;
   }

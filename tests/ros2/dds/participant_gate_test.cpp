@@ -163,6 +163,29 @@ TEST_CASE("readers and writers are of the participant that announces them, and d
   }
 }
 
+TEST_CASE("who leaves names itself, and what it has") {
+  ParticipantGate gate;
+  REQUIRE(gate.admits(announcement(1), start));
+  REQUIRE(gate.admits(endpoint(1, 8, 1, 1), start));
+  // Inline: a key and a status; the payload is the identity alone.
+  const auto leave = [](std::uint32_t owner, unsigned status) {
+    Bytes bytes = header(1);
+    append(bytes, {0x15, 11, 76, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 4, 0xc2});
+    append(bytes, {0, 0, 0, 0, 2, 0, 0, 0, 0x70, 0, 16, 0});
+    append_prefix(bytes, owner);
+    append(bytes, {0, 0, 8, 7, 0x71, 0, 4, 0, 0, 0, 0, status, 1, 0, 0, 0, 0, 3, 0, 0});
+    append(bytes, {0x5a, 0, 16, 0});
+    append_prefix(bytes, 1);
+    append(bytes, {0, 0, 8, 7, 1, 0, 0, 0});
+    bytes[22] = static_cast<std::byte>(bytes.size() - 24);
+    return bytes;
+  };
+  CHECK(dds::is_well_formed(leave(1, 3)));
+  CHECK(gate.admits(leave(1, 3), start));
+  CHECK_FALSE(gate.admits(leave(2, 3), start));   // another one's key
+  CHECK_FALSE(dds::is_well_formed(leave(1, 0)));  // an identity alone announces nothing
+}
+
 TEST_CASE("parameters that nobody needs are hidden") {
   const Bytes packet = endpoint(1, 8, 1, 1);
   Bytes copy = packet;

@@ -19,6 +19,9 @@ namespace articula::remote {
 /// - In mid-motion it is a stop and then a JerkLimitedProfile if there is no StateToStateProfile
 ///   within the limits. So it is, too, if the robot has more than `most_blended` joints, since the
 ///   search then takes long.
+/// - A velocity that the joint cannot sustain is left out: four fifths of the effort limit E are
+///   enough against damping d and friction f, so V <= (0.8 E - f) / d. The rest of the effort is for
+///   acceleration and gravity.
 template <Robot R>
 class GoMotion {
  public:
@@ -30,11 +33,11 @@ class GoMotion {
 
   /// @param limits  that validate() accepts
   GoMotion(const R& robot, const Limits& limits) noexcept
-      : limits_(limits),
+      : limits_(sustained(robot, limits)),
         range_(joint_range(robot)),
         allowed_(range_),
         stop_(robot, Vector::Zero(), limits),
-        profile_(JerkLimitedProfile<R>::move(Vector::Zero(), Vector::Zero(), limits)) {}
+        profile_(JerkLimitedProfile<R>::move(Vector::Zero(), Vector::Zero(), limits_)) {}
 
   /// Begins a motion.
   /// @param from    the present reference, finite
@@ -100,6 +103,16 @@ class GoMotion {
   [[nodiscard]] const Vector& target() const noexcept { return target_; }
 
  private:
+  [[nodiscard]] static Limits sustained(const R& robot, Limits limits) noexcept {
+    for (int j = 0; j < joint_count; ++j) {
+      const JointProperties& joint = model_of(robot).joints[j];
+      const double velocity = (0.8 * joint.limits.effort - joint.friction) / joint.damping;
+      // NaN, infinity, and a limit that holds nothing bound no velocity.
+      if (velocity > 0 && velocity < limits.velocity[j]) limits.velocity[j] = velocity;
+    }
+    return limits;
+  }
+
   /// Whether no joint exceeds its velocity limit while its acceleration fades. Trajectories may
   /// have accelerated harder. A stop then drops the acceleration.
   [[nodiscard]] bool keeps_velocity(const Reference& from) const noexcept {

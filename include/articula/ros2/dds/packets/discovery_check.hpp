@@ -66,7 +66,6 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
     case 0x50:  // identity of a participant,
     case 0x52:  // of a group,
     case 0x5a:  // of an endpoint
-    case 0x70:  // key
       return 16;
     case 0x2f:  // addresses
     case 0x30:

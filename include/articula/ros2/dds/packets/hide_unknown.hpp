@@ -19,9 +19,9 @@ constexpr void hide_unknown(Packet packet, std::span<std::byte> copy) {
   for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
     constexpr std::uint32_t message = 0x15;
     if (kind != message) return true;
-    const auto list = detail::announced(part, flags);
-    if (!list) return true;
-    return list->for_each([&](std::uint32_t, Packet value, detail::Worth worth) {
+    const auto discovery = detail::discovery_of(part, flags);
+    if (!discovery || !discovery->list) return true;
+    return discovery->list->for_each([&](std::uint32_t, Packet value, detail::Worth worth) {
       if (worth != detail::Worth::unknown) return true;
       const auto id = static_cast<std::size_t>(value.data() - packet.data()) - 4;
       copy[id] = copy[id + 1] = std::byte{0};

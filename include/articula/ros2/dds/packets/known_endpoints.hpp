@@ -2,7 +2,7 @@
 /// @file What a participant and its readers and writers have announced of themselves.
 #pragma once
 
-#include "articula/ros2/dds/packets/discovery_check.hpp"
+#include "articula/ros2/dds/packets/packet_check.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -25,39 +26,52 @@ using Prefix = std::array<std::byte, 12>;
 class KnownEndpoints {
  public:
   static constexpr std::size_t most = 1024;
-  static constexpr std::uint32_t participant = 0x50, endpoint = 0x5a;  ///< parameters: identities
 
-  /// Whether a list of parameters has one identity, which is of a participant.
-  /// @param id           of the parameter with the identity
-  /// @param[out] entity  which of the participant's things it is
-  [[nodiscard]] static bool is_of(const Prefix& source, const detail::ParameterList& list,
-                                  std::uint32_t id, std::uint32_t& entity) {
+  /// Whether all identities in a message are one, of a participant or of something that it has.
+  [[nodiscard]] static bool is_of(const Prefix& source, const detail::DiscoveryMessage& message) {
+    std::optional<std::uint32_t> entity;
+    if (message.writer == detail::participant_writer) entity = 0x000001c1;  // [RTPS], table 9.1
     int count = 0;
-    bool is_own = true;
-    list.for_each([&](std::uint32_t own, Packet value, detail::Worth worth) {
-      if (own != id || worth != detail::Worth::whole) return true;
-      ++count;
-      is_own = is_own && std::equal(source.begin(), source.end(), value.begin());
-      entity = detail::number_at(value, source.size(), 4, false);
-      return true;
-    });
-    return count == 1 && is_own && entity != 0;
+    const auto agrees = [&](Packet identity) {
+      if (identity.size() != 16) return false;
+      const std::uint32_t own = detail::number_at(identity, source.size(), 4, false);
+      if (own == 0 || entity.value_or(own) != own) return false;
+      entity = own;
+      return std::equal(source.begin(), source.end(), identity.begin());
+    };
+    const auto check = [&](const detail::ParameterList& list, std::uint32_t id) {
+      return list.for_each([&](std::uint32_t own, Packet value, detail::Worth) {
+        if (own != id) return true;
+        ++count;
+        return agrees(value);
+      });
+    };
+    constexpr std::uint32_t key = 0x70;
+    if (message.body.has_inline_list && !check(message.body.inline_list, key)) return false;
+    if (!message.list) return true;
+    count = 0;
+    return check(*message.list, identity_in(message)) && count == 1;
   }
 
-  /// Whether an announcement is of the participant and says what others of the same thing did.
-  /// @param list  whole
-  /// @param id    of the parameter with the identity
-  [[nodiscard]] bool admits(const Prefix& source, const detail::ParameterList& list,
-                            std::uint32_t id) {
+  /// Whether an announcement says what others of the same thing did.
+  /// @pre is_of, and the message has a list
+  [[nodiscard]] bool admits(const detail::DiscoveryMessage& message) {
     std::uint32_t entity = 0;
-    if (!is_of(source, list, id, entity)) return false;
-    const std::size_t said = constants_of(list);
+    message.list->for_each([&](std::uint32_t id, Packet value, detail::Worth) {
+      if (id == identity_in(message)) entity = detail::number_at(value, 12, 4, false);
+      return true;
+    });
+    const std::size_t said = constants_of(*message.list);
     const auto known = said_.find(entity);
     if (known != said_.end()) return known->second == said;
     return said_.size() < most && said_.emplace(entity, said).second;
   }
 
  private:
+  /// The parameter with the identity of what a message announces.
+  [[nodiscard]] static std::uint32_t identity_in(const detail::DiscoveryMessage& message) {
+    return message.writer == detail::participant_writer ? 0x50 : 0x5a;
+  }
   /// A number for all that must not change, which nobody else can foresee.
   [[nodiscard]] static std::size_t constants_of(const detail::ParameterList& list) {
     static const std::uint32_t secret = std::random_device()();

@@ -26,48 +26,79 @@ constexpr bool writes_discovery(std::uint32_t writer) noexcept {
   return writer == participant_writer || writer == writer_writer || writer == reader_writer;
 }
 
-/// The payload of a message or a fragment.
+/// The inline parameters of a message or a fragment, and what follows them.
+struct Body {
+  ParameterList inline_list{};
+  bool has_inline_list = false;
+  Packet payload{};
+};
+
+/// Splits a message or a fragment.
 /// @param fields  bytes before the inline parameters, at least
-/// @return        nothing if it does not begin within the message
-constexpr std::optional<Packet> payload_of(Packet part, std::uint32_t flags,
-                                           std::size_t fields) noexcept {
+/// @return        nothing if the payload does not begin within it
+constexpr std::optional<Body> body_of(Packet part, std::uint32_t flags,
+                                      std::size_t fields) noexcept {
   const bool little = (flags & 1U) != 0, has_parameters = (flags & 2U) != 0;
   if (part.size() < fields) return std::nullopt;
-  std::size_t at = 4 + number_at(part, 2, 2, little);
+  const std::size_t at = 4 + number_at(part, 2, 2, little);
   if (at < fields || at > part.size()) return std::nullopt;
-  if (has_parameters) {
-    const auto any = [](std::uint32_t, Packet) { return true; };
-    const std::size_t size = for_each_parameter(part.subspan(at), little, any);
-    if (size == 0) return std::nullopt;
-    at += size;
-  }
-  return part.subspan(at);
+  const Packet rest = part.subspan(at);
+  if (!has_parameters) return Body{.payload = rest};
+  const std::size_t size =
+      for_each_parameter(rest, little, [](std::uint32_t, Packet) { return true; });
+  if (size == 0) return std::nullopt;
+  return Body{{rest.first(size), little}, true, rest.subspan(size)};
 }
 
-/// The parameters that a message of discovery announces.
+/// A message of discovery.
+struct DiscoveryMessage {
+  std::uint32_t writer = 0;
+  Body body{};
+  std::optional<ParameterList> list{};  ///< what it announces, or the identity of what ends
+  bool ends = false;                    ///< what it names leaves
+  bool has_key_only = false;
+};
+
+/// Reads a message of discovery.
 /// @param part  a message whose payload begins within it
-/// @return      nothing if it is of something else, or announces nothing
-constexpr std::optional<ParameterList> announced(Packet part, std::uint32_t flags) noexcept {
-  constexpr std::uint32_t has_data = 4;
-  if ((flags & has_data) == 0 || !writes_discovery(writer_of(part))) return std::nullopt;
-  const auto payload = payload_of(part, flags, 20);
-  if (!payload || payload->size() < 4) return ParameterList{};  // which does not end
-  const std::uint32_t encoding = number_at(*payload, 0, 2, false);
-  if (encoding != 2 && encoding != 3) return ParameterList{};
-  return ParameterList{payload->subspan(4), encoding == 3};
+/// @return      nothing if it is of something else
+constexpr std::optional<DiscoveryMessage> discovery_of(Packet part, std::uint32_t flags) noexcept {
+  if (!writes_discovery(writer_of(part))) return std::nullopt;
+  const auto body = body_of(part, flags, 20);
+  if (!body) return std::nullopt;
+  DiscoveryMessage message{.writer = writer_of(part), .body = *body};
+  if (body->has_inline_list) {
+    message.body.inline_list.for_each([&](std::uint32_t id, Packet value, Worth) {
+      constexpr std::uint32_t status = 0x71;  // its last two bits: disposed, unregistered
+      if (id == status && value.size() == 4) {
+        message.ends = (std::to_integer<unsigned>(value[3]) & 3U) != 0;
+      }
+      return true;
+    });
+  }
+  const bool has_data = (flags & 4U) != 0, has_key = (flags & 8U) != 0;
+  message.has_key_only = has_key && !has_data;
+  if (!has_data && !has_key) return message;
+  message.list.emplace();  // which does not end
+  if (body->payload.size() < 4) return message;
+  const std::uint32_t encoding = number_at(body->payload, 0, 2, false);
+  if (encoding == 2 || encoding == 3) *message.list = {body->payload.subspan(4), encoding == 3};
+  return message;
 }
 
-/// A message: its payload begins within it, and is whole if it is of discovery.
+/// A message: its payload begins within it. One of discovery announces something whole. If it has
+/// nothing but an identity, something ends.
 constexpr bool is_good_message(Packet part, std::uint32_t flags) noexcept {
-  if (!payload_of(part, flags, 20)) return false;
-  const auto list = announced(part, flags);
-  return !list || list->is_whole();
+  if (!body_of(part, flags, 20)) return false;
+  const auto message = discovery_of(part, flags);
+  if (!message || !message->list) return true;
+  return message->list->is_whole() && (message->ends || !message->has_key_only);
 }
 
 /// A fragment: its payload begins within it. Fragments of discovery are refused, since nobody can
 /// check them before all are there.
 constexpr bool is_good_fragment(Packet part, std::uint32_t flags) noexcept {
-  return payload_of(part, flags, 32) && !writes_discovery(writer_of(part));
+  return body_of(part, flags, 32) && !writes_discovery(writer_of(part));
 }
 
 /// A set of sequence numbers: at most 256 bits, which are there.

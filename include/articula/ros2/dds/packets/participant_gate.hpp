@@ -47,17 +47,14 @@ class ParticipantGate {
     return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
       constexpr std::uint32_t info_source = 0x0c, message = 0x15;
       if (kind == info_source) read_source(part, 8);
-      if (kind != message || !detail::writes_discovery(detail::writer_of(part))) return true;
-      const auto list = detail::announced(part, flags);
-      if (detail::writer_of(part) == detail::participant_writer) {
-        constexpr std::uint32_t id = KnownEndpoints::participant;
-        std::uint32_t entity = 0;
-        if (list && !KnownEndpoints::is_of(source, *list, id, entity)) return false;
-        return admits(source, now) && (!list || known_[source].endpoints.admits(source, *list, id));
-      }
+      const auto discovery = kind == message ? detail::discovery_of(part, flags) : std::nullopt;
+      if (!discovery) return true;
+      const bool is_participant = discovery->writer == detail::participant_writer;
+      if (!KnownEndpoints::is_of(source, *discovery)) return false;
+      if (is_participant && !admits(source, now)) return false;
+      if (!discovery->list || discovery->ends) return true;
       const auto known = known_.find(source);
-      return !list || (known != known_.end() &&
-                       known->second.endpoints.admits(source, *list, KnownEndpoints::endpoint));
+      return known != known_.end() && known->second.endpoints.admits(*discovery);
     });
   }
 
