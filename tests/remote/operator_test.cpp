@@ -46,13 +46,14 @@ TEST_CASE("one session takes and releases the controls, others watch") {
   CHECK(arm.session->take_controls().empty());
   CHECK(arm.session->has_controls());
   CHECK(arm.remote.situation().operator_name == "test");
-  CHECK(other->take_controls() == "somebody else has the controls: test");
+  CHECK(other->take_controls() ==
+        "somebody else has the controls: test; it must release them first");
   const auto number = other->ask(Activate{});
   const auto answer = other->answer();
   REQUIRE(answer);
   CHECK(answer->request == number);
   CHECK(answer->verdict == support::Verdict::refused);
-  CHECK(answer->text == "somebody else has the controls: test");
+  CHECK(answer->text == "somebody else has the controls: test; it must release them first");
   other->release_controls();
   CHECK(arm.session->has_controls());
   arm.session->release_controls();

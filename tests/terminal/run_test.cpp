@@ -168,6 +168,27 @@ TEST_CASE("the course's files run, with their controllers, and are operated from
   CHECK(end.json().at("cycles").get<int>() > 0);
 }
 
+TEST_CASE("a configuration in several files runs as one") {
+  const Q2dFile robot;
+  const ScratchFile manager("manager.yaml"), gains("gains.yaml");
+  write(manager.path(),
+        "controller_manager:\n  ros__parameters:\n    update_rate: 500\n"
+        "    pid: {type: pid_controller/PidController}\n");
+  write(gains.path(),
+        "pid:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
+        "    gains:\n      shoulder_active_joint: {p: 2310}\n      elbow_active_joint: {p: 339}\n");
+  const std::string first = manager.path().string(), second = gains.path().string();
+  const Result alone = run_articula({"run", robot.name(), first, "--port", "0"});
+  CHECK(alone.errors.find("here or in a further file") != std::string::npos);
+  const Running running({robot.name(), first, second});
+  CHECK(running.ask({"gains", "get", "pid.elbow_active_joint.p"})
+            .at("parameters")
+            .at(0)
+            .at("value") == 339);
+  const Result swapped = run_articula({"run", first, robot.name()});
+  CHECK(swapped.errors.find("the robot comes first") != std::string::npos);
+}
+
 TEST_CASE("anybody may stop a motion, and a paused loop shows its state") {
   const Q2dFile robot;
   const Running running(

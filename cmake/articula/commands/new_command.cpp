@@ -19,15 +19,15 @@ namespace {
 namespace fs = std::filesystem;
 
 struct New {
-  std::string robot{}, controllers{}, output{}, bus{};
-  std::vector<std::string> chosen{};
+  std::string robot{}, output{}, bus{};
+  std::vector<std::string> controllers{}, chosen{};
   articula::ConfigValues values{};  ///< of placeholders in the controllers' file
   bool allows_unphysical = false;
 };
 
 void write_new(const Program& program, const New& options) {
   const ControllersPlan plan =
-      read_controllers({options.controllers, options.values}, options.chosen);
+      read_controllers(controllers_source(options.controllers, options.values), options.chosen);
   const articula::UrdfSource source = robot_source(options.robot);
   const articula::UrdfDescription robot =
       read_robot(source, plan, options.allows_unphysical,
@@ -64,7 +64,8 @@ void add_new_command(CLI::App& app, Program& program) {
                                   "Writes a project that compiles a robot and its controllers.",
                                   [&program, options] { write_new(program, *options); });
   command->add_option("robot", options->robot, "the URDF, or a .xacro")->required();
-  command->add_option("controllers", options->controllers, "YAML of ROS's controllers")->required();
+  command->add_option("controllers", options->controllers, "YAML files of ROS's controllers")
+      ->required();
   command->add_option("--controller", options->chosen, "one of the file to use, in place of all")
       ->allow_extra_args(false);
   add_values_option(*command, options->values);

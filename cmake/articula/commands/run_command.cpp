@@ -41,7 +41,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Run {
-  std::string robot{}, controllers{};
+  std::string robot{};
+  std::vector<std::string> controllers{};
   std::string command{};  ///< without a file of controllers: the quantity that is passed on
   std::vector<std::string> chosen{};
   articula::ConfigValues values{};  ///< of placeholders in the controllers' file
@@ -153,7 +154,8 @@ void run(const Program& program, const Run& options) {
   ControllersPlan controllers =
       options.controllers.empty()
           ? pass_on(options.command)
-          : read_controllers({options.controllers, options.values}, options.chosen);
+          : read_controllers(controllers_source(options.controllers, options.values),
+                             options.chosen);
   if (options.rate > 0) controllers.period = 1 / options.rate;
   controllers.substeps =
       options.substeps > 0 ? options.substeps : default_substeps(controllers.period);
@@ -261,7 +263,8 @@ void add_run_command(CLI::App& app, Program& program) {
       app, program, "run", "Runs a robot with the controllers of a file, and serves its view.",
       [&program, options] { run(program, *options); });
   command->add_option("robot", options->robot, "the URDF, or a .xacro")->required();
-  command->add_option("controllers", options->controllers, "YAML of ROS's controllers")->required();
+  command->add_option("controllers", options->controllers, "YAML files of ROS's controllers")
+      ->required();
   command->add_option("--controller", options->chosen, "one of the file to use, in place of all")
       ->allow_extra_args(false);
   add_values_option(*command, options->values);

@@ -119,7 +119,8 @@ void add(Reading& reading, const articula::detail::ConfigSections& all,
       std::ranges::any_of(all.sections, [&](const auto& own) { return own.name == section; });
   if (traits_of(*kind).has_gains && !has_parameters) {
     throw Refusal(plan.source.name() + ": controller '" + name +
-                  "' has no gains; expected a section '" + name + "' with them");
+                  "' has no gains; expected a section '" + name +
+                  "' with them, here or in a further file");
   }
   for (const std::string& note : config.notes) {  // of the whole file, so several have the same
     if (std::ranges::find(plan.notes, note) == plan.notes.end()) plan.notes.push_back(note);
@@ -224,6 +225,19 @@ ControllersPlan read_controllers(const articula::ConfigSource& source,
   plan.substeps = default_substeps(plan.period);
   for (const std::string& line : reading.left_out) plan.notes.push_back(line + ": it is left out");
   return plan;
+}
+
+articula::ConfigSource controllers_source(const std::vector<std::string>& files,
+                                          const articula::ConfigValues& values) {
+  for (const std::string& file : files) {
+    if (!file.ends_with(".urdf") && !file.ends_with(".xacro")) continue;
+    throw Refusal(file + ": it is a robot; the robot comes first, and then the YAML files");
+  }
+  articula::ConfigSource source(files.front(), values);
+  for (std::size_t k = 1; k < files.size(); ++k) {
+    source = source.with(articula::ConfigSource(files[k], values));
+  }
+  return source;
 }
 
 void add_values_option(CLI::App& command, articula::ConfigValues& values) {

@@ -78,6 +78,11 @@ struct ControllersPlan {
 [[nodiscard]] ControllersPlan read_controllers(const articula::ConfigSource& source,
                                                const std::vector<std::string>& chosen = {});
 
+/// One source of the YAML files that a command line names.
+/// @throws Refusal if one of them is a robot
+[[nodiscard]] articula::ConfigSource controllers_source(const std::vector<std::string>& files,
+                                                        const articula::ConfigValues& values);
+
 /// Adds the option for values of placeholders in a controllers' file.
 void add_values_option(CLI::App& command, articula::ConfigValues& values);
 

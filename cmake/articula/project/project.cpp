@@ -311,9 +311,14 @@ std::string contents_of(const std::string& file) {
   return text;
 }
 
-/// A controllers' file with values in place of its placeholders.
+/// The controllers' files as one, with values in place of their placeholders.
 std::string filled_text(const articula::ConfigSource& source) {
-  return articula::detail::FilledText(source.name(), source.contents(), source.values()).text();
+  std::string text =
+      articula::detail::FilledText(source.name(), source.contents(), source.values()).text();
+  for (const articula::ConfigSource& further : source.further()) {
+    text += '\n' + filled_text(further);
+  }
+  return text;
 }
 
 }  // namespace

@@ -33,7 +33,10 @@ template <class Command, Robot R>
   Recording<joint_count<R>, Command> recording;
   McapReader(path).read([&](std::uint64_t, std::string_view message) {
     try {
-      const Json json = Json::parse(message);
+      const Json json = Json::parse(message, nullptr, false);
+      if (json.is_discarded()) {
+        throw std::runtime_error("it is not JSON: a file of 'record --ros' cannot be replayed");
+      }
       recording.cycles.push_back(record_from_json<Command>(robot, json));
       if (!json.contains("changes")) return;
       for (const Json& change : json.at("changes")) {

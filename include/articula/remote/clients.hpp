@@ -60,7 +60,7 @@ class Clients {
   [[nodiscard]] std::string take_controls(std::uint64_t client, double time) {
     if (!of(client).operates) return "this client may watch only";
     if (operator_ != 0 && operator_ != client) {
-      return "somebody else has the controls: " + operator_name();
+      return "somebody else has the controls: " + operator_name() + "; it must release them first";
     }
     if (std::exchange(operator_, client) == 0) {
       tell({time, Event::Level::info, operator_name() + " has taken the controls"});

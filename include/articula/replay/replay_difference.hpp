@@ -4,6 +4,7 @@
 
 #include "articula/command/command_parts.hpp"
 #include "articula/core/refuse.hpp"
+#include "articula/core/status.hpp"
 #include "articula/model/robot.hpp"
 
 #include <bit>
@@ -27,9 +28,13 @@ struct ReplayDifference {
 };
 
 /// The difference in words, with all digits: "cycle 12, elbow: effort 0.5 was recorded, 0.25 is
-/// computed". Real-time: no (allocates).
+/// computed". A status differs where ReplayOptions::supervision is another one than that of the
+/// recorded loop. Real-time: no (allocates).
 [[nodiscard]] inline std::string to_string(const ReplayDifference& difference) {
-  const auto digits = [](double value) {
+  const auto digits = [&](double value) {
+    if (difference.quantity == "status") {
+      return "'" + std::string(to_string(static_cast<Status>(static_cast<int>(value)))) + "'";
+    }
     char text[32];
     std::snprintf(text, sizeof text, "%.17g", value);
     return std::string(text);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,8 +27,7 @@ class SectionFinder {
   /// @param wanted  a controller for which wildcards alone may match; empty: none
   SectionFinder(const ConfigSource& source, std::string_view wanted)
       : found_{.file = source.name()} {
-    const ConfigNode root = read_document(source);
-    written_ = SectionSearch(root, found_.notes).take();
+    read(source);
     is_used_.resize(written_.size(), false);
     name_controllers(SectionName(wanted));
     for (const Controller& controller : controllers_) combine(controller);
@@ -42,6 +42,14 @@ class SectionFinder {
     SectionName name;
     std::size_t own;  ///< index of its own section; the number of sections: it has none
   };
+
+  /// Finds the sections of a file, and those of the files behind it.
+  void read(const ConfigSource& source) {
+    const ConfigNode root = read_document(source);
+    std::vector<WrittenSection> own = SectionSearch(root, found_.notes).take();
+    std::move(own.begin(), own.end(), std::back_inserter(written_));
+    for (const ConfigSource& further : source.further()) read(further);
+  }
 
   /// Lists the controllers: first those with sections of their own, then those that wildcards alone
   /// match.

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace articula {
 
@@ -47,6 +48,16 @@ class ConfigSource : public detail::TextSource {
     return ConfigSource(name, std::string(yaml), std::move(values));
   }
 
+  /// The same with a further file behind it, as ros2_control takes several: the sections of all of
+  /// them are one configuration. A section of one name may be in one file alone.
+  [[nodiscard]] ConfigSource with(ConfigSource further) const {
+    ConfigSource both = *this;
+    both.further_.push_back(std::move(further));
+    return both;
+  }
+  /// The further files.
+  [[nodiscard]] const std::vector<ConfigSource>& further() const noexcept { return further_; }
+
   /// The values of placeholders.
   [[nodiscard]] const ConfigValues& values() const noexcept { return values_; }
 
@@ -61,6 +72,7 @@ class ConfigSource : public detail::TextSource {
       : TextSource(std::move(name), std::move(yaml)), values_(std::move(values)) {}
 
   ConfigValues values_{};
+  std::vector<ConfigSource> further_{};
 };
 
 }  // namespace articula

@@ -25,7 +25,7 @@ using Prefix = std::array<std::byte, 12>;
 /// For one thread at a time. Real-time: no (allocates).
 class KnownEndpoints {
  public:
-  static constexpr std::size_t most = 1024;
+  static constexpr std::size_t most = 4096;  ///< in the life of a participant
 
   /// Whether all identities in a message are one, of a participant or of something that it has.
   [[nodiscard]] static bool is_of(const Prefix& source, const detail::DiscoveryMessage& message) {

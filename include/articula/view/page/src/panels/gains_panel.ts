@@ -183,10 +183,24 @@ export class GainsPanel {
     this.fan.textContent = futures
       ? `${futures.count} simulated robots with these gains${this.from(futures)}${this.after(futures)}: ${bad === 0 ? 'no drive swings between its limits' : `${bad} unstable`}.`
       : refusal;
+    if (futures) this.fan.textContent += this.idle();
     this.fan.classList.toggle('bad', bad > 0 || refusal !== '');
     for (const field of this.refusedInFan) field.refuse('');
     this.refusedInFan = new Set(this.fields.filter((field) => refusal.includes(field.parameter.name)));
     for (const field of this.refusedInFan) field.refuse(refusal);
+  }
+
+  // The robots are simulated with the controllers that are active.
+  private idle(): string {
+    const changed = this.fields.filter((field) => field.isChanged);
+    const states = this.session.situation?.controllers ?? [];
+    return states
+      .filter(({name, status}) => {
+        const isChanged = changed.some(({parameter}) => parameter.name.startsWith(`${name}.`));
+        return isChanged && status !== 'active';
+      })
+      .map(({name}) => ` ${name} is not active: its gains change nothing in them.`)
+      .join('');
   }
 
   private from({time}: Futures): string {
