@@ -128,6 +128,11 @@ TEST_CASE("controllers are switched, and refusals say why") {
   CHECK(switch_to(arm, {"pid_plus_gravity"}, {}, 4).ok);  // by force
   CHECK(controller(arm, "computed_torque").state == "inactive");
 
+  // A name that comes twice is one controller.
+  const std::vector<std::string> twice(2, "computed_torque"), back(2, "pid_plus_gravity");
+  CHECK(switch_to(arm, twice, back).ok);
+  CHECK(switch_to(arm, back, twice).ok);
+
   const auto unknown = switch_to(arm, {"ghost"}, {});
   CHECK_FALSE(unknown.ok);
   CHECK(unknown.message ==

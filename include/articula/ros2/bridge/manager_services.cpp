@@ -202,6 +202,7 @@ class Services final : public ManagerServices {
       for (const auto& name : request.start_controllers) wanted.start.push_back(name);
       for (const auto& name : request.stop_controllers) wanted.stop.push_back(name);
     }
+    for (Names* const names : {&wanted.start, &wanted.stop}) *names = without_repeats(*names);
     // A part that best effort leaves out is in the log, also where the rest is done.
     const auto answer = [this, reply](bool ok, const std::string& text) {
       const std::string line = "switch_controller: " + text;
@@ -258,6 +259,14 @@ class Services final : public ManagerServices {
 
   static std::string not_done(const char* what) {
     return std::string("controller '") + BridgeCore::broadcaster + "'" + what;
+  }
+  /// Each name once, in the same order.
+  static Names without_repeats(const Names& names) {
+    Names once;
+    for (const std::string& name : names) {
+      if (!contains(once, name)) once.push_back(name);
+    }
+    return once;
   }
   /// Removes a name.
   static bool take(Names& names, std::string_view name) { return std::erase(names, name) > 0; }
