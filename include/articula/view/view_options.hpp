@@ -18,8 +18,8 @@ struct ViewOptions {
   std::string address = "127.0.0.1";  ///< IPv4 or IPv6 of the interface to listen on
   std::uint16_t port = 8765;          ///< TCP port; 0: any free one
 
-  /// Whether clients may take the controls, or only watch. By default they watch a View, and operate
-  /// what `show` shows.
+  /// Whether clients may take the controls, or only watch. By default they watch a View, and
+  /// operate what `show` shows.
   std::optional<bool> operates{};
 
   /// What clients must know: they append `?token=<token>` to the address. An address that is not

@@ -20,8 +20,8 @@ namespace articula::remote {
 ///   within the limits. So it is, too, if the robot has more than `most_blended` joints, since the
 ///   search then takes long.
 /// - A velocity that the joint cannot sustain is left out: four fifths of the effort limit E are
-///   enough against damping d and friction f, so V <= (0.8 E - f) / d. The rest of the effort is for
-///   acceleration and gravity.
+///   enough against damping d and friction f, so V <= (0.8 E - f) / d. The rest of the effort is
+///   for acceleration and gravity.
 template <Robot R>
 class GoMotion {
  public:

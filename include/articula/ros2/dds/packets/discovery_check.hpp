@@ -85,7 +85,7 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
 enum class Worth : unsigned char {
   whole,    ///< It contains what it says.
   broken,   ///< It does not.
-  unknown,  ///< Nobody here needs it, as type objects, filters and security, or it has another size.
+  unknown,  ///< It has another size, or nobody here needs it, as filters and security.
 };
 
 /// Judges a parameter of discovery.
