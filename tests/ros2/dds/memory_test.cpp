@@ -13,8 +13,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <initializer_list>
+#include <iterator>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace articula::ros2;
@@ -58,7 +60,8 @@ std::uint32_t mutilated() {
 }
 
 // What a participant sends to be discovered, as the standard of RTPS has it (9.6.2.2).
-Bytes announcement(std::uint32_t number, std::uint32_t lease_seconds) {
+// `further` is a parameter more.
+Bytes announcement(std::uint32_t number, std::uint32_t lease_seconds, const Bytes& further = {}) {
   Bytes bytes;
   const auto put = [&](std::initializer_list<unsigned> values) {
     for (const unsigned value : values) bytes.push_back(static_cast<std::byte>(value));
@@ -100,6 +103,7 @@ Bytes announcement(std::uint32_t number, std::uint32_t lease_seconds) {
   put_number(0);
   put_parameter(0x58, 4);
   put_number(0x3f);
+  bytes.insert(bytes.end(), further.begin(), further.end());
   put_parameter(0x01, 0);
   const std::size_t length = bytes.size() - start - 4;
   bytes[start + 2] = static_cast<std::byte>(length % 256);
@@ -261,6 +265,37 @@ TEST_CASE("a storm of announced and mutilated participants takes no memory, and 
   received = 0;
   peer.write(writer, text_bytes("still here"));
   REQUIRE(poll_until(transport, [&] { return received > 0; }));
+}
+
+TEST_CASE("parameters that say more than they have take no memory, and statistics end no program") {
+  talk_over_udp_only();
+  FastDdsTransport transport({.domain = domain()});
+  const Announcer announcer;
+  announce_all(announcer, transport, 0, 100, false);
+  const double before = resident();
+  std::uint32_t number = 1000;
+  for (const unsigned id : {0x05U, 0x07U, 0x29U, 0x2cU, 0x35U, 0x59U, 0x62U, 0x69U, 0x70U, 0x72U,
+                            0x73U, 0x75U, 0x1001U, 0x1002U, 0x1006U}) {
+    for (const unsigned first : {0xffU, 0xfeU, 0x7fU, 0x03U}) {
+      Bytes further(24, std::byte{0xff});
+      const unsigned head[] = {id & 0xff, id >> 8, 20, 0, first};
+      for (std::size_t k = 0; k < std::size(head); ++k)
+        further[k] = static_cast<std::byte>(head[k]);
+      announcer.send(announcement(++number, 1, further));
+      transport.poll(std::chrono::milliseconds(1));
+    }
+  }
+  Bytes statistics = announcement(++number, 1);
+  statistics.resize(20);
+  for (const auto& [kind, size] : {std::pair(0x80U, 56U), std::pair(0x01U, 4U)}) {
+    for (const unsigned byte : {kind, 1U, size, 0U}) {
+      statistics.push_back(static_cast<std::byte>(byte));
+    }
+    statistics.resize(statistics.size() + size);
+  }
+  announcer.send(statistics);
+  poll_for(transport, std::chrono::seconds(1));
+  check_growth(before, 16);  // a text of one of them takes 400 MiB a second
 }
 
 TEST_CASE("mutilated announcements without end take no memory") {
