@@ -173,7 +173,7 @@ TEST_CASE("a configuration in several files runs as one") {
   const ScratchFile manager("manager.yaml"), gains("gains.yaml");
   write(manager.path(),
         "controller_manager:\n  ros__parameters:\n    update_rate: 500\n"
-        "    pid: {type: pid_controller/PidController}\n");
+        "    pid: {type: effort_controllers/PidPlusGravityController}\n");
   write(gains.path(),
         "pid:\n  ros__parameters:\n    joints: [shoulder_active_joint, elbow_active_joint]\n"
         "    gains:\n      shoulder_active_joint: {p: 2310}\n      elbow_active_joint: {p: 339}\n");

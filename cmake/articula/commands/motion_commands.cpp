@@ -49,11 +49,10 @@ void wait_while(Connection& connection, const std::string& motion) {
 void check_arrival(Connection& connection, const Json& targets) {
   const auto states = JointStates(connection).next(Connection::default_patience);
   if (!states) return;
-  const Json& names = states->at("name");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto target = targets.find(names[i].get<std::string>());
-    const Json &position = states->at("position").at(i),
-               &reference = states->at("reference_position").at(i);
+  const Json &names = states->at("name"), &references = states->at("reference_position");
+  for (std::size_t i = 0; i < references.size(); ++i) {  // mimic joints come behind them
+    const auto target = targets.find(names.at(i).get<std::string>());
+    const Json &position = states->at("position").at(i), &reference = references.at(i);
     if (target == targets.end() || !position.is_number() || !reference.is_number()) continue;
     const double wanted = target->get<double>();
     constexpr double rounding = 1e-6, far = 0.05;  // [rad or m]; the usual error of a controller

@@ -175,7 +175,7 @@ export async function what_if(browser, url) {
   };
   const almost = await distance(2001, 'no drive swings');
   check(almost < 0.02, `almost the same gains make almost the same motion, ${almost} rad away`);
-  const other = await distance(200, 'simulated robots');
+  const other = await distance(20, 'simulated robots');
   check(other > 0.03, `other gains make another motion, not one ${other} rad away`);
   await robot.picture('what_if');
 
