@@ -194,7 +194,8 @@ TEST_CASE(
   REQUIRE(arm.ask(Deactivate{}).verdict == remote::Verdict::done);  // needs no active loop
   const auto same = arm.remote.futures(question);
   CHECK(same.time == cycles[first].time);
-  CHECK(distance(same, cycles, first) < 1e-5);
+  // A hundredth of the controller's own error in this motion, which is some milliradians.
+  CHECK(distance(same, cycles, first) < 3e-5);
   question.gains = {{"pid_plus_gravity.shoulder_active_joint.p", 200}};
   CHECK(distance(arm.remote.futures(question), cycles, first) > 0.01);
   // Every tenth reference says as much of a smooth motion.
@@ -202,7 +203,11 @@ TEST_CASE(
   coarse.reference_step = 0.01;
   for (std::size_t k = 0; k < 40; ++k) coarse.references[k] = coarse.references[10 * k];
   coarse.references.resize(40);
-  CHECK(distance(arm.remote.futures(coarse), cycles, first) < 2e-3);
+  double fastest = 0;
+  for (const Cycle& own : cycles) {
+    for (const double v : own.reference_velocity) fastest = std::max(fastest, std::abs(v));
+  }
+  CHECK(distance(arm.remote.futures(coarse), cycles, first) < 0.01 * fastest);  // held for 10 ms
 }
 
 TEST_CASE("a test step moves the futures of an arm that rests") {

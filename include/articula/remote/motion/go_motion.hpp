@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace articula::remote {
@@ -19,9 +20,8 @@ namespace articula::remote {
 /// - In mid-motion it is a stop and then a JerkLimitedProfile if there is no StateToStateProfile
 ///   within the limits. So it is, too, if the robot has more than `most_blended` joints, since the
 ///   search then takes long.
-/// - A velocity that the joint cannot sustain is left out: four fifths of the effort limit E are
-///   enough against damping d and friction f, so V <= (0.8 E - f) / d. The rest of the effort is
-///   for acceleration and gravity.
+/// - No velocity is above what the joint can sustain: four fifths of its effort limit E hold
+///   (0.8 E - f) / d against damping d and friction f. The rest is for acceleration and gravity.
 template <Robot R>
 class GoMotion {
  public:
@@ -33,11 +33,12 @@ class GoMotion {
 
   /// @param limits  that validate() accepts
   GoMotion(const R& robot, const Limits& limits) noexcept
-      : limits_(sustained(robot, limits)),
+      : limits_(limits),
+        sustained_(sustained(robot)),
         range_(joint_range(robot)),
         allowed_(range_),
         stop_(robot, Vector::Zero(), limits),
-        profile_(JerkLimitedProfile<R>::move(Vector::Zero(), Vector::Zero(), limits_)) {}
+        profile_(JerkLimitedProfile<R>::move(Vector::Zero(), Vector::Zero(), limits)) {}
 
   /// Begins a motion.
   /// @param from    the present reference, finite
@@ -46,7 +47,8 @@ class GoMotion {
   /// @param speed   share of the velocity limits, 0 < speed <= 1
   /// Real-time: yes. O(N), O(N^2) in mid-motion.
   void begin(const Reference& from, const Vector& target, double speed) noexcept {
-    const Limits limits{speed * limits_.velocity, limits_.acceleration, limits_.jerk};
+    const Limits limits{(speed * limits_.velocity).cwiseMin(sustained_), limits_.acceleration,
+                        limits_.jerk};
     allowed_ = range_.extended_to(from.position);
     stop_.begin(from);
     target_ = stop_.end();
@@ -103,14 +105,12 @@ class GoMotion {
   [[nodiscard]] const Vector& target() const noexcept { return target_; }
 
  private:
-  [[nodiscard]] static Limits sustained(const R& robot, Limits limits) noexcept {
-    for (int j = 0; j < joint_count; ++j) {
-      const JointProperties& joint = model_of(robot).joints[j];
+  /// The velocities that the joints can sustain [rad/s or m/s], N x 1; infinite where nothing tells.
+  [[nodiscard]] static Vector sustained(const R& robot) noexcept {
+    return joint_values(robot, [](const JointProperties& joint) noexcept {
       const double velocity = (0.8 * joint.limits.effort - joint.friction) / joint.damping;
-      // NaN, infinity, and a limit that holds nothing bound no velocity.
-      if (velocity > 0 && velocity < limits.velocity[j]) limits.velocity[j] = velocity;
-    }
-    return limits;
+      return velocity > 0 ? velocity : std::numeric_limits<double>::infinity();
+    });
   }
 
   /// Whether no joint exceeds its velocity limit while its acceleration fades. Trajectories may
@@ -138,6 +138,7 @@ class GoMotion {
   }
 
   Limits limits_;
+  Vector sustained_;
   JointRange<joint_count> range_;
   JointRange<joint_count> allowed_;  ///< by the limits and the beginning
   JointStops<R> stop_;
