@@ -105,7 +105,7 @@ class GoMotion {
   [[nodiscard]] const Vector& target() const noexcept { return target_; }
 
  private:
-  /// The velocities that the joints can sustain [rad/s or m/s], N x 1; infinite where nothing tells.
+  /// The velocities that the joints can sustain [rad/s or m/s], N x 1; infinity: any.
   [[nodiscard]] static Vector sustained(const R& robot) noexcept {
     return joint_values(robot, [](const JointProperties& joint) noexcept {
       const double velocity = (0.8 * joint.limits.effort - joint.friction) / joint.damping;
