@@ -166,6 +166,7 @@ TEST_CASE("packets are well-formed if all their parts are within them") {
   CHECK_FALSE(with(26, 0xff));  // a payload that begins behind the end
   CHECK_FALSE(with(26, 8));     // a payload that begins in the fields
   CHECK_FALSE(with(50, 0xff));  // a parameter longer than the packet
+  CHECK_FALSE(with(50, 3));     // one that does not end at a multiple of four
   CHECK(with(20, 0x55));        // unknown parts are skipped
   // A fragment of a long list of parameters ends anywhere in it.
   Bytes fragment(packet.begin(), packet.begin() + 20);

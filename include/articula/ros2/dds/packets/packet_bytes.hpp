@@ -27,15 +27,16 @@ constexpr std::uint32_t number_at(Packet bytes, std::size_t at, std::size_t size
 }
 
 /// Calls function(id, value) for each of a list of parameters, which returns whether it is good.
-/// @return the length of the list with its end; 0 if it does not end within the bytes, or a
-///         parameter is not good
+/// @return the length of the list with its end; 0 if it does not end within the bytes, a parameter
+///         is not good, or one does not end at a multiple of four ([RTPS], 9.4.2.11)
 constexpr std::size_t for_each_parameter(Packet bytes, bool little, auto&& function) {
   constexpr std::uint32_t sentinel = 1;
   for (std::size_t at = 0; bytes.size() - at >= 4;) {
     const std::uint32_t id = number_at(bytes, at, 2, little);
     if (id == sentinel) return at + 4;
     const std::size_t size = number_at(bytes, at + 2, 2, little);
-    if (size > bytes.size() - at - 4 || !function(id, bytes.subspan(at + 4, size))) return 0;
+    if (size % 4 != 0 || size > bytes.size() - at - 4) return 0;
+    if (!function(id, bytes.subspan(at + 4, size))) return 0;
     at += 4 + size;
   }
   return 0;

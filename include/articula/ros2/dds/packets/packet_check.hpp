@@ -69,9 +69,10 @@ constexpr std::optional<DiscoveryMessage> discovery_of(Packet part, std::uint32_
   DiscoveryMessage message{.writer = writer_of(part), .body = *body};
   if (body->has_inline_list) {
     message.body.inline_list.for_each([&](std::uint32_t id, Packet value, Worth) {
-      constexpr std::uint32_t status = 0x71;  // its last two bits: disposed, unregistered
+      constexpr std::uint32_t status = 0x71;  // 1: disposed, 2: unregistered, 3: both
       if (id == status && value.size() == 4) {
-        message.ends = (std::to_integer<unsigned>(value[3]) & 3U) != 0;
+        const std::uint32_t own = number_at(value, 0, 4, false);
+        message.ends = own >= 1 && own <= 3;
       }
       return true;
     });
