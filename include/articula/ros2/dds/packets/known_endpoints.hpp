@@ -76,11 +76,12 @@ class KnownEndpoints {
   [[nodiscard]] static std::size_t constants_of(const detail::ParameterList& list) {
     static const std::uint32_t secret = std::random_device()();
     std::string text = std::to_string(secret);
-    list.for_each([&](std::uint32_t id, Packet value, detail::Worth) {
+    list.for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
       constexpr std::array<std::uint32_t, 9> constants{0x02, 0x05, 0x07, 0x1a, 0x1b,
                                                        0x1d, 0x1f, 0x21, 0x25};
+      if (worth != detail::Worth::whole) return true;  // Fast DDS does not see it
       if (std::find(constants.begin(), constants.end(), id) == constants.end()) return true;
-      text += static_cast<char>(id);
+      text += static_cast<char>(id) + std::to_string(value.size()) + ':';
       for (const std::byte byte : value) text += static_cast<char>(byte);
       return true;
     });

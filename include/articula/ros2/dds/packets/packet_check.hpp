@@ -25,6 +25,12 @@ constexpr std::uint32_t writer_of(Packet part) noexcept { return number_at(part,
 constexpr bool writes_discovery(std::uint32_t writer) noexcept {
   return writer == participant_writer || writer == writer_writer || writer == reader_writer;
 }
+/// Whether a writer is one of DDS itself. Source: [RTPS], 9.3.1.2.
+constexpr bool is_builtin(std::uint32_t writer) noexcept { return (writer & 0xc0U) == 0xc0U; }
+
+/// The bytes of a message of discovery. Those of ROS have some hundred, and Fast DDS 2.9.1 keeps
+/// all that come out of order.
+inline constexpr std::size_t largest_discovery = 8192;
 
 /// The inline parameters of a message or a fragment, and what follows them.
 struct Body {
@@ -92,14 +98,15 @@ constexpr std::optional<DiscoveryMessage> discovery_of(Packet part, std::uint32_
 constexpr bool is_good_message(Packet part, std::uint32_t flags) noexcept {
   if (!body_of(part, flags, 20)) return false;
   const auto message = discovery_of(part, flags);
+  if (message && part.size() > largest_discovery) return false;
   if (!message || !message->list) return true;
   return message->list->is_whole() && (message->ends || !message->has_key_only);
 }
 
-/// A fragment: its payload begins within it. Fragments of discovery are refused, since nobody can
+/// A fragment: its payload begins within it. Fragments of DDS itself are refused, since nobody can
 /// check them before all are there.
 constexpr bool is_good_fragment(Packet part, std::uint32_t flags) noexcept {
-  return body_of(part, flags, 32) && !writes_discovery(writer_of(part));
+  return body_of(part, flags, 32) && !is_builtin(writer_of(part));
 }
 
 /// A set of sequence numbers: at most 256 bits, which are there.
@@ -111,6 +118,20 @@ constexpr bool is_good_set(Packet part, bool little, std::size_t at, std::size_t
   return bits <= 256 && part.size() >= at + 4 + (bits + 31) / 32 * 4 + behind;
 }
 
+/// A sequence number: its upper half comes first.
+constexpr std::uint64_t sequence_at(Packet part, std::size_t at, bool little) noexcept {
+  return std::uint64_t{number_at(part, at, 4, little)} << 32 | number_at(part, at + 4, 4, little);
+}
+
+/// A gap: numbers of messages that will not come. Fast DDS 2.9.1 notes each of them.
+constexpr bool is_good_gap(Packet part, bool little) noexcept {
+  if (!is_good_set(part, little, 24, 0)) return false;
+  const std::uint64_t first = sequence_at(part, 8, little), end = sequence_at(part, 16, little);
+  constexpr std::uint64_t most_of_builtin = 1 << 12, most = 1 << 20;
+  const bool builtin = is_builtin(number_at(part, 4, 4, false));
+  return end < first || end - first <= (builtin ? most_of_builtin : most);
+}
+
 /// A part without its head of four bytes.
 constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part) noexcept {
   const bool little = (flags & 1U) != 0;
@@ -120,7 +141,7 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
     case 0x07:  // HEARTBEAT
       return part.size() >= 28;
     case 0x08:  // GAP
-      return is_good_set(part, little, 24, 0);
+      return is_good_gap(part, little);
     case 0x09:  // INFO_TS
       return (flags & 2U) != 0 || part.size() >= 8;
     case 0x0c:  // INFO_SRC
