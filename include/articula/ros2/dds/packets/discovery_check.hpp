@@ -81,6 +81,8 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
   }
 }
 
+inline constexpr std::uint32_t longest_lease = 3600;  ///< of a participant [s]; ROS has 10 or 20
+
 /// What a parameter of discovery is worth.
 enum class Worth : unsigned char {
   whole,    ///< It contains what it says.
@@ -105,9 +107,12 @@ constexpr Worth worth_of(std::uint32_t id, Packet value, bool little) noexcept {
       return judged(has_texts(value, little, 2));
     case 0x73:  // representations of data, of two bytes each
       return judged(value.size() >= 4 && number_at(value, 0, 4, little) <= (value.size() - 4) / 2);
-    case 0x02:  // A lease of less than a second only lets participants come and go.
-      return value.size() == 8 && number_at(value, 0, 4, little) - 1 < 0x7fffffff ? Worth::whole
-                                                                                  : Worth::unknown;
+    case 0x02: {
+      // With a lease of less than a second participants only come and go. After the longest one,
+      // the participant is forgotten.
+      const bool is_usual = value.size() == 8 && number_at(value, 0, 4, little) - 1 < longest_lease;
+      return is_usual ? Worth::whole : Worth::unknown;
+    }
     default:
       return value.size() == fixed_size(id) && !value.empty() ? Worth::whole : Worth::unknown;
   }

@@ -31,7 +31,7 @@ class ParticipantGate {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr int most_at_once = 256;
-  static constexpr std::size_t most_known = 1024;
+  static constexpr std::size_t most_known = 4096;    ///< for longest_lease after their last sign
   static constexpr std::size_t most_waiting = 8192;  ///< for their second announcement
 
   /// Whether to hand a packet on.
@@ -91,9 +91,12 @@ class ParticipantGate {
       return false;
     }
     if (known_.size() >= most_known) {
-      known_.erase(std::min_element(
+      const auto oldest = std::min_element(
           known_.begin(), known_.end(),
-          [](const auto& one, const auto& other) { return one.second.last < other.second.last; }));
+          [](const auto& one, const auto& other) { return one.second.last < other.second.last; });
+      // Fast DDS may still have a participant whose lease is not over.
+      if (now - oldest->second.last <= std::chrono::seconds(detail::longest_lease)) return false;
+      known_.erase(oldest);
     }
     known_[source].last = now;
     return true;
