@@ -33,8 +33,7 @@ template <int N>
 struct Go {
   JointVector<N> target;  ///< [rad or m]; NaN for joints that have none
   double speed = 1;
-  JointArray<bool, N>
-      unfollowed{};  ///< filled in by the loop: joints that no controller moves there
+  JointArray<bool, N> unfollowed{};  ///< by the loop: joints that no controller moves there
 };
 template <int N>
 struct Set {
