@@ -177,7 +177,7 @@ TEST_CASE("packets are well-formed if all their parts are within them") {
         0x00U, 0x03U, 0x00U, 0x00U, 0x50U, 0x00U, 0x10U, 0x00U, 1U,    2U,    3U,    4U}) {
     fragment.push_back(static_cast<std::byte>(byte));
   }
-  CHECK_FALSE(dds::is_well_formed(fragment));   // of discovery: nobody sees what is in it
+  CHECK_FALSE(dds::is_well_formed(fragment));   // of participants: nobody sees what is in it
   fragment.at(35) = static_cast<std::byte>(3);  // of a topic
   CHECK(dds::is_well_formed(fragment));
   fragment.at(26) = static_cast<std::byte>(0xff);  // as above: its payload begins behind the end
@@ -223,7 +223,7 @@ TEST_CASE("gaps are short, and discovery is small and whole") {
   Bytes large(4 + 8192, std::byte{0});  // a parameter that is hidden
   large[0] = std::byte{0x35};
   large[3] = std::byte{0x20};
-  CHECK_FALSE(dds::is_well_formed(announcement(1, 1, large)));
+  CHECK_FALSE(dds::is_well_formed(announcement(1, 1, large)));  // of a participant
   large.resize(4 + 4096);
   large[3] = std::byte{0x10};
   CHECK(dds::is_well_formed(announcement(1, 1, large)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/dds/packets/checked_transport.hpp"
 
-#include "articula/ros2/dds/packets/hide_unknown.hpp"
+#include "articula/ros2/dds/packets/discovery_filter.hpp"
 #include "articula/ros2/dds/packets/packet_check.hpp"
 #include "articula/ros2/dds/packets/participant_gate.hpp"
 
@@ -37,15 +37,16 @@ class CheckedTransport final : public transports::ChainingTransport {
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
     const Packet packet = std::as_bytes(std::span(bytes, size));
-    if (!is_well_formed(packet) || !gate_admits(packet)) return;
-    std::vector<rtps::octet> known(bytes, bytes + size);
-    hide_unknown(packet, std::as_writable_bytes(std::span(known)));
-    receiver->OnDataReceived(known.data(), size, local, remote);
+    if (!is_well_formed(packet)) return;
+    std::vector<rtps::octet> filtered(bytes, bytes + size);
+    const auto own = std::as_writable_bytes(std::span(filtered));
+    filter_discovery(own);
+    if (gate_admits(own)) receiver->OnDataReceived(filtered.data(), size, local, remote);
   }
 
  private:
   /// Each port has a thread that receives.
-  bool gate_admits(Packet packet) {
+  bool gate_admits(std::span<std::byte> packet) {
     const std::lock_guard lock(mutex_);
     return gate_.admits(packet, std::chrono::steady_clock::now());
   }

@@ -2,6 +2,7 @@
 /// @file A limit on how many new participants of a domain are heard in a time.
 #pragma once
 
+#include "articula/ros2/dds/packets/discovery_filter.hpp"
 #include "articula/ros2/dds/packets/known_endpoints.hpp"
 #include "articula/ros2/dds/packets/packet_check.hpp"
 
@@ -13,6 +14,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <span>
 
 namespace articula::ros2::dds {
 
@@ -24,37 +26,43 @@ namespace articula::ros2::dds {
 /// second announcement: participants repeat theirs, and a storm of ever new ones does not. Those
 /// that are known may announce themselves as often as they like.
 ///
-/// Announcements of readers and writers pass if their participant is known, see KnownEndpoints. All
-/// other packets pass. For one thread at a time.
+/// Announcements of readers and writers pass if their participant is known. Those for which there is
+/// no room, or that KnownEndpoints refuses, become gaps. All other packets pass. For one thread at a
+/// time.
 class ParticipantGate {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr int most_at_once = 256;
   static constexpr std::size_t most_known = 4096;    ///< for longest_lease after their last sign
+  static constexpr std::size_t most_memory = 1 << 27;  ///< for all announcements [bytes]
   static constexpr std::size_t most_waiting = 8192;  ///< for their second announcement
 
   /// Whether to hand a packet on.
-  /// @param packet  well-formed
-  /// @param now     not before the last one
+  /// @param[in,out] packet  well-formed, as filter_discovery left it
+  /// @param now             not before the last one
   /// Real-time: no (allocates).
-  [[nodiscard]] bool admits(Packet packet, Time now) {
+  [[nodiscard]] bool admits(std::span<std::byte> packet, Time now) {
     Prefix source{};
     const auto read_source = [&](Packet bytes, std::size_t at) {
       std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), source.size(), source.begin());
     };
     read_source(packet, 8);
     return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
-      constexpr std::uint32_t info_source = 0x0c, message = 0x15;
+      constexpr std::uint32_t info_source = 0x0c;
       if (kind == info_source) read_source(part, 8);
-      const auto discovery = kind == message ? detail::discovery_of(part, flags) : std::nullopt;
+      if (kind != detail::message_part) return true;
+      const auto discovery = detail::discovery_of(part, flags);
       if (!discovery) return true;
       const bool is_participant = discovery->writer == detail::participant_writer;
       if (!KnownEndpoints::is_of(source, *discovery)) return false;
       if (is_participant && !admits(source, now)) return false;
-      if (!discovery->list || discovery->ends) return true;
       const auto known = known_.find(source);
-      return known != known_.end() && known->second.endpoints.admits(*discovery);
+      if (known == known_.end()) return discovery->ends || !discovery->list;
+      if (admits(known->second.endpoints, *discovery)) return true;
+      if (is_participant) return false;
+      detail::make_gap(packet, flags, part);
+      return true;
     });
   }
 
@@ -96,10 +104,25 @@ class ParticipantGate {
           [](const auto& one, const auto& other) { return one.second.last < other.second.last; });
       // Fast DDS may still have a participant whose lease is not over.
       if (now - oldest->second.last <= std::chrono::seconds(detail::longest_lease)) return false;
+      memory_ -= oldest->second.endpoints.memory();
       known_.erase(oldest);
     }
     known_[source].last = now;
     return true;
+  }
+
+  /// A message of discovery of a participant that is known.
+  [[nodiscard]] bool admits(KnownEndpoints& endpoints, const detail::DiscoveryMessage& message) {
+    if (!message.list && !message.ends) return true;
+    const std::size_t before = endpoints.memory();
+    bool admitted = true;
+    if (!message.ends) {
+      admitted = endpoints.admits(message, most_memory - memory_);
+    } else if (message.writer != detail::participant_writer) {
+      endpoints.end(message);
+    }
+    memory_ += endpoints.memory() - before;  // modulo
+    return admitted;
   }
 
   /// Remembers a participant until it announces itself again, or many others have come.
@@ -112,6 +135,7 @@ class ParticipantGate {
   }
 
   std::map<Prefix, Known> known_{};
+  std::size_t memory_ = 0;  ///< of their announcements
   std::set<Prefix> waiting_{};
   std::deque<Prefix> order_{};  ///< of those that wait, the oldest first
   Places first_{}, second_{};   ///< for first and second announcements

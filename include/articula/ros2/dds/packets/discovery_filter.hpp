@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file Messages of discovery without what would harm Fast DDS.
+#pragma once
+
+#include "articula/ros2/dds/packets/packet_check.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace articula::ros2::dds {
+
+namespace detail {
+
+/// Turns a message or a fragment into a gap: its number will not come. So readers do not wait for
+/// it, and messages after it arrive. Source: [RTPS], 9.4.5.2 and 9.4.5.5.
+/// @param packet  with the part
+/// @param part    can_be_gap
+/// Real-time: yes.
+constexpr void make_gap(std::span<std::byte> packet, std::uint32_t flags, Packet part) {
+  const bool little = (flags & 1U) != 0;
+  const std::span<std::byte> own = packet.subspan(
+      static_cast<std::size_t>(part.data() - packet.data()) - 4);
+  constexpr std::size_t head = 4, ids = 8, number = 8;  // [bytes]
+  const std::uint64_t end = sequence_at(part, 12, little) + 1;
+  own[0] = static_cast<std::byte>(gap_part);
+  own[1] = static_cast<std::byte>(flags & 1U);
+  for (std::size_t k = 0; k < ids + number; ++k) own[head + k] = part[4 + k];
+  const std::span<std::byte> rest = own.subspan(head + ids + number);
+  for (std::size_t k = 0; k < number; ++k) {
+    const std::size_t significance = (k < 4 ? 4 : 0) + (little ? k % 4 : 3 - k % 4);
+    rest[k] = static_cast<std::byte>(end >> (8 * significance) & 0xffU);
+  }
+  for (std::size_t k = 0; k < 4; ++k) rest[number + k] = std::byte{0};  // no further numbers
+}
+
+}  // namespace detail
+
+/// Turns unknown parameters of discovery into padding, which readers skip. Fast DDS 2.9.1 takes any
+/// memory for some of them, as filters. Turns messages into gaps that are broken, large, or in
+/// fragments, since nobody can check those before all are there.
+/// @param[in,out] packet  well-formed
+/// Real-time: yes. O(size).
+constexpr void filter_discovery(std::span<std::byte> packet) {
+  for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
+    if (kind != detail::message_part && kind != detail::fragment_part) return true;
+    if (!detail::is_good_discovery(kind, flags, part)) {
+      detail::make_gap(packet, flags, part);
+      return true;
+    }
+    const auto discovery =
+        kind == detail::message_part ? detail::discovery_of(part, flags) : std::nullopt;
+    if (!discovery || !discovery->list) return true;
+    return discovery->list->for_each([&](std::uint32_t, Packet value, detail::Worth worth) {
+      if (worth != detail::Worth::unknown) return true;
+      const auto id = static_cast<std::size_t>(value.data() - packet.data()) - 4;
+      packet[id] = packet[id + 1] = std::byte{0};
+      return true;
+    });
+  });
+}
+
+}  // namespace articula::ros2::dds
