@@ -108,8 +108,13 @@ class JointSignals {
   /// The reference to which the signals are added. Real-time: yes.
   [[nodiscard]] const JointReference<joint_count>& around() const noexcept { return around_; }
 
-  /// The positions between which the signals move the joints: `around` and signal_bounds, within
-  /// the joints' limits. Real-time: yes.
+  /// The least that the signals add to the positions [rad or m], N x 1; see signal_bounds.
+  /// Real-time: yes.
+  [[nodiscard]] const JointVector<joint_count>& lowest() const noexcept { return lowest_; }
+  /// The most. Real-time: yes.
+  [[nodiscard]] const JointVector<joint_count>& highest() const noexcept { return highest_; }
+  /// The positions between which the signals move the joints, within the joints' limits.
+  /// Real-time: yes.
   [[nodiscard]] JointRange<joint_count> range() const noexcept {
     JointRange<joint_count> range = range_;
     range.lower = range_.clamp(around_.position + lowest_);
@@ -154,7 +159,6 @@ class JointSignals {
 
   JointReference<joint_count> around_;
   JointRange<joint_count> range_;
-  /// What the signals add to the positions at least and at most [rad or m], N x 1.
   JointVector<joint_count> lowest_ = JointVector<joint_count>::Zero(), highest_ = lowest_;
   std::array<Entry, static_cast<std::size_t>(Capacity)> entries_{};
   std::size_t size_ = 0;

@@ -137,7 +137,7 @@ class MotionTaskMaker {
       }
     }
     for (int j = 0; j < joint_count; ++j) {
-      if (joints[j]) check_.check_positions(signals, j, around[j]);
+      if (joints[j]) check_.check_signals(j, around[j], sum.lowest()[j], sum.highest()[j]);
       check_.check_size("signals", "velocity", j, velocity[j], check_.limits_of(j).velocity);
       if (std::abs(begin[j]) > 1e-9) {  // rounding of a phase
         articula::detail::refuse(

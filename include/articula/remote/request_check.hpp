@@ -7,7 +7,6 @@
 #include "articula/core/name.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
-#include "articula/reference/signal_bounds.hpp"
 #include "articula/remote/request.hpp"
 
 #include <cmath>
@@ -94,21 +93,16 @@ class RequestCheck {
     }
   }
   /// The positions to which signals move a joint. A joint outside its limits may come back.
-  /// @param around  the position to which they are added
-  void check_positions(const std::vector<JointSignal>& signals, int joint, double around) const {
-    std::vector<Signal> own;
-    for (const JointSignal& each : signals) {
-      const bool is_own = each.joint.view() == name_of(joint);
-      if (is_own && each.target == SignalTarget::position) own.push_back(each.signal);
-    }
+  /// @param around   the position to which they are added
+  /// @param lowest   the least that they add
+  /// @param highest  the most
+  void check_signals(int joint, double around, double lowest, double highest) const {
     constexpr double rounding = 1e-9;  // of the present position
-    const ValueRange bounds = signal_bounds(own);
-    const double highest = around + bounds.highest, lowest = around + bounds.lowest;
-    if (bounds.highest > 0 && highest > limits_of(joint).upper + rounding) {
-      check_position("signals", joint, highest);
+    if (highest > 0 && around + highest > limits_of(joint).upper + rounding) {
+      check_position("signals", joint, around + highest);
     }
-    if (bounds.lowest < 0 && lowest < limits_of(joint).lower - rounding) {
-      check_position("signals", joint, lowest);
+    if (lowest < 0 && around + lowest < limits_of(joint).lower - rounding) {
+      check_position("signals", joint, around + lowest);
     }
   }
 
