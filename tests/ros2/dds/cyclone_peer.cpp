@@ -190,9 +190,12 @@ CyclonePeer::~CyclonePeer() {
   dds_delete(entities_->domain);
 }
 
-int CyclonePeer::make_writer(const std::string& topic, bool transient_local) {
+int CyclonePeer::make_writer(const std::string& topic, bool transient_local,
+                             std::size_t user_data) {
   const auto type = descriptor<Text>("std_msgs::msg::dds_::String_", text_fields);
   const Qos qos(transient_local);
+  const std::string data(user_data, 'x');
+  dds_qset_userdata(qos.qos, data.data(), data.size());
   return good(dds_create_writer(entities_->participant, entities_->make_topic(type, topic), qos.qos,
                                 nullptr),
               "writer");

@@ -20,7 +20,8 @@ class CyclonePeer {
   ~CyclonePeer();
 
   /// std_msgs/msg/String on a DDS topic. Returns a number for the functions below.
-  int make_writer(const std::string& topic, bool transient_local);
+  /// @param user_data  bytes that its announcement has beside all else
+  int make_writer(const std::string& topic, bool transient_local, std::size_t user_data = 0);
   int make_reader(const std::string& topic, bool transient_local);
   void write(int writer, const std::string& text);
   /// The texts that have come.

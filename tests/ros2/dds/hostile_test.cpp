@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -61,6 +62,25 @@ Bytes random_packet(std::mt19937& random) {
 }
 
 }  // namespace
+
+TEST_CASE("a writer whose announcement comes in fragments holds up no other one") {
+  FastDdsTransport transport({.domain = domain()});
+  CyclonePeer peer(domain());
+  std::vector<std::string> texts;
+  const auto note = [&](Sample sample) { texts.push_back(text_of(sample)); };
+  transport.subscribe(text_topic("/large", reliable), note);
+  transport.subscribe(text_topic("/after", reliable), note);
+  const int large = peer.make_writer("rt/large", false, 5000);
+  const int after = peer.make_writer("rt/after", false);
+  REQUIRE(poll_until(transport, [&] {
+    return peer.matches_of_writer(large) == 1 && peer.matches_of_writer(after) == 1;
+  }));
+  peer.write(large, "not heard");
+  peer.write(after, "heard");
+  REQUIRE(poll_until(transport, [&] { return !texts.empty(); }));
+  poll_for(transport, std::chrono::milliseconds(50));
+  CHECK(texts == std::vector<std::string>{"heard"});
+}
 
 TEST_CASE("any bytes reach a topic's function as they are, and those after them, too") {
   talk_over_udp_only();

@@ -67,7 +67,7 @@ export class RobotView {
         return this.finish(now);
       const link = this.model.measured.links[this.tool.value];
       if (link && this.trail.line.visible && !this.wasPast)
-        this.trail.add(link, this.radius * 2e-3);
+        this.trail.add(link, this.radius * 2e-3, this.radius * 0.5);
       this.stage.invalidate();
     }
     this.finish(now);

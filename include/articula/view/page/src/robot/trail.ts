@@ -26,10 +26,15 @@ export class Trail {
     geometry.setDrawRange(0, 0);
   }
 
-  /** Adds the place of a link if it is at least `distance` [m] from the last one. */
-  add(link: Object3D, distance: number): void {
+  /**
+   * Adds the place of a link if it is at least `distance` [m] from the last one. Begins anew if it
+   * is as far as `jump` [m]: the robot was reset or spawned elsewhere.
+   */
+  add(link: Object3D, distance: number, jump: number): void {
     link.getWorldPosition(this.now);
-    if (this.now.distanceTo(this.last) < distance) return;
+    const step = this.now.distanceTo(this.last);
+    if (step < distance) return;
+    if (step > jump) this.count = 0;
     this.last.copy(this.now);
     if (this.count === capacity) {
       this.points.copyWithin(0, 3 * (capacity / 2));
