@@ -12,6 +12,7 @@
 #include <pthread.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <system_error>
@@ -147,7 +148,8 @@ class View::Server {
   }
 
   void wait_for_tick() {
-    tick_.expires_after(tick_period);
+    // A late tick delays none of those after it. At least half a period is between two.
+    tick_.expires_at(std::max(tick_.expiry() + tick_period, Clock::now() + tick_period / 2));
     tick_.async_wait([this](Error error) {
       if (error) return;
       tick();
