@@ -25,11 +25,12 @@ constexpr std::size_t least_replies = 64;
 // The dialect of rmw_cyclonedds has as many bytes more in requests and replies.
 constexpr std::size_t dialect_header = 16;
 
-rtps::RTPSParticipant* make_participant(const FastDdsOptions& options) {
+rtps::RTPSParticipant* make_participant(const FastDdsOptions& options,
+                                        const std::shared_ptr<PacketGuard>& guard) {
   check(options);
   if (!options.log) eprosima::fastdds::dds::Log::ClearConsumers();
   rtps::RTPSParticipant* const participant =
-      rtps::RTPSDomain::createParticipant(options.domain, participant_attributes(options));
+      rtps::RTPSDomain::createParticipant(options.domain, participant_attributes(options, guard));
   if (participant == nullptr) {
     throw std::runtime_error(articula::detail::message_of(
         {"ros2: Fast DDS made no participant of domain ", options.domain,
@@ -47,7 +48,7 @@ void Participant::RemoveParticipant::operator()(rtps::RTPSParticipant* participa
 Participant::Participant(FastDdsOptions options, Distribution distribution)
     : options_(std::move(options)),
       distribution_(distribution),
-      participant_(make_participant(options_)) {
+      participant_(make_participant(options_, guard_)) {
   graph_writer_ = std::make_unique<Writer>(
       *participant_, inbox_,
       Endpoint{std::string(discovery_info_topic), dds_type_name(discovery_info_type),
@@ -106,7 +107,7 @@ void Participant::serve(const ServiceEndpoint& service, Transport::OnRequest on_
   replies.type = dds_type_name(service.response_type);
   replies.quality.depth = std::clamp(service.quality.depth, least_replies, most_requests);
 
-  auto server = std::make_unique<ServiceServer>(*participant_, inbox_, requests, replies);
+  auto server = std::make_unique<ServiceServer>(*participant_, inbox_, guard_, requests, replies);
   server->on_request(
       [this, server = server.get(), call = std::move(on_request)](
           Sample request, const Client& client) { call(request, reply_sender(*server, client)); });

@@ -5,6 +5,7 @@
 #include "articula/ros2/dds/endpoints/service_server.hpp"
 #include "articula/ros2/dds/fast_dds_options.hpp"
 #include "articula/ros2/dds/graph.hpp"
+#include "articula/ros2/dds/packets/packet_guard.hpp"
 
 #include <fastdds/rtps/RTPSDomain.h>
 #include <fastdds/rtps/participant/RTPSParticipant.h>
@@ -54,6 +55,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   FastDdsOptions options_;
   Distribution distribution_;
   Inbox inbox_{};
+  std::shared_ptr<PacketGuard> guard_ = std::make_shared<PacketGuard>();
   std::unique_ptr<eprosima::fastrtps::rtps::RTPSParticipant, RemoveParticipant> participant_;
   std::vector<std::unique_ptr<Writer>> writers_{};
   std::vector<std::unique_ptr<Reader>> readers_{};

@@ -83,7 +83,8 @@ void check(const FastDdsOptions& options) {
   }
 }
 
-rtps::RTPSParticipantAttributes participant_attributes(const FastDdsOptions& options) {
+rtps::RTPSParticipantAttributes participant_attributes(const FastDdsOptions& options,
+                                                       const std::shared_ptr<PacketGuard>& guard) {
   rtps::RTPSParticipantAttributes attributes;
   attributes.setName("articula");
   attributes.userData = octets("enclave=/;");
@@ -93,7 +94,7 @@ rtps::RTPSParticipantAttributes participant_attributes(const FastDdsOptions& opt
   udp->interfaceWhiteList = options.interfaces;
   udp->maxInitialPeersRange = participants_of_a_peer;
   udp->non_blocking_send = true;  // what is lost is sent again
-  attributes.userTransports.push_back(std::make_shared<CheckedTransportDescriptor>(udp));
+  attributes.userTransports.push_back(std::make_shared<CheckedTransportDescriptor>(udp, guard));
   if (options.shared_memory) {
     attributes.userTransports.push_back(
         std::make_shared<eprosima::fastdds::rtps::SharedMemTransportDescriptor>());

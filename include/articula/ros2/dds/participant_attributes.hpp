@@ -3,8 +3,11 @@
 #pragma once
 
 #include "articula/ros2/dds/fast_dds_options.hpp"
+#include "articula/ros2/dds/packets/packet_guard.hpp"
 
 #include <fastdds/rtps/attributes/RTPSParticipantAttributes.h>
+
+#include <memory>
 
 namespace articula::ros2::dds {
 
@@ -14,7 +17,8 @@ void check(const FastDdsOptions& options);
 
 /// Where a participant is heard, whom it tells about itself, and how many others it notes.
 /// @param options  checked ones
+/// @param guard    of its packets
 eprosima::fastrtps::rtps::RTPSParticipantAttributes participant_attributes(
-    const FastDdsOptions& options);
+    const FastDdsOptions& options, const std::shared_ptr<PacketGuard>& guard);
 
 }  // namespace articula::ros2::dds

@@ -4,6 +4,7 @@
 
 #include "articula/ros2/dds/endpoints/reader.hpp"
 #include "articula/ros2/dds/endpoints/writer.hpp"
+#include "articula/ros2/dds/packets/packet_guard.hpp"
 #include "articula/ros2/service_header.hpp"
 #include "articula/ros2/transport.hpp"
 
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -41,9 +43,11 @@ class ServiceServer {
  public:
   using OnRequest = std::function<void(Sample request, const Client& client)>;
 
+  /// @param guard              of the participant's packets
   /// @param requests, replies  the two topics
   ServiceServer(eprosima::fastrtps::rtps::RTPSParticipant& participant, Inbox& inbox,
-                const Endpoint& requests, const Endpoint& replies);
+                std::shared_ptr<PacketGuard> guard, const Endpoint& requests,
+                const Endpoint& replies);
 
   /// What to call for each request, in the thread that takes from the inbox.
   void on_request(OnRequest function) { on_request_ = std::move(function); }
@@ -61,6 +65,7 @@ class ServiceServer {
   void take(const Arrival& arrival);
 
   OnRequest on_request_{};
+  std::shared_ptr<PacketGuard> guard_;
   ClientFilter filter_{};
   Writer writer_;
   Reader reader_;

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/dds/packets/checked_transport.hpp"
 
-#include "articula/ros2/dds/packets/discovery_filter.hpp"
-#include "articula/ros2/dds/packets/packet_check.hpp"
-#include "articula/ros2/dds/packets/participant_gate.hpp"
-
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
 
 #include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <span>
 #include <vector>
 
@@ -31,29 +26,25 @@ class CheckedTransport final : public transports::ChainingTransport {
   bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size,
             rtps::LocatorsIterator* first, rtps::LocatorsIterator* last,
             const std::chrono::steady_clock::time_point& deadline) override {
-    return below->send(bytes, size, first, last, deadline);
+    const Packet packet = std::as_bytes(std::span(bytes, size));
+    if (!PacketGuard::has_acknowledgement(packet)) {
+      return below->send(bytes, size, first, last, deadline);
+    }
+    std::vector<rtps::octet> own(bytes, bytes + size);
+    descriptor_.guard().send(std::as_writable_bytes(std::span(own)));
+    return below->send(own.data(), size, first, last, deadline);
   }
   void receive(transports::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    const Packet packet = std::as_bytes(std::span(bytes, size));
-    if (!is_well_formed(packet)) return;
-    std::vector<rtps::octet> filtered(bytes, bytes + size);
-    const auto own = std::as_writable_bytes(std::span(filtered));
-    filter_discovery(own);
-    if (gate_admits(own)) receiver->OnDataReceived(filtered.data(), size, local, remote);
+    std::vector<rtps::octet> own(bytes, bytes + size);
+    const auto packet = std::as_writable_bytes(std::span(own));
+    if (!descriptor_.guard().receive(packet, std::chrono::steady_clock::now())) return;
+    receiver->OnDataReceived(own.data(), size, local, remote);
   }
 
  private:
-  /// Each port has a thread that receives.
-  bool gate_admits(std::span<std::byte> packet) {
-    const std::lock_guard lock(mutex_);
-    return gate_.admits(packet, std::chrono::steady_clock::now());
-  }
-
   CheckedTransportDescriptor descriptor_;
-  std::mutex mutex_{};
-  ParticipantGate gate_{};
 };
 
 }  // namespace

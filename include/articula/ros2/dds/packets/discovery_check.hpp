@@ -81,7 +81,7 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
   }
 }
 
-inline constexpr std::uint32_t longest_lease = 3600;  ///< of a participant [s]; ROS has 10 or 20
+inline constexpr std::uint32_t longest_lease = 300;  ///< of a participant [s]; ROS has 10 or 20
 
 /// What a parameter of discovery is worth.
 enum class Worth : unsigned char {

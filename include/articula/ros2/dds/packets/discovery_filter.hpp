@@ -19,19 +19,16 @@ namespace detail {
 /// Real-time: yes.
 constexpr void make_gap(std::span<std::byte> packet, std::uint32_t flags, Packet part) {
   const bool little = (flags & 1U) != 0;
-  const std::span<std::byte> own = packet.subspan(
-      static_cast<std::size_t>(part.data() - packet.data()) - 4);
-  constexpr std::size_t head = 4, ids = 8, number = 8;  // [bytes]
-  const std::uint64_t end = sequence_at(part, 12, little) + 1;
-  own[0] = static_cast<std::byte>(gap_part);
-  own[1] = static_cast<std::byte>(flags & 1U);
-  for (std::size_t k = 0; k < ids + number; ++k) own[head + k] = part[4 + k];
-  const std::span<std::byte> rest = own.subspan(head + ids + number);
-  for (std::size_t k = 0; k < number; ++k) {
-    const std::size_t significance = (k < 4 ? 4 : 0) + (little ? k % 4 : 3 - k % 4);
-    rest[k] = static_cast<std::byte>(end >> (8 * significance) & 0xffU);
-  }
-  for (std::size_t k = 0; k < 4; ++k) rest[number + k] = std::byte{0};  // no further numbers
+  constexpr std::size_t head = 4, ids_and_number = 16, end = 16, count = 24;  // [bytes]
+  const std::uint64_t next = sequence_at(part, 12, little) + 1;
+  const std::span<std::byte> own = mutable_part(packet, part);
+  for (std::size_t k = 0; k < ids_and_number; ++k) own[k] = own[k + 4];
+  put_sequence(own, end, little, next);
+  for (std::size_t k = 0; k < 4; ++k) own[count + k] = std::byte{0};  // no further numbers
+  const std::span<std::byte> kind =
+      packet.subspan(static_cast<std::size_t>(part.data() - packet.data()) - head, 2);
+  kind[0] = static_cast<std::byte>(gap_part);
+  kind[1] = static_cast<std::byte>(flags & 1U);
 }
 
 }  // namespace detail

@@ -13,7 +13,11 @@ namespace articula::ros2::dds {
 
 namespace detail {
 
-inline constexpr std::uint32_t gap_part = 0x08, message_part = 0x15, fragment_part = 0x16;
+/// Kinds of parts. Source: [RTPS], 9.4.5.
+inline constexpr std::uint32_t acknowledgement_part = 0x06, heartbeat_part = 0x07, gap_part = 0x08,
+                               source_part = 0x0c, destination_part = 0x0e,
+                               fragments_missing_part = 0x12, fragments_heartbeat_part = 0x13,
+                               message_part = 0x15, fragment_part = 0x16;
 
 /// The writers of discovery: of participants, of writers, of readers. Source: [RTPS], table 9.2.
 inline constexpr std::uint32_t participant_writer = 0x000100c2, writer_writer = 0x000003c2,
@@ -21,8 +25,11 @@ inline constexpr std::uint32_t participant_writer = 0x000100c2, writer_writer = 
 
 /// The writer of a message or a fragment. Its fields are there.
 constexpr std::uint32_t writer_of(Packet part) noexcept { return number_at(part, 8, 4, false); }
+constexpr bool writes_endpoints(std::uint32_t writer) noexcept {
+  return writer == writer_writer || writer == reader_writer;
+}
 constexpr bool writes_discovery(std::uint32_t writer) noexcept {
-  return writer == participant_writer || writer == writer_writer || writer == reader_writer;
+  return writer == participant_writer || writes_endpoints(writer);
 }
 /// Whether a writer is one of DDS itself. Source: [RTPS], 9.3.1.2.
 constexpr bool is_builtin(std::uint32_t writer) noexcept { return (writer & 0xc0U) == 0xc0U; }
@@ -30,11 +37,6 @@ constexpr bool is_builtin(std::uint32_t writer) noexcept { return (writer & 0xc0
 /// The bytes of a message of discovery. Those of ROS have some hundred, and Fast DDS 2.9.1 keeps
 /// all that come out of order.
 inline constexpr std::size_t largest_discovery = 8192;
-
-/// A sequence number: its upper half comes first.
-constexpr std::uint64_t sequence_at(Packet part, std::size_t at, bool little) noexcept {
-  return std::uint64_t{number_at(part, at, 4, little)} << 32 | number_at(part, at + 4, 4, little);
-}
 
 /// The inline parameters of a message or a fragment, and what follows them.
 struct Body {
@@ -63,7 +65,6 @@ constexpr std::optional<Body> body_of(Packet part, std::uint32_t flags,
 /// A message of discovery.
 struct DiscoveryMessage {
   std::uint32_t writer = 0;
-  std::uint64_t number = 0;  ///< that the writer gave it
   Body body{};
   std::optional<ParameterList> list{};  ///< what it announces, or the identity of what ends
   bool ends = false;                    ///< what it names leaves
@@ -77,8 +78,7 @@ constexpr std::optional<DiscoveryMessage> discovery_of(Packet part, std::uint32_
   if (!writes_discovery(writer_of(part))) return std::nullopt;
   const auto body = body_of(part, flags, 20);
   if (!body) return std::nullopt;
-  DiscoveryMessage message{
-      .writer = writer_of(part), .number = sequence_at(part, 12, (flags & 1U) != 0), .body = *body};
+  DiscoveryMessage message{.writer = writer_of(part), .body = *body};
   if (body->has_inline_list) {
     message.body.inline_list.for_each([&](std::uint32_t id, Packet value, Worth) {
       constexpr std::uint32_t status = 0x71;  // 1: disposed, 2: unregistered, 3: both

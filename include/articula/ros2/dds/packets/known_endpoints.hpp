@@ -3,6 +3,7 @@
 #pragma once
 
 #include "articula/ros2/dds/packets/discovery_message.hpp"
+#include "articula/ros2/dds/packets/writer_numbers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,13 +21,21 @@ namespace articula::ros2::dds {
 /// The beginning of the identity of all that a participant has.
 using Prefix = std::array<std::byte, 12>;
 
+/// The prefix in some bytes, which are there.
+inline Prefix prefix_at(Packet bytes, std::size_t at) {
+  Prefix prefix{};
+  std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), prefix.size(), prefix.begin());
+  return prefix;
+}
+
 /// What a participant and its readers and writers have announced of themselves. What DDS forbids to
-/// change never changes: names, durability, liveliness, ownership, order, reliability. Nor does the
-/// lease of a participant. Fast DDS 2.9.1 ends the program if a reader becomes reliable.
+/// change never changes, also not after their end: names, durability, liveliness, ownership, order,
+/// reliability. Nor does the lease of a participant. Fast DDS 2.9.1 ends the program if a reader
+/// becomes reliable.
 /// For one thread at a time. Real-time: no (allocates).
 class KnownEndpoints {
  public:
-  static constexpr std::size_t most = 4096;  ///< of one participant at a time
+  static constexpr std::size_t most = 1 << 16;  ///< in the life of a participant
 
   /// Whether all identities in a message are one, of a participant or of something that it has.
   [[nodiscard]] static bool is_of(const Prefix& source, const detail::DiscoveryMessage& message) {
@@ -47,6 +56,7 @@ class KnownEndpoints {
         return agrees(value);
       });
     };
+    constexpr std::uint32_t key = 0x70;
     if (message.body.has_inline_list && !check(message.body.inline_list, key)) return false;
     if (!message.list) return true;
     count = 0;
@@ -55,77 +65,49 @@ class KnownEndpoints {
 
   /// Whether an announcement says what others of the same thing did.
   /// @param message  is_of, with a list
-  /// @param room     for memory_of it, if it is new [bytes]
+  /// @param room     for what Fast DDS keeps of it [bytes]
   [[nodiscard]] bool admits(const detail::DiscoveryMessage& message, std::size_t room) {
-    const Name name{message.writer, entity_in(*message.list, identity_in(message))};
-    const std::size_t constants = constants_of(*message.list), memory = memory_of(message);
-    if (const auto known = said_.find(name); known != said_.end()) {
-      Said& said = known->second;
-      if (said.constants != constants) return false;
-      if (memory > said.memory + room) return false;
-      if (message.number > std::max(said.announced, said.ended)) take(said, memory);
-      said.announced = std::max(said.announced, message.number);
-      return true;
-    }
-    if (said_.size() >= most) forget_ended();
-    if (said_.size() >= most || memory > room) return false;
-    if (message.number <= forgotten_[message.writer]) return false;
-    take(said_[name] = {.constants = constants, .announced = message.number}, memory);
+    const std::size_t memory = 1024 + message.list->bytes.size();  // roughly
+    const Name name{message.writer, entity_in(message)};
+    const auto known = said_.find(name);
+    if (known == said_.end() && (said_.size() >= most || memory > room)) return false;
+    Said& said = said_[name];
+    const std::size_t constants = constants_of(*message.list);
+    if (known != said_.end() && said.constants != constants) return false;
+    const std::size_t more = memory - std::min(memory, said.memory);
+    if (more > room) return false;
+    said.constants = constants;
+    said.memory += more;
+    memory_ += more;
     return true;
   }
-  /// What a message names has ended.
-  /// @param message  is_of, not of a participant
-  void end(const detail::DiscoveryMessage& message) {
-    Name name{message.writer, 0};
-    if (message.list) name.second = entity_in(*message.list, identity_in(message));
-    if (name.second == 0) name.second = entity_in(message.body.inline_list, key);
-    const auto known = said_.find(name);
-    if (known == said_.end() || message.number <= known->second.announced) return;
-    known->second.ended = std::max(known->second.ended, message.number);
-    take(known->second, 0);
-  }
-  /// What all that has not ended takes [bytes].
+  /// What Fast DDS keeps of all that was announced, at most [bytes].
   [[nodiscard]] std::size_t memory() const { return memory_; }
 
- private:
-  static constexpr std::uint32_t key = 0x70;
+  /// The numbers of a writer, if it is known. Those of discovery and of liveliness are.
+  [[nodiscard]] WriterNumbers* numbers_of(std::uint32_t writer) {
+    constexpr std::uint32_t liveliness_writer = 0x000200c2;
+    if (detail::writes_endpoints(writer) || writer == liveliness_writer) return &builtin_[writer];
+    const auto known = said_.find({detail::writer_writer, writer});
+    return known == said_.end() ? nullptr : &known->second.numbers;
+  }
 
+ private:
   using Name = std::pair<std::uint32_t, std::uint32_t>;  // writer of discovery, entity
   struct Said {
-    std::size_t constants = 0, memory = 0;       ///< no memory: it has ended
-    std::uint64_t announced = 0, ended = 0;  ///< numbers of the last messages
+    std::size_t constants = 0, memory = 0;
+    WriterNumbers numbers{};
   };
 
-  /// What Fast DDS keeps of an announcement, roughly [bytes].
-  [[nodiscard]] static std::size_t memory_of(const detail::DiscoveryMessage& message) {
-    return 1024 + message.list->bytes.size();
-  }
-  void take(Said& said, std::size_t memory) {
-    memory_ += memory - said.memory;  // modulo
-    said.memory = memory;
-  }
-
-  /// Makes room. Fast DDS may see messages in another order than they come: an announcement from
-  /// before the end of something that is forgotten could change what Fast DDS still knows.
-  void forget_ended() {
-    std::erase_if(said_, [&](const auto& each) {
-      const auto& [name, said] = each;
-      if (said.memory > 0) return false;
-      std::uint64_t& last = forgotten_[name.first];
-      last = std::max(last, said.ended);
-      return true;
-    });
-  }
   /// The parameter with the identity of what a message announces.
   [[nodiscard]] static std::uint32_t identity_in(const detail::DiscoveryMessage& message) {
     return message.writer == detail::participant_writer ? 0x50 : 0x5a;
   }
-  /// The entity in a parameter of a list; 0 if it is not there.
-  [[nodiscard]] static std::uint32_t entity_in(const detail::ParameterList& list,
-                                               std::uint32_t parameter) {
+  /// The entity that a message announces.
+  [[nodiscard]] static std::uint32_t entity_in(const detail::DiscoveryMessage& message) {
     std::uint32_t entity = 0;
-    list.for_each([&](std::uint32_t id, Packet value, detail::Worth) {
-      if (id == parameter) entity = detail::number_at(value, Prefix{}.size(), 4, false);
+    message.list->for_each([&](std::uint32_t id, Packet value, detail::Worth) {
+      if (id == identity_in(message)) entity = detail::number_at(value, Prefix{}.size(), 4, false);
       return true;
     });
     return entity;
@@ -148,7 +130,7 @@ class KnownEndpoints {
 
   std::map<Name, Said> said_{};
   std::size_t memory_ = 0;
-  std::map<std::uint32_t, std::uint64_t> forgotten_{};  ///< the last end, by writer of discovery
+  std::map<std::uint32_t, WriterNumbers> builtin_{};
 };
 
 }  // namespace articula::ros2::dds

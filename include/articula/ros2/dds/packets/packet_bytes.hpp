@@ -26,6 +26,23 @@ constexpr std::uint32_t number_at(Packet bytes, std::size_t at, std::size_t size
   return value;
 }
 
+/// A sequence number: its upper half comes first. Source: [RTPS], 9.3.2.
+constexpr std::uint64_t sequence_at(Packet bytes, std::size_t at, bool little) noexcept {
+  return std::uint64_t{number_at(bytes, at, 4, little)} << 32 | number_at(bytes, at + 4, 4, little);
+}
+/// Writes a sequence number.
+constexpr void put_sequence(std::span<std::byte> bytes, std::size_t at, bool little,
+                            std::uint64_t value) noexcept {
+  for (std::size_t k = 0; k < 8; ++k) {
+    const std::size_t significance = (k < 4 ? 4 : 0) + (little ? k % 4 : 3 - k % 4);
+    bytes[at + k] = static_cast<std::byte>(value >> (8 * significance) & 0xffU);
+  }
+}
+/// A part of a packet that may be changed.
+constexpr std::span<std::byte> mutable_part(std::span<std::byte> packet, Packet part) noexcept {
+  return packet.subspan(static_cast<std::size_t>(part.data() - packet.data()), part.size());
+}
+
 /// Calls function(id, value) for each of a list of parameters, which returns whether it is good.
 /// @return the length of the list with its end; 0 if it does not end within the bytes, a parameter
 ///         is not good, or one does not end at a multiple of four ([RTPS], 9.4.2.11)

@@ -37,34 +37,25 @@ constexpr bool is_good_set(Packet part, bool little, std::size_t at, std::size_t
   return bits <= 256 && part.size() >= at + 4 + (bits + 31) / 32 * 4 + behind;
 }
 
-/// A gap: numbers of messages that will not come. Fast DDS 2.9.1 notes each of them.
-constexpr bool is_good_gap(Packet part, bool little) noexcept {
-  if (!is_good_set(part, little, 24, 0)) return false;
-  const std::uint64_t first = sequence_at(part, 8, little), end = sequence_at(part, 16, little);
-  constexpr std::uint64_t most_of_builtin = 1 << 12, most = 1 << 20;
-  const bool builtin = is_builtin(number_at(part, 4, 4, false));
-  return end < first || end - first <= (builtin ? most_of_builtin : most);
-}
-
 /// A part without its head of four bytes.
 constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part) noexcept {
   const bool little = (flags & 1U) != 0;
   switch (kind) {
-    case 0x06:  // ACKNACK
+    case acknowledgement_part:
       return is_good_set(part, little, 16, 4);
-    case 0x07:  // HEARTBEAT
+    case heartbeat_part:
       return part.size() >= 28;
     case gap_part:
-      return is_good_gap(part, little);
-    case 0x09:  // INFO_TS
+      return is_good_set(part, little, 24, 0);
+    case 0x09:  // time
       return (flags & 2U) != 0 || part.size() >= 8;
-    case 0x0c:  // INFO_SRC
+    case source_part:
       return part.size() >= 20;
-    case 0x0e:  // INFO_DST
+    case destination_part:
       return part.size() >= 12;
-    case 0x12:  // NACK_FRAG
+    case fragments_missing_part:
       return is_good_set(part, little, 20, 4);
-    case 0x13:  // HEARTBEAT_FRAG
+    case fragments_heartbeat_part:
       return part.size() >= 24;
     case message_part:
       return is_good_message(kind, flags, part);

@@ -7,7 +7,6 @@
 #include "articula/ros2/dds/packets/packet_check.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -34,31 +33,27 @@ class ParticipantGate {
   using Time = std::chrono::steady_clock::time_point;
 
   static constexpr int most_at_once = 256;
-  static constexpr std::size_t most_known = 4096;    ///< for longest_lease after their last sign
-  static constexpr std::size_t most_memory = 1 << 27;  ///< for all announcements [bytes]
-  static constexpr std::size_t most_waiting = 8192;  ///< for their second announcement
+  static constexpr std::size_t most_known = 4096;      ///< for longest_lease after their last sign
+  static constexpr std::size_t most_memory = 1 << 28;  ///< for all announcements [bytes]
+  static constexpr std::size_t most_waiting = 8192;    ///< for their second announcement
 
   /// Whether to hand a packet on.
   /// @param[in,out] packet  well-formed, as filter_discovery left it
   /// @param now             not before the last one
   /// Real-time: no (allocates).
   [[nodiscard]] bool admits(std::span<std::byte> packet, Time now) {
-    Prefix source{};
-    const auto read_source = [&](Packet bytes, std::size_t at) {
-      std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), source.size(), source.begin());
-    };
-    read_source(packet, 8);
+    Prefix source = prefix_at(packet, 8);
+    note_sign(source, now);
     return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
-      constexpr std::uint32_t info_source = 0x0c;
-      if (kind == info_source) read_source(part, 8);
+      if (kind == detail::source_part) note_sign(source = prefix_at(part, 8), now);
       if (kind != detail::message_part) return true;
       const auto discovery = detail::discovery_of(part, flags);
       if (!discovery) return true;
       const bool is_participant = discovery->writer == detail::participant_writer;
       if (!KnownEndpoints::is_of(source, *discovery)) return false;
-      if (is_participant && !admits(source, now)) return false;
+      if (is_participant && !discovery->ends && !admits(source, now)) return false;
       const auto known = known_.find(source);
-      if (known == known_.end()) return discovery->ends || !discovery->list;
+      if (known == known_.end()) return false;
       if (admits(known->second.endpoints, *discovery)) return true;
       if (is_participant) return false;
       detail::make_gap(packet, flags, part);
@@ -66,9 +61,15 @@ class ParticipantGate {
     });
   }
 
+  /// What a participant has announced; null if it is not known.
+  [[nodiscard]] KnownEndpoints* endpoints_of(const Prefix& source) {
+    const auto known = known_.find(source);
+    return known == known_.end() ? nullptr : &known->second.endpoints;
+  }
+
  private:
   struct Known {
-    Time last{};  ///< announcement
+    Time last{};  ///< sign
     KnownEndpoints endpoints{};
   };
 
@@ -90,39 +91,38 @@ class ParticipantGate {
   };
 
   [[nodiscard]] bool admits(const Prefix& source, Time now) {
-    if (const auto known = known_.find(source); known != known_.end()) {
-      known->second.last = now;
-      return true;
-    }
+    if (known_.contains(source)) return true;
     if (!first_.take(now) && !(waiting_.contains(source) && second_.take(now))) {
       await(source);
       return false;
     }
-    if (known_.size() >= most_known) {
-      const auto oldest = std::min_element(
-          known_.begin(), known_.end(),
-          [](const auto& one, const auto& other) { return one.second.last < other.second.last; });
-      // Fast DDS may still have a participant whose lease is not over.
-      if (now - oldest->second.last <= std::chrono::seconds(detail::longest_lease)) return false;
-      memory_ -= oldest->second.endpoints.memory();
-      known_.erase(oldest);
-    }
+    forget_silent(now);
+    if (known_.size() >= most_known) return false;
     known_[source].last = now;
     return true;
   }
 
   /// A message of discovery of a participant that is known.
   [[nodiscard]] bool admits(KnownEndpoints& endpoints, const detail::DiscoveryMessage& message) {
-    if (!message.list && !message.ends) return true;
+    if (!message.list || message.ends) return true;
     const std::size_t before = endpoints.memory();
-    bool admitted = true;
-    if (!message.ends) {
-      admitted = endpoints.admits(message, most_memory - memory_);
-    } else if (message.writer != detail::participant_writer) {
-      endpoints.end(message);
-    }
-    memory_ += endpoints.memory() - before;  // modulo
+    const bool admitted = endpoints.admits(message, most_memory - memory_);
+    memory_ += endpoints.memory() - before;
     return admitted;
+  }
+
+  /// Forgets participants that Fast DDS does not have any more, since their leases are over.
+  void forget_silent(Time now) {
+    std::erase_if(known_, [&](const auto& each) {
+      const Known& own = each.second;
+      const bool is_silent = now - own.last > std::chrono::seconds(detail::longest_lease);
+      if (is_silent) memory_ -= own.endpoints.memory();
+      return is_silent;
+    });
+  }
+  /// Fast DDS keeps a participant as long as packets come from it.
+  void note_sign(const Prefix& source, Time now) {
+    if (const auto known = known_.find(source); known != known_.end()) known->second.last = now;
   }
 
   /// Remembers a participant until it announces itself again, or many others have come.
