@@ -25,9 +25,9 @@ namespace articula::ros2::dds {
 /// second announcement: participants repeat theirs, and a storm of ever new ones does not. Those
 /// that are known may announce themselves as often as they like.
 ///
-/// Announcements of readers and writers pass if their participant is known. Those for which there is
-/// no room, or that KnownEndpoints refuses, become gaps. All other packets pass. For one thread at a
-/// time.
+/// Announcements of readers and writers pass if their participant is known. Those for which there
+/// is no room, or that KnownEndpoints refuses, become gaps. All other packets pass. For one thread
+/// at a time.
 class ParticipantGate {
  public:
   using Time = std::chrono::steady_clock::time_point;
