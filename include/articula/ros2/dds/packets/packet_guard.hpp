@@ -17,8 +17,8 @@
 namespace articula::ros2::dds {
 
 /// Stands between the network and Fast DDS. It drops packets that would harm Fast DDS, and changes
-/// others: see is_well_formed, filter_discovery, ParticipantGate and WriterNumbers. For any threads.
-/// Real-time: no (allocates, locks).
+/// others: see is_well_formed, filter_discovery, ParticipantGate and WriterNumbers. For any
+/// threads. Real-time: no (allocates, locks).
 class PacketGuard {
  public:
   using Time = ParticipantGate::Time;
