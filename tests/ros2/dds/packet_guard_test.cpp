@@ -20,6 +20,7 @@ using Bytes = std::vector<std::byte>;
 constexpr std::uint64_t step = WriterNumbers::longest_step, margin = WriterNumbers::margin,
                         ahead = WriterNumbers::ahead, huge = std::uint64_t{1} << 50;
 constexpr PacketGuard::Time now{std::chrono::hours(1)};
+constexpr std::byte padding{0x01};
 constexpr unsigned writer = 3;  // of a participant, best effort or reliable
 
 void append(Bytes& bytes, const std::vector<unsigned>& values) {
@@ -121,14 +122,19 @@ TEST_CASE("behind a leap the numbers go on, and return as they were") {
   CHECK(numbers.of_message(~std::uint64_t{0}).value() <= 2 * (7 + margin + step));
 }
 
-TEST_CASE("Fast DDS that begins again gets small steps") {
+TEST_CASE("a reader that finds a writer again begins with small numbers") {
   WriterNumbers numbers;
-  for (std::uint64_t number = 1; number < 20 * step; number += step / 2) {
-    REQUIRE(numbers.of_message(number) == number);
-    numbers.acknowledge(number + 1);
-  }
-  numbers.acknowledge(0);
-  CHECK(numbers.of_beginning(20 * step) <= 2 * step);
+  numbers.match(true);
+  numbers.match(true);
+  REQUIRE(numbers.of_message(step) == step);
+  REQUIRE(numbers.of_message(2 * step) == 2 * step);
+  numbers.match(false);
+  CHECK(numbers.of_message(2 * step + 1) == 2 * step + 1);  // for the other reader
+  numbers.match(false);
+  CHECK(numbers.of_beginning(3 * step) == margin);
+  CHECK(numbers.original(margin) == 3 * step);
+  numbers.match(true);
+  CHECK(numbers.of_message(3 * step + 1) == margin + 1);
 }
 
 TEST_CASE("a gap is so long that Fast DDS need not note many of its numbers") {
@@ -158,7 +164,8 @@ TEST_CASE("packets of a writer that has been there for long have small numbers")
     REQUIRE(guard.receive(next, now));
     CHECK(number_at(next, of_message, little) == margin + 10);
     Bytes old = message(9, little);
-    CHECK_FALSE(guard.receive(old, now));
+    CHECK(guard.receive(old, now));
+    CHECK(old[20] == padding);
     for (const unsigned kind : {0x06U, 0x12U}) {
       Bytes answer = acknowledgement(margin + 3, little, kind);
       REQUIRE(PacketGuard::has_acknowledgement(answer));
@@ -171,7 +178,8 @@ TEST_CASE("packets of a writer that has been there for long have small numbers")
     CHECK(number_at(gap, of_first, little) == margin + 3);
     CHECK(number_at(gap, of_second, little) == margin + 3 + step);
     Bytes far = with_two(0x08, huge + 3 + ahead, huge + 9 + ahead, little);
-    CHECK_FALSE(guard.receive(far, now));
+    CHECK(guard.receive(far, now));
+    CHECK(far[20] == padding);
     PacketGuard::Guid guid{};
     for (std::size_t k = 0; k < prefix.size(); ++k) guid[k] = static_cast<std::byte>(prefix[k]);
     guid[14] = std::byte{1};
@@ -179,6 +187,26 @@ TEST_CASE("packets of a writer that has been there for long have small numbers")
     CHECK(guard.original(guid, margin + 10) == huge + 10);
     guid[14] = std::byte{2};
     CHECK(guard.original(guid, margin + 10) == margin + 10);  // nobody knows it
+  }
+}
+
+TEST_CASE("messages of discovery that are far ahead are hidden, and the rest of a packet is not") {
+  for (const bool open : {false, true}) {  // the last part leaves its length out
+    PacketGuard guard;
+    introduce(guard);
+    Bytes bytes = header();
+    for (const std::uint64_t number : {std::uint64_t{2}, 2 + ahead}) {
+      Bytes body;
+      append(body, {0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 3, 0xc2});
+      append_number(body, number, true);
+      append_part(bytes, 0x15, true, body);
+    }
+    if (open) bytes[46] = std::byte{0};
+    REQUIRE(guard.receive(bytes, now));
+    CHECK(bytes[20] == std::byte{0x15});
+    CHECK(bytes[44] == padding);
+    CHECK(bytes[46] == std::byte{20});  // or else readers would go on within it
+    CHECK(dds::is_well_formed(bytes));
   }
 }
 

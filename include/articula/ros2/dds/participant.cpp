@@ -84,7 +84,7 @@ void Participant::remove(const Writer& writer) {
 void Participant::subscribe(const TopicEndpoint& topic, Transport::OnSample on_sample) {
   check_full_name("node", topic.node);
   readers_.push_back(std::make_unique<Reader>(
-      *participant_, inbox_, endpoint_of(topic),
+      *participant_, guard_, inbox_, endpoint_of(topic),
       [call = std::move(on_sample)](const Arrival& arrival) { call(arrival.bytes); }));
   graph_.add(topic.node, readers_.back()->guid());
   graph_changed_ = true;

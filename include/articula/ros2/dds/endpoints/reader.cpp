@@ -7,6 +7,7 @@
 #include <fastdds/rtps/participant/RTPSParticipant.h>
 #include <fastrtps/qos/ReaderQos.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -21,11 +22,20 @@ constexpr std::size_t incomplete_messages = 256;
 constexpr std::size_t incomplete_largest_messages = 8;
 constexpr std::size_t waiting_largest_messages = 4;
 
+PacketGuard::Guid bytes_of(const rtps::GUID_t& guid) {
+  constexpr auto to_byte = [](rtps::octet octet) { return std::byte{octet}; };
+  PacketGuard::Guid bytes{};
+  const auto entity = std::ranges::transform(guid.guidPrefix.value, bytes.begin(), to_byte).out;
+  std::ranges::transform(guid.entityId.value, entity, to_byte);
+  return bytes;
+}
+
 }  // namespace
 
-Reader::Reader(rtps::RTPSParticipant& participant, Inbox& inbox, const Endpoint& endpoint,
-               std::function<void(Arrival&)> deliver)
-    : inbox_(&inbox),
+Reader::Reader(rtps::RTPSParticipant& participant, std::shared_ptr<PacketGuard> guard, Inbox& inbox,
+               const Endpoint& endpoint, std::function<void(Arrival&)> deliver)
+    : guard_(std::move(guard)),
+      inbox_(&inbox),
       queue_(endpoint.quality.depth, waiting_largest_messages * endpoint.largest_message,
              std::move(deliver)),
       pool_(std::make_shared<PayloadPool>(endpoint.largest_message,
@@ -61,7 +71,9 @@ Reader::Reader(rtps::RTPSParticipant& participant, Inbox& inbox, const Endpoint&
 Reader::~Reader() { rtps::RTPSDomain::removeRTPSReader(reader_); }
 
 void Reader::onReaderMatched(rtps::RTPSReader* /*reader*/, rtps::MatchingInfo& info) {
-  writers_.set(info.remoteEndpointGuid, info.status == rtps::MATCHED_MATCHING);
+  const bool found = info.status == rtps::MATCHED_MATCHING;
+  guard_->match(bytes_of(info.remoteEndpointGuid), found);
+  writers_.set(info.remoteEndpointGuid, found);
   inbox_->wake();
 }
 
@@ -71,7 +83,8 @@ void Reader::onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheCh
     const auto* const data = reinterpret_cast<const std::byte*>(change->serializedPayload.data);
     arrival.bytes.assign(data, data + change->serializedPayload.length);
     arrival.identity.writer_guid(change->writerGUID);
-    arrival.identity.sequence_number(change->sequenceNumber);
+    arrival.identity.sequence_number(rtps::SequenceNumber_t(
+        guard_->original(bytes_of(change->writerGUID), change->sequenceNumber.to64long())));
     arrival.related = change->write_params.sample_identity();
     inbox_->put(queue_, std::move(arrival));
   }

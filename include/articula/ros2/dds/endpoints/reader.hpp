@@ -5,6 +5,7 @@
 #include "articula/ros2/dds/endpoints/endpoint.hpp"
 #include "articula/ros2/dds/endpoints/inbox.hpp"
 #include "articula/ros2/dds/endpoints/payload_pool.hpp"
+#include "articula/ros2/dds/packets/packet_guard.hpp"
 
 #include <fastdds/rtps/history/ReaderHistory.h>
 #include <fastdds/rtps/reader/RTPSReader.h>
@@ -19,9 +20,10 @@ namespace articula::ros2::dds {
 /// users do not keep the peers' writers waiting.
 class Reader final : public eprosima::fastrtps::rtps::ReaderListener {
  public:
+  /// @param guard  of the participant's packets
   /// @throws std::runtime_error if Fast DDS refuses
-  Reader(eprosima::fastrtps::rtps::RTPSParticipant& participant, Inbox& inbox,
-         const Endpoint& endpoint, std::function<void(Arrival&)> deliver);
+  Reader(eprosima::fastrtps::rtps::RTPSParticipant& participant, std::shared_ptr<PacketGuard> guard,
+         Inbox& inbox, const Endpoint& endpoint, std::function<void(Arrival&)> deliver);
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
   ~Reader() override;
@@ -37,6 +39,7 @@ class Reader final : public eprosima::fastrtps::rtps::ReaderListener {
   using ReaderListener::onReaderMatched;
 
  private:
+  std::shared_ptr<PacketGuard> guard_;
   Inbox* inbox_;
   Inbox::Queue queue_;
   Matched writers_{};

@@ -13,18 +13,9 @@ constexpr std::size_t cdr_header = 4;
 
 bool is_big_endian(Sample message) { return (message[1] & std::byte{1}) == std::byte{0}; }
 
-constexpr std::byte to_byte(rtps::octet octet) { return std::byte{octet}; }
-
 // Implementations of DDS begin their identifiers with the number of their vendor.
 bool is_cyclone(const rtps::GUID_t& guid) {
   return guid.guidPrefix.value[0] == 0x01 && guid.guidPrefix.value[1] == 0x10;
-}
-
-PacketGuard::Guid bytes_of(const rtps::GUID_t& guid) {
-  PacketGuard::Guid bytes{};
-  const auto entity = std::ranges::transform(guid.guidPrefix.value, bytes.begin(), to_byte).out;
-  std::ranges::transform(guid.entityId.value, entity, to_byte);
-  return bytes;
 }
 
 }  // namespace
@@ -38,16 +29,13 @@ bool ClientFilter::is_relevant(const rtps::CacheChange_t& change,
 ServiceServer::ServiceServer(rtps::RTPSParticipant& participant, Inbox& inbox,
                              std::shared_ptr<PacketGuard> guard, const Endpoint& requests,
                              const Endpoint& replies)
-    : guard_(std::move(guard)),
-      writer_(participant, inbox, replies, &filter_),
-      reader_(participant, inbox, requests, [this](const Arrival& arrival) { take(arrival); }) {}
+    : writer_(participant, inbox, replies, &filter_),
+      reader_(participant, std::move(guard), inbox, requests,
+              [this](const Arrival& arrival) { take(arrival); }) {}
 
 void ServiceServer::take(const Arrival& arrival) {
   Client client;
   client.related = arrival.identity;
-  const std::uint64_t number = arrival.identity.sequence_number().to64long();
-  client.related.sequence_number(
-      rtps::SequenceNumber_t(guard_->original(bytes_of(arrival.identity.writer_guid()), number)));
   client.is_cyclone = is_cyclone(arrival.identity.writer_guid());
   if (!client.is_cyclone) {
     const rtps::GUID_t& reader = arrival.related.writer_guid();

@@ -65,7 +65,6 @@ class ServiceServer {
   void take(const Arrival& arrival);
 
   OnRequest on_request_{};
-  std::shared_ptr<PacketGuard> guard_;
   ClientFilter filter_{};
   Writer writer_;
   Reader reader_;

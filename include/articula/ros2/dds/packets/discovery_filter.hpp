@@ -19,16 +19,13 @@ namespace detail {
 /// Real-time: yes.
 constexpr void make_gap(std::span<std::byte> packet, std::uint32_t flags, Packet part) {
   const bool little = (flags & 1U) != 0;
-  constexpr std::size_t head = 4, ids_and_number = 16, end = 16, count = 24;  // [bytes]
+  constexpr std::size_t ids_and_number = 16, end = 16, count = 24;  // [bytes]
   const std::uint64_t next = sequence_at(part, 12, little) + 1;
   const std::span<std::byte> own = mutable_part(packet, part);
   for (std::size_t k = 0; k < ids_and_number; ++k) own[k] = own[k + 4];
   put_sequence(own, end, little, next);
   for (std::size_t k = 0; k < 4; ++k) own[count + k] = std::byte{0};  // no further numbers
-  const std::span<std::byte> kind =
-      packet.subspan(static_cast<std::size_t>(part.data() - packet.data()) - head, 2);
-  kind[0] = static_cast<std::byte>(gap_part);
-  kind[1] = static_cast<std::byte>(flags & 1U);
+  put_head(packet, part, gap_part, flags);
 }
 
 }  // namespace detail

@@ -42,6 +42,21 @@ constexpr void put_sequence(std::span<std::byte> bytes, std::size_t at, bool lit
 constexpr std::span<std::byte> mutable_part(std::span<std::byte> packet, Packet part) noexcept {
   return packet.subspan(static_cast<std::size_t>(part.data() - packet.data()), part.size());
 }
+/// Changes the kind and the size of a part, behind its head of four bytes.
+constexpr void put_head(std::span<std::byte> packet, Packet part, std::uint32_t kind,
+                        std::uint32_t flags) noexcept {
+  const std::size_t head = static_cast<std::size_t>(part.data() - packet.data()) - 4;
+  const std::size_t low = (flags & 1U) != 0 ? 2 : 3;
+  packet[head] = static_cast<std::byte>(kind);
+  packet[head + 1] = static_cast<std::byte>(flags & 1U);
+  packet[head + low] = static_cast<std::byte>(part.size() & 0xffU);
+  packet[head + 5 - low] = static_cast<std::byte>(part.size() >> 8U);
+}
+/// Turns a part into padding, which readers skip. Source: [RTPS], 9.4.5.14.
+constexpr void hide_part(std::span<std::byte> packet, Packet part, std::uint32_t flags) noexcept {
+  constexpr std::uint32_t padding = 0x01;
+  put_head(packet, part, padding, flags);
+}
 
 /// Calls function(id, value) for each of a list of parameters, which returns whether it is good.
 /// @return the length of the list with its end; 0 if it does not end within the bytes, a parameter

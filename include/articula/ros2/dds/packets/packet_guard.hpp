@@ -30,7 +30,9 @@ class PacketGuard {
     if (!is_well_formed(packet)) return false;
     filter_discovery(packet);
     const std::lock_guard lock(mutex_);
-    return gate_.admits(packet, now) && number(packet);
+    if (!gate_.admits(packet, now)) return false;
+    number(packet);
+    return true;
   }
   /// Changes a packet of Fast DDS such that its receivers understand it.
   /// @param[in,out] packet  to the network
@@ -63,13 +65,16 @@ class PacketGuard {
     });
     return has;
   }
+  /// A reader of Fast DDS has found a writer, or has lost it.
+  void match(const Guid& writer, bool found) {
+    const std::lock_guard lock(mutex_);
+    if (WriterNumbers* const numbers = numbers_of(writer)) numbers->match(found);
+  }
   /// The number of a message that the sender knows.
   /// @param number  as Fast DDS has got it
   [[nodiscard]] std::uint64_t original(const Guid& writer, std::uint64_t number) {
     const std::lock_guard lock(mutex_);
-    constexpr std::size_t entity = Prefix{}.size();
-    const WriterNumbers* const numbers =
-        numbers_of(prefix_at(writer, 0), detail::number_at(writer, entity, 4, false));
+    const WriterNumbers* const numbers = numbers_of(writer);
     return numbers == nullptr ? number : numbers->original(number);
   }
 
@@ -83,11 +88,15 @@ class PacketGuard {
     return known == nullptr ? nullptr : known->numbers_of(writer);
   }
 
-  /// Puts the numbers of WriterNumbers into the parts of a packet.
-  /// @return whether all of them have one
-  [[nodiscard]] bool number(std::span<std::byte> packet) {
+  [[nodiscard]] WriterNumbers* numbers_of(const Guid& writer) {
+    constexpr std::size_t entity = Prefix{}.size();
+    return numbers_of(prefix_at(writer, 0), detail::number_at(writer, entity, 4, false));
+  }
+
+  /// Puts the numbers of WriterNumbers into the parts of a packet. Hides those that have none.
+  void number(std::span<std::byte> packet) {
     Prefix source = prefix_at(packet, 8);
-    return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
+    for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
       if (kind == detail::source_part) source = prefix_at(part, 8);
       const bool is_message = kind == detail::message_part || kind == detail::fragment_part;
       const bool has_numbers = is_message || kind == detail::gap_part ||
@@ -98,16 +107,22 @@ class PacketGuard {
       WriterNumbers* const numbers = numbers_of(source, writer);
       if (numbers == nullptr) return true;  // Fast DDS does not know the writer, either
       const Place place{detail::mutable_part(packet, part), (flags & 1U) != 0};
-      if (kind == detail::gap_part) return number_gap(*numbers, place);
       if (kind == detail::heartbeat_part) {
         place.put(8, numbers->of_beginning(place.at(8)));
         place.put(16, numbers->of_end(place.at(16)));
         return true;
       }
+      if (kind == detail::gap_part) {
+        if (!number_gap(*numbers, place)) detail::hide_part(packet, part, flags);
+        return true;
+      }
       const std::size_t at = is_message ? 12 : 8;
       const auto own = numbers->of_message(place.at(at));
-      if (!own || (detail::is_builtin(writer) && !numbers->is_near(*own))) return false;
-      place.put(at, *own);
+      if (!own || (detail::is_builtin(writer) && !numbers->is_near(*own))) {
+        detail::hide_part(packet, part, flags);
+      } else {
+        place.put(at, *own);
+      }
       return true;
     });
   }

@@ -59,8 +59,13 @@ class WriterNumbers {
   /// @return that number, as the writer knows it
   std::uint64_t acknowledge(std::uint64_t next) noexcept {
     acknowledged_ = next > 0 ? next - 1 : 0;
-    last_ = std::min(last_, acknowledged_ + longest_step);  // Fast DDS may have begun again.
     return original(next);
+  }
+  /// A reader of Fast DDS has found the writer, or has lost it. A reader that finds it again begins
+  /// with the number 1.
+  void match(bool found) noexcept {
+    readers_ = std::max(0, readers_ + (found ? 1 : -1));
+    if (readers_ == 0) last_ = acknowledged_ = 0;
   }
   /// The number as the writer knows it.
   [[nodiscard]] std::uint64_t original(std::uint64_t number) const noexcept {
@@ -71,6 +76,7 @@ class WriterNumbers {
   std::uint64_t offset_ = 0;        ///< of the writer's numbers
   std::uint64_t last_ = 0;          ///< the highest one that Fast DDS has got
   std::uint64_t acknowledged_ = 0;  ///< the last one of those without a hole
+  int readers_ = 0;                 ///< that have found the writer
 };
 
 }  // namespace articula::ros2::dds
