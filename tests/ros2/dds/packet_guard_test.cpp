@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers of messages without leaps, in both directions.
+// Numbers of messages without long steps, in both directions.
 #include <articula/ros2/dds/packets/packet_guard.hpp>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "catch.hpp"
 
 using namespace articula::ros2;
 using dds::PacketGuard;
+using dds::StepBudget;
 using dds::WriterNumbers;
 
 namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::uint64_t step = WriterNumbers::longest_step, margin = WriterNumbers::margin,
+constexpr std::uint64_t high = WriterNumbers::high, longest = WriterNumbers::longest,
                         ahead = WriterNumbers::ahead, huge = std::uint64_t{1} << 50;
 constexpr PacketGuard::Time now{std::chrono::hours(1)};
 constexpr std::byte padding{0x01};
@@ -97,56 +99,87 @@ constexpr std::size_t of_message = 36, of_first = 32, of_second = 40, of_acknowl
 
 }  // namespace
 
-TEST_CASE("numbers that lead on stay as they are") {
+TEST_CASE("numbers of writers that are found early stay as they are") {
   WriterNumbers numbers;
-  for (const std::uint64_t number : {std::uint64_t{1}, std::uint64_t{2}, step, 2 * step, step}) {
-    CHECK(numbers.of_message(number) == number);
-    CHECK(numbers.acknowledge(number) == number);
+  StepBudget budget;
+  for (std::uint64_t number = 1; number < 3 * high; ++number) {
+    REQUIRE(numbers.of_message(number, budget, now) == number);
   }
-  CHECK(numbers.of_beginning(3) == 3);
+  CHECK(numbers.of_message(5, budget, now) == 5);
+  CHECK(numbers.acknowledge(2 * high) == 2 * high);
+  CHECK(numbers.of_beginning(2 * high - 9, budget, now) == 2 * high - 9);
   CHECK(numbers.of_end(huge) == huge);
-  CHECK_FALSE(numbers.of_message(0));
+  CHECK_FALSE(numbers.of_message(0, budget, now));
 }
 
-TEST_CASE("behind a leap the numbers go on, and return as they were") {
+TEST_CASE("the first heartbeat of a writer with high numbers decides their offset for good") {
   WriterNumbers numbers;
-  REQUIRE(numbers.of_message(7) == 7);
-  CHECK(numbers.of_beginning(huge) == 7 + margin);
-  CHECK(numbers.of_end(huge + 5) == 7 + margin + 5);
-  CHECK(numbers.of_message(huge + 6) == 7 + margin + 6);
-  CHECK(numbers.of_message(huge - margin + 1) == 8);  // what comes late
-  CHECK_FALSE(numbers.of_message(8));                 // from before the leap
-  CHECK(numbers.of_beginning(8) == 1);
-  CHECK(numbers.original(7 + margin + 6) == huge + 6);
-  CHECK(numbers.acknowledge(7 + margin) == huge);
-  CHECK(numbers.of_message(~std::uint64_t{0}).value() <= 2 * (7 + margin + step));
+  StepBudget budget;
+  CHECK_FALSE(numbers.of_message(huge + 9, budget, now));  // comes again
+  CHECK_FALSE(numbers.of_gap(huge, huge + 5, budget, now));
+  CHECK(numbers.of_beginning(huge, budget, now) == 1);
+  CHECK(numbers.of_end(huge + 9) == 10);
+  CHECK(numbers.of_message(huge + 9, budget, now) == 10);
+  CHECK(numbers.of_message(huge, budget, now) == 1);
+  CHECK_FALSE(numbers.of_message(huge - 1, budget, now));
+  CHECK(numbers.acknowledge(11) == huge + 10);
+  CHECK(numbers.original(10) == huge + 9);
 }
 
-TEST_CASE("a reader that finds a writer again begins with small numbers") {
+TEST_CASE("a writer that is found again goes on where Fast DDS was") {
   WriterNumbers numbers;
-  numbers.match(true);
-  numbers.match(true);
-  REQUIRE(numbers.of_message(step) == step);
-  REQUIRE(numbers.of_message(2 * step) == 2 * step);
-  numbers.match(false);
-  CHECK(numbers.of_message(2 * step + 1) == 2 * step + 1);  // for the other reader
-  numbers.match(false);
-  CHECK(numbers.of_beginning(3 * step) == margin);
-  CHECK(numbers.original(margin) == 3 * step);
-  numbers.match(true);
-  CHECK(numbers.of_message(3 * step + 1) == margin + 1);
+  StepBudget budget;
+  // Fast DDS remembers writers by their identity: its first acknowledgement tells how far it got.
+  CHECK(numbers.acknowledge(500) == 500);
+  CHECK(numbers.of_beginning(huge, budget, now) == 500);
+  CHECK(numbers.of_message(huge + 1, budget, now) == 501);
+}
+
+TEST_CASE("a writer without heartbeats gets its offset by a message, after a time") {
+  WriterNumbers numbers;
+  StepBudget budget;
+  CHECK_FALSE(numbers.of_message(huge, budget, now));
+  CHECK_FALSE(numbers.of_message(huge + 1, budget, now + WriterNumbers::patience / 2));
+  const auto late = now + WriterNumbers::patience;
+  CHECK(numbers.of_message(huge + 2, budget, late) == WriterNumbers::margin);
+  CHECK(numbers.of_message(huge + 3, budget, late) == WriterNumbers::margin + 1);
+}
+
+TEST_CASE("heartbeats and messages lead on by what the budget has, and by what was acknowledged") {
+  WriterNumbers numbers;
+  StepBudget budget;
+  REQUIRE(numbers.of_beginning(1, budget, now) == 1);
+  CHECK(numbers.of_beginning(huge, budget, now) == longest + 1);
+  CHECK(numbers.of_beginning(huge, budget, now) == longest + 1);  // nothing is left
+  const auto later = now + std::chrono::seconds(1);
+  CHECK(numbers.of_beginning(huge, budget, later) == longest + 1);  // nobody has got that far
+  numbers.acknowledge(longest + 1);
+  CHECK(numbers.of_beginning(huge, budget, later) == 2 * longest + 1);
+  numbers.acknowledge(2 * longest + 1);
+  CHECK(numbers.of_beginning(huge, budget, later) == 2 * longest + 1);
+  CHECK_FALSE(numbers.of_message(huge, budget, later));
+  CHECK(numbers.of_message(WriterNumbers::free_step, budget, later) == WriterNumbers::free_step);
 }
 
 TEST_CASE("a gap is so long that Fast DDS need not note many of its numbers") {
   WriterNumbers numbers;
-  REQUIRE(numbers.of_message(10) == 10);
+  StepBudget budget;
+  using Gap = WriterNumbers::Gap;
+  const auto is = [](const std::optional<Gap>& gap, std::uint64_t begin, std::uint64_t end) {
+    return gap && gap->begin == begin && gap->end == end;
+  };
   numbers.acknowledge(11);
-  CHECK(numbers.of_gap(11, 20) == 20);
-  CHECK(numbers.of_gap(11, huge) == 11 + step);  // leads on: nothing is noted
-  CHECK(numbers.of_gap(12, 20) == 20);           // behind a hole
-  CHECK(numbers.of_gap(12, huge) == 10 + ahead);
-  CHECK_FALSE(numbers.of_gap(10 + ahead, huge));
-  CHECK_FALSE(numbers.of_gap(12, 12));
+  CHECK(is(numbers.of_gap(11, 20, budget, now), 11, 20));
+  CHECK(is(numbers.of_gap(11, 5000, budget, now), 11, 5000));  // leads on: nothing is noted
+  CHECK(is(numbers.of_gap(12, 20, budget, now), 12, 20));      // behind a hole
+  CHECK(is(numbers.of_gap(12, huge, budget, now), 12, 10 + ahead));
+  CHECK_FALSE(numbers.of_gap(10 + ahead, huge, budget, now));
+  CHECK_FALSE(numbers.of_gap(12, 12, budget, now));
+  const auto most = numbers.of_gap(11, huge, budget, now);
+  REQUIRE(most);
+  CHECK(most->end < 11 + longest);  // what the budget has left
+  CHECK(most->end > 11 + longest / 2);
+  CHECK(is(numbers.of_gap(11, huge, budget, now), 11, 11 + WriterNumbers::free_step));
   CHECK(numbers.is_near(10 + ahead));
   CHECK_FALSE(numbers.is_near(11 + ahead));
 }
@@ -156,27 +189,27 @@ TEST_CASE("packets of a writer that has been there for long have small numbers")
     INFO(little);
     PacketGuard guard;
     introduce(guard);
+    Bytes early = message(huge + 10, little);
+    REQUIRE(guard.receive(early, now));
+    CHECK(early[20] == padding);  // comes again
     Bytes heartbeat = with_two(0x07, huge, huge + 9, little);
     REQUIRE(guard.receive(heartbeat, now));
-    CHECK(number_at(heartbeat, of_first, little) == margin);
-    CHECK(number_at(heartbeat, of_second, little) == margin + 9);
+    CHECK(number_at(heartbeat, of_first, little) == 1);
+    CHECK(number_at(heartbeat, of_second, little) == 10);
     Bytes next = message(huge + 10, little);
     REQUIRE(guard.receive(next, now));
-    CHECK(number_at(next, of_message, little) == margin + 10);
-    Bytes old = message(9, little);
-    CHECK(guard.receive(old, now));
-    CHECK(old[20] == padding);
+    CHECK(number_at(next, of_message, little) == 11);
     for (const unsigned kind : {0x06U, 0x12U}) {
-      Bytes answer = acknowledgement(margin + 3, little, kind);
+      Bytes answer = acknowledgement(4, little, kind);
       REQUIRE(PacketGuard::has_acknowledgement(answer));
       guard.send(answer);
       CHECK(number_at(answer, of_acknowledgement, little) == huge + 3);
     }
-    // Fast DDS has all before margin + 3.
-    Bytes gap = with_two(0x08, huge + 3, huge + 3 + 2 * step, little);
+    // Fast DDS has all before 4.
+    Bytes gap = with_two(0x08, huge + 3, huge + 3 + 1000, little);
     REQUIRE(guard.receive(gap, now));
-    CHECK(number_at(gap, of_first, little) == margin + 3);
-    CHECK(number_at(gap, of_second, little) == margin + 3 + step);
+    CHECK(number_at(gap, of_first, little) == 4);
+    CHECK(number_at(gap, of_second, little) == 1004);
     Bytes far = with_two(0x08, huge + 3 + ahead, huge + 9 + ahead, little);
     CHECK(guard.receive(far, now));
     CHECK(far[20] == padding);
@@ -184,9 +217,9 @@ TEST_CASE("packets of a writer that has been there for long have small numbers")
     for (std::size_t k = 0; k < prefix.size(); ++k) guid[k] = static_cast<std::byte>(prefix[k]);
     guid[14] = std::byte{1};
     guid[15] = std::byte{writer};
-    CHECK(guard.original(guid, margin + 10) == huge + 10);
+    CHECK(guard.original(guid, 11) == huge + 10);
     guid[14] = std::byte{2};
-    CHECK(guard.original(guid, margin + 10) == margin + 10);  // nobody knows it
+    CHECK(guard.original(guid, 11) == 11);  // nobody knows it
   }
 }
 

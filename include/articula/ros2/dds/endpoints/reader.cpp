@@ -71,9 +71,7 @@ Reader::Reader(rtps::RTPSParticipant& participant, std::shared_ptr<PacketGuard> 
 Reader::~Reader() { rtps::RTPSDomain::removeRTPSReader(reader_); }
 
 void Reader::onReaderMatched(rtps::RTPSReader* /*reader*/, rtps::MatchingInfo& info) {
-  const bool found = info.status == rtps::MATCHED_MATCHING;
-  guard_->match(bytes_of(info.remoteEndpointGuid), found);
-  writers_.set(info.remoteEndpointGuid, found);
+  writers_.set(info.remoteEndpointGuid, info.status == rtps::MATCHED_MATCHING);
   inbox_->wake();
 }
 

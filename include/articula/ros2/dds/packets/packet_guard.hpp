@@ -31,7 +31,7 @@ class PacketGuard {
     filter_discovery(packet);
     const std::lock_guard lock(mutex_);
     if (!gate_.admits(packet, now)) return false;
-    number(packet);
+    number(packet, now);
     return true;
   }
   /// Changes a packet of Fast DDS such that its receivers understand it.
@@ -65,11 +65,6 @@ class PacketGuard {
     });
     return has;
   }
-  /// A reader of Fast DDS has found a writer, or has lost it.
-  void match(const Guid& writer, bool found) {
-    const std::lock_guard lock(mutex_);
-    if (WriterNumbers* const numbers = numbers_of(writer)) numbers->match(found);
-  }
   /// The number of a message that the sender knows.
   /// @param number  as Fast DDS has got it
   [[nodiscard]] std::uint64_t original(const Guid& writer, std::uint64_t number) {
@@ -94,7 +89,7 @@ class PacketGuard {
   }
 
   /// Puts the numbers of WriterNumbers into the parts of a packet. Hides those that have none.
-  void number(std::span<std::byte> packet) {
+  void number(std::span<std::byte> packet, Time now) {
     Prefix source = prefix_at(packet, 8);
     for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
       if (kind == detail::source_part) source = prefix_at(part, 8);
@@ -108,16 +103,16 @@ class PacketGuard {
       if (numbers == nullptr) return true;  // Fast DDS does not know the writer, either
       const Place place{detail::mutable_part(packet, part), (flags & 1U) != 0};
       if (kind == detail::heartbeat_part) {
-        place.put(8, numbers->of_beginning(place.at(8)));
+        place.put(8, numbers->of_beginning(place.at(8), budget_, now));
         place.put(16, numbers->of_end(place.at(16)));
         return true;
       }
       if (kind == detail::gap_part) {
-        if (!number_gap(*numbers, place)) detail::hide_part(packet, part, flags);
+        if (!number_gap(*numbers, place, now)) detail::hide_part(packet, part, flags);
         return true;
       }
       const std::size_t at = is_message ? 12 : 8;
-      const auto own = numbers->of_message(place.at(at));
+      const auto own = numbers->of_message(place.at(at), budget_, now);
       if (!own || (detail::is_builtin(writer) && !numbers->is_near(*own))) {
         detail::hide_part(packet, part, flags);
       } else {
@@ -139,18 +134,20 @@ class PacketGuard {
     }
   };
 
-  static bool number_gap(WriterNumbers& numbers, const Place& gap) {
-    const std::uint64_t begin = numbers.of_beginning(gap.at(8));
-    const auto end = numbers.of_gap(begin, gap.at(16));
-    if (!end) return false;
-    if (*end < numbers.of_end(gap.at(16))) std::fill_n(gap.part.begin() + 24, 4, std::byte{0});
-    gap.put(8, begin);
-    gap.put(16, *end);
+  bool number_gap(WriterNumbers& numbers, const Place& place, Time now) {
+    const std::uint64_t end = place.at(16);
+    const auto gap = numbers.of_gap(place.at(8), end, budget_, now);
+    if (!gap) return false;
+    const bool is_whole = numbers.original(gap->end) == end;
+    if (!is_whole) std::fill_n(place.part.begin() + 24, 4, std::byte{0});  // no further numbers
+    place.put(8, gap->begin);
+    place.put(16, gap->end);
     return true;
   }
 
   std::mutex mutex_{};
   ParticipantGate gate_{};
+  StepBudget budget_{};
 };
 
 }  // namespace articula::ros2::dds
