@@ -11,8 +11,8 @@
 #include "catch.hpp"
 
 using namespace articula::ros2;
+using dds::Budget;
 using dds::PacketGuard;
-using dds::StepBudget;
 using dds::WriterNumbers;
 
 namespace {
@@ -101,7 +101,7 @@ constexpr std::size_t of_message = 36, of_first = 32, of_second = 40, of_acknowl
 
 TEST_CASE("numbers of writers that are found early stay as they are") {
   WriterNumbers numbers;
-  StepBudget budget;
+  Budget budget(longest, longest);
   for (std::uint64_t number = 1; number < 3 * high; ++number) {
     REQUIRE(numbers.of_message(number, budget, now) == number);
   }
@@ -114,7 +114,7 @@ TEST_CASE("numbers of writers that are found early stay as they are") {
 
 TEST_CASE("the first heartbeat of a writer with high numbers decides their offset for good") {
   WriterNumbers numbers;
-  StepBudget budget;
+  Budget budget(longest, longest);
   CHECK_FALSE(numbers.of_message(huge + 9, budget, now));  // comes again
   CHECK_FALSE(numbers.of_gap(huge, huge + 5, budget, now));
   CHECK(numbers.of_beginning(huge, budget, now) == 1);
@@ -128,7 +128,7 @@ TEST_CASE("the first heartbeat of a writer with high numbers decides their offse
 
 TEST_CASE("a writer that is found again goes on where Fast DDS was") {
   WriterNumbers numbers;
-  StepBudget budget;
+  Budget budget(longest, longest);
   // Fast DDS remembers writers by their identity: its first acknowledgement tells how far it got.
   CHECK(numbers.acknowledge(500) == 500);
   CHECK(numbers.of_beginning(huge, budget, now) == 500);
@@ -137,7 +137,7 @@ TEST_CASE("a writer that is found again goes on where Fast DDS was") {
 
 TEST_CASE("a writer without heartbeats gets its offset by a message, after a time") {
   WriterNumbers numbers;
-  StepBudget budget;
+  Budget budget(longest, longest);
   CHECK_FALSE(numbers.of_message(huge, budget, now));
   CHECK_FALSE(numbers.of_message(huge + 1, budget, now + WriterNumbers::patience / 2));
   const auto late = now + WriterNumbers::patience;
@@ -147,7 +147,7 @@ TEST_CASE("a writer without heartbeats gets its offset by a message, after a tim
 
 TEST_CASE("heartbeats and messages lead on by what the budget has, and by what was acknowledged") {
   WriterNumbers numbers;
-  StepBudget budget;
+  Budget budget(longest, longest);
   REQUIRE(numbers.of_beginning(1, budget, now) == 1);
   CHECK(numbers.of_beginning(huge, budget, now) == longest + 1);
   CHECK(numbers.of_beginning(huge, budget, now) == longest + 1);  // nothing is left
@@ -163,7 +163,7 @@ TEST_CASE("heartbeats and messages lead on by what the budget has, and by what w
 
 TEST_CASE("a gap is so long that Fast DDS need not note many of its numbers") {
   WriterNumbers numbers;
-  StepBudget budget;
+  Budget budget(longest, longest);
   using Gap = WriterNumbers::Gap;
   const auto is = [](const std::optional<Gap>& gap, std::uint64_t begin, std::uint64_t end) {
     return gap && gap->begin == begin && gap->end == end;

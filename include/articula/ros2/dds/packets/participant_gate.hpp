@@ -2,6 +2,7 @@
 /// @file A limit on how many new participants of a domain are heard in a time.
 #pragma once
 
+#include "articula/ros2/dds/packets/budget.hpp"
 #include "articula/ros2/dds/packets/discovery_filter.hpp"
 #include "articula/ros2/dds/packets/known_endpoints.hpp"
 #include "articula/ros2/dds/packets/packet_check.hpp"
@@ -73,26 +74,9 @@ class ParticipantGate {
     KnownEndpoints endpoints{};
   };
 
-  /// Places that are free at the beginning, and come back one per second.
-  class Places {
-   public:
-    [[nodiscard]] bool take(Time now) {
-      const double seconds = std::chrono::duration<double>(now - last_).count();
-      const double free = std::min<double>(most_at_once, free_ + seconds);
-      if (free < 1) return false;
-      free_ = free - 1;
-      last_ = now;
-      return true;
-    }
-
-   private:
-    double free_ = most_at_once;  ///< when the last one was taken
-    Time last_{};
-  };
-
   [[nodiscard]] bool admits(const Prefix& source, Time now) {
     if (known_.contains(source)) return true;
-    if (!first_.take(now) && !(waiting_.contains(source) && second_.take(now))) {
+    if (first_.take(1, now) == 0 && !(waiting_.contains(source) && second_.take(1, now) == 1)) {
       await(source);
       return false;
     }
@@ -137,8 +121,8 @@ class ParticipantGate {
   std::map<Prefix, Known> known_{};
   std::size_t memory_ = 0;  ///< of their announcements
   std::set<Prefix> waiting_{};
-  std::deque<Prefix> order_{};  ///< of those that wait, the oldest first
-  Places first_{}, second_{};   ///< for first and second announcements
+  std::deque<Prefix> order_{};                       ///< of those that wait, the oldest first
+  Budget first_{most_at_once, 1}, second_ = first_;  ///< of first and second announcements
 };
 
 }  // namespace articula::ros2::dds

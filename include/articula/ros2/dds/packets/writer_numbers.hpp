@@ -2,7 +2,7 @@
 /// @file The numbers of a writer's messages as Fast DDS gets them.
 #pragma once
 
-#include "articula/ros2/dds/packets/step_budget.hpp"
+#include "articula/ros2/dds/packets/budget.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -22,10 +22,10 @@ namespace articula::ros2::dds {
 /// Real-time: yes, all functions.
 class WriterNumbers {
  public:
-  using Time = StepBudget::Time;
+  using Time = Budget::Time;
 
   static constexpr std::uint64_t high = 1 << 16;      ///< a first number that gets an offset
-  static constexpr std::uint64_t longest = 1 << 18;   ///< step of a heartbeat or of a gap
+  static constexpr std::uint64_t longest = 1 << 18;   ///< step, and steps of all writers a second
   static constexpr std::uint64_t ahead = 128;         ///< of a missing message, if noted for it
   static constexpr std::uint64_t margin = 1 << 10;    ///< before a message that decides
   static constexpr std::uint64_t free_step = 1 << 6;  ///< of a message, without the budget
@@ -33,7 +33,7 @@ class WriterNumbers {
 
   /// The number of a message.
   /// @return nothing if it has none: it is from before the offset, or must wait
-  [[nodiscard]] std::optional<std::uint64_t> of_message(std::uint64_t original, StepBudget& budget,
+  [[nodiscard]] std::optional<std::uint64_t> of_message(std::uint64_t original, Budget& budget,
                                                         Time now) noexcept {
     if (!offset_ && original > acknowledged_ + high) {
       if (!waits_since_) waits_since_ = now;
@@ -49,7 +49,7 @@ class WriterNumbers {
     return number;
   }
   /// The first number that a writer still has, in a heartbeat.
-  [[nodiscard]] std::uint64_t of_beginning(std::uint64_t original, StepBudget& budget,
+  [[nodiscard]] std::uint64_t of_beginning(std::uint64_t original, Budget& budget,
                                            Time now) noexcept {
     if (!offset_ && original > acknowledged_ + high) offset_ = original - acknowledged_ - 1;
     const std::uint64_t number = decided(original),
@@ -65,8 +65,8 @@ class WriterNumbers {
     std::uint64_t begin = 0, end = 0;
   };
   /// @return nothing if Fast DDS would have to note too many numbers
-  [[nodiscard]] std::optional<Gap> of_gap(std::uint64_t begin, std::uint64_t end,
-                                          StepBudget& budget, Time now) noexcept {
+  [[nodiscard]] std::optional<Gap> of_gap(std::uint64_t begin, std::uint64_t end, Budget& budget,
+                                          Time now) noexcept {
     if (!offset_ && begin > acknowledged_ + high) return std::nullopt;
     Gap gap{std::max<std::uint64_t>(decided(begin), 1), decided(end)};
     if (gap.end <= gap.begin) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file A bound of the numbers that Fast DDS has to go through.
+/// @file A bound of what may happen in a time.
 #pragma once
 
 #include <algorithm>
@@ -8,18 +8,19 @@
 
 namespace articula::ros2::dds {
 
-/// The numbers of messages that may be skipped, of all writers together. Fast DDS 2.9.1 takes some
-/// 1.2 us for each of them, so it is busy with them for a third of a second each second at most.
-/// Real-time: yes.
-class StepBudget {
+/// So many things may happen at once, and then so many in a second. Real-time: yes.
+class Budget {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  static constexpr double most = 1 << 18;  ///< at once, and in a second
+
+  /// @param most  at once
+  /// @param rate  in a second
+  constexpr Budget(double most, double rate) noexcept : most_(most), rate_(rate), left_(most) {}
 
   /// Takes as many as wanted, or as there are.
   /// @param now  not before the last one
   std::uint64_t take(std::uint64_t wanted, Time now) noexcept {
-    left_ = std::min(most, left_ + most * std::chrono::duration<double>(now - last_).count());
+    left_ = std::min(most_, left_ + rate_ * std::chrono::duration<double>(now - last_).count());
     last_ = now;
     const std::uint64_t taken = std::min(wanted, static_cast<std::uint64_t>(left_));
     left_ -= static_cast<double>(taken);
@@ -27,7 +28,7 @@ class StepBudget {
   }
 
  private:
-  double left_ = most;
+  double most_, rate_, left_;
   Time last_{};
 };
 
