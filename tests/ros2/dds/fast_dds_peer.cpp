@@ -2,6 +2,7 @@
 #include "fast_dds_peer.hpp"
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/test_UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -58,14 +59,35 @@ class RawType final : public fast::TopicDataType {
 };
 
 template <class Quality>
-void set(Quality& quality, bool transient_local) {
+void set(Quality& quality, bool transient_local, int depth) {
   quality.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
   quality.durability().kind =
       transient_local ? fast::TRANSIENT_LOCAL_DURABILITY_QOS : fast::VOLATILE_DURABILITY_QOS;
   quality.history().kind = fast::KEEP_LAST_HISTORY_QOS;
-  quality.history().depth = 100;
+  quality.history().depth = depth;
   quality.endpoint().history_memory_policy = rtps::DYNAMIC_RESERVE_MEMORY_MODE;
   quality.data_sharing().off();
+}
+
+std::shared_ptr<eprosima::fastdds::rtps::SocketTransportDescriptor> make_udp(
+    const FastDdsPeer::Options& options) {
+  namespace transports = eprosima::fastdds::rtps;
+  if (!options.loses) return std::make_shared<transports::UDPv4TransportDescriptor>();
+  auto udp = std::make_shared<transports::test_UDPv4TransportDescriptor>();
+  // From a part without its head: the numbers of message and fragment begin at these bytes.
+  constexpr std::uint32_t low_word = 16, first_fragment = 20;
+  const auto number_at = [](const rtps::CDRMessage_t& message, std::uint32_t place) {
+    std::uint32_t number = 0;  // little endian, as this machine
+    std::memcpy(&number, message.buffer + message.pos + place, sizeof number);
+    return number;
+  };
+  udp->drop_data_messages_filter_ = [=, loses = options.loses](rtps::CDRMessage_t& message) {
+    return loses(number_at(message, low_word), 0);
+  };
+  udp->drop_data_frag_messages_filter_ = [=, loses = options.loses](rtps::CDRMessage_t& message) {
+    return loses(number_at(message, low_word), number_at(message, first_fragment));
+  };
+  return udp;
 }
 
 }  // namespace
@@ -77,6 +99,7 @@ void talk_over_udp_only() {
 }
 
 struct FastDdsPeer::Entities {
+  int depth = 0;
   fast::DomainParticipant* participant = nullptr;
   fast::Publisher* publisher = nullptr;
   fast::Subscriber* subscriber = nullptr;
@@ -94,11 +117,11 @@ struct FastDdsPeer::Entities {
   }
 };
 
-FastDdsPeer::FastDdsPeer(unsigned domain, bool poses_as_cyclone)
+FastDdsPeer::FastDdsPeer(unsigned domain, const Options& options)
     : entities_(std::make_unique<Entities>()) {
   fast::DomainParticipantQos quality;
   quality.transport().use_builtin_transports = false;
-  auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
+  const auto udp = make_udp(options);
   udp->interfaceWhiteList = {"127.0.0.1"};
   quality.transport().user_transports = {udp};
   rtps::Locator_t loopback;
@@ -106,11 +129,12 @@ FastDdsPeer::FastDdsPeer(unsigned domain, bool poses_as_cyclone)
   rtps::IPLocator::setIPv4(loopback, "127.0.0.1");
   quality.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(loopback);
   quality.wire_protocol().builtin.initialPeersList.push_back(loopback);
-  if (poses_as_cyclone) {
+  if (options.poses_as_cyclone) {
     const unsigned char prefix[] = {0x01, 0x10, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
     std::copy(std::begin(prefix), std::end(prefix), quality.wire_protocol().prefix.value);
   }
   Entities& e = *entities_;
+  e.depth = options.depth;
   e.participant =
       fast::DomainParticipantFactory::get_instance()->create_participant(domain, quality);
   if (e.participant == nullptr) throw std::runtime_error("no participant");
@@ -126,7 +150,7 @@ FastDdsPeer::~FastDdsPeer() {
 std::size_t FastDdsPeer::make_writer(const std::string& topic, const std::string& type,
                                      bool transient_local, bool best_effort) {
   fast::DataWriterQos quality;
-  set(quality, transient_local);
+  set(quality, transient_local, entities_->depth);
   if (best_effort) quality.reliability().kind = fast::BEST_EFFORT_RELIABILITY_QOS;
   auto* writer = entities_->publisher->create_datawriter(entities_->topic(topic, type), quality);
   if (writer == nullptr) throw std::runtime_error("no writer");
@@ -137,7 +161,7 @@ std::size_t FastDdsPeer::make_writer(const std::string& topic, const std::string
 std::size_t FastDdsPeer::make_reader(const std::string& topic, const std::string& type,
                                      bool transient_local) {
   fast::DataReaderQos quality;
-  set(quality, transient_local);
+  set(quality, transient_local, entities_->depth);
   auto* reader = entities_->subscriber->create_datareader(entities_->topic(topic, type), quality);
   if (reader == nullptr) throw std::runtime_error("no reader");
   entities_->readers.push_back(reader);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,8 +17,15 @@ using Bytes = std::vector<std::byte>;
 /// the way over UDP, too.
 class FastDdsPeer {
  public:
-  /// @param poses_as_cyclone  its identifier begins as those of Cyclone DDS
-  explicit FastDdsPeer(unsigned domain, bool poses_as_cyclone = false);
+  struct Options {
+    bool poses_as_cyclone = false;  ///< its identifier begins as those of Cyclone DDS
+    int depth = 100;                ///< of the histories of writers and readers
+    /// Whether a message of a writer is lost on its way, or a fragment of it. Called each time it is
+    /// sent. Fragments are numbered from 1; 0 is a whole message.
+    std::function<bool(std::uint32_t message, std::uint32_t fragment)> loses{};
+  };
+  explicit FastDdsPeer(unsigned domain) : FastDdsPeer(domain, Options{}) {}
+  FastDdsPeer(unsigned domain, const Options& options);
   FastDdsPeer(const FastDdsPeer&) = delete;
   FastDdsPeer& operator=(const FastDdsPeer&) = delete;
   ~FastDdsPeer();

@@ -136,7 +136,7 @@ TEST_CASE("requests of any bytes in both dialects do not keep a service from oth
     reply({});
   });
   std::mt19937 random(2);
-  FastDdsPeer fast(domain()), cyclone(domain(), true);
+  FastDdsPeer fast(domain()), cyclone(domain(), {.poses_as_cyclone = true});
   const auto request_type = "std_srvs::srv::dds_::Trigger_Request_",
              response_type = "std_srvs::srv::dds_::Trigger_Response_";
   // Those of Cyclone DDS without the 16 bytes of the dialect, padded, are no requests.

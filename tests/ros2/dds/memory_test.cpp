@@ -398,7 +398,7 @@ TEST_CASE("requests of clients that read no replies take no memory") {
   talk_over_udp_only();
   FastDdsTransport transport(
       {.domain = domain(), .reply_patience = std::chrono::milliseconds(100'000)});
-  FastDdsPeer cyclone(domain(), true);
+  FastDdsPeer cyclone(domain(), {.poses_as_cyclone = true});
   std::size_t requests = 0;
   transport.serve(trigger_service("/arm/trigger"), [&](Sample, const ReplySender& reply) {
     ++requests;

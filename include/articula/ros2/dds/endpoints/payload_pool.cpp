@@ -15,24 +15,28 @@ constexpr std::size_t room_for_list = 8;
 
 bool PayloadPool::get_payload(std::uint32_t size, rtps::CacheChange_t& change) {
   if (size > largest_) return false;
-  const std::size_t room = size + room_for_list;
-  if (used_.fetch_add(room) + room > total_) {
-    used_.fetch_sub(room);
-    return false;
-  }
-  change.serializedPayload.reserve(static_cast<std::uint32_t>(room));
-  change.payload_owner(this);
+  const std::size_t bytes = size + room_for_list;
+  if (!has_room(bytes)) make_room_(bytes);
+  if (!has_room(bytes)) return false;
+  take(bytes, change);
   return true;
 }
 
 bool PayloadPool::get_payload(rtps::SerializedPayload_t& data, rtps::IPayloadPool*& /*owner*/,
                               rtps::CacheChange_t& change) {
-  if (!get_payload(data.length, change)) return false;
+  if (data.length > largest_) return false;
+  take(data.length, change);
   return change.serializedPayload.copy(&data);
 }
 
+void PayloadPool::take(std::size_t size, rtps::CacheChange_t& change) {
+  change.serializedPayload.reserve(static_cast<std::uint32_t>(size));
+  used_ += change.serializedPayload.max_size;
+  change.payload_owner(this);
+}
+
 bool PayloadPool::release_payload(rtps::CacheChange_t& change) {
-  used_.fetch_sub(change.serializedPayload.max_size);
+  used_ -= change.serializedPayload.max_size;
   change.serializedPayload.empty();
   change.payload_owner(nullptr);
   return true;

@@ -8,6 +8,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 namespace articula::ros2::dds {
 
@@ -15,19 +17,33 @@ namespace articula::ros2::dds {
 /// message in the first of its fragments.
 class PayloadPool final : public eprosima::fastrtps::rtps::IPayloadPool {
  public:
-  /// @param largest  bytes of a message
-  /// @param total    bytes of all messages at a time
-  PayloadPool(std::size_t largest, std::size_t total) : largest_(largest), total_(total) {}
+  /// @param largest    bytes of a message
+  /// @param total      bytes of all messages at a time; of whole messages that have come, a reader
+  ///                   bounds those that stay
+  /// @param make_room  is called if there is no room for some bytes
+  PayloadPool(
+      std::size_t largest, std::size_t total,
+      std::function<void(std::size_t bytes)> make_room = [](std::size_t) {})
+      : largest_(largest), total_(total), make_room_(std::move(make_room)) {}
 
+  /// All messages now [bytes].
+  [[nodiscard]] std::size_t used() const { return used_; }
+  [[nodiscard]] bool has_room(std::size_t bytes) const { return used_ + bytes <= total_; }
+
+  /// Takes memory for a message in fragments, or one that is written.
   bool get_payload(std::uint32_t size, eprosima::fastrtps::rtps::CacheChange_t& change) override;
+  /// Takes memory for a whole message that has come.
   bool get_payload(eprosima::fastrtps::rtps::SerializedPayload_t& data,
                    eprosima::fastrtps::rtps::IPayloadPool*& owner,
                    eprosima::fastrtps::rtps::CacheChange_t& change) override;
   bool release_payload(eprosima::fastrtps::rtps::CacheChange_t& change) override;
 
  private:
+  void take(std::size_t size, eprosima::fastrtps::rtps::CacheChange_t& change);
+
   std::size_t largest_;
   std::size_t total_;
+  std::function<void(std::size_t)> make_room_;
   std::atomic<std::size_t> used_{0};
 };
 

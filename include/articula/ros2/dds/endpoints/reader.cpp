@@ -17,9 +17,6 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
-// In the history are messages of which fragments, or the messages before, have not come yet.
-constexpr std::size_t incomplete_messages = 256;
-constexpr std::size_t incomplete_largest_messages = 8;
 constexpr std::size_t waiting_largest_messages = 4;
 
 PacketGuard::Guid bytes_of(const rtps::GUID_t& guid) {
@@ -38,16 +35,15 @@ Reader::Reader(rtps::RTPSParticipant& participant, std::shared_ptr<PacketGuard> 
       inbox_(&inbox),
       queue_(endpoint.quality.depth, waiting_largest_messages * endpoint.largest_message,
              std::move(deliver)),
-      pool_(std::make_shared<PayloadPool>(endpoint.largest_message,
-                                          incomplete_largest_messages * endpoint.largest_message)),
-      history_(history_attributes(endpoint, incomplete_messages)) {
+      history_(endpoint.largest_message) {
   rtps::ReaderAttributes attributes;
   attributes.endpoint.reliabilityKind =
       endpoint.quality.best_effort ? rtps::BEST_EFFORT : rtps::RELIABLE;
   attributes.endpoint.durabilityKind =
       endpoint.quality.transient_local ? rtps::TRANSIENT_LOCAL : rtps::VOLATILE;
   attributes.matched_writers_allocation = {0, most_matches, 1};
-  reader_ = rtps::RTPSDomain::createRTPSReader(&participant, attributes, pool_, &history_, this);
+  reader_ = rtps::RTPSDomain::createRTPSReader(&participant, attributes, history_.pool(), &history_,
+                                               this);
   if (reader_ == nullptr) {
     throw std::runtime_error("ros2: Fast DDS made no reader of " + endpoint.topic);
   }
@@ -75,8 +71,10 @@ void Reader::onReaderMatched(rtps::RTPSReader* /*reader*/, rtps::MatchingInfo& i
   inbox_->wake();
 }
 
-void Reader::onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* change) {
-  if (change->kind == rtps::ALIVE) {
+void Reader::onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheChange_t* added) {
+  auto* const change = const_cast<rtps::CacheChange_t*>(added);  // taken out of the history
+  // Fast DDS 2.9.1 hands on fragments of a message that its writer has declared gone.
+  if (change->kind == rtps::ALIVE && change->is_fully_assembled()) {
     Arrival arrival;
     const auto* const data = reinterpret_cast<const std::byte*>(change->serializedPayload.data);
     arrival.bytes.assign(data, data + change->serializedPayload.length);
@@ -86,7 +84,7 @@ void Reader::onNewCacheChangeAdded(rtps::RTPSReader* reader, const rtps::CacheCh
     arrival.related = change->write_params.sample_identity();
     inbox_->put(queue_, std::move(arrival));
   }
-  reader->getHistory()->remove_change(const_cast<rtps::CacheChange_t*>(change));
+  reader->getHistory()->remove_change(change);
 }
 
 }  // namespace articula::ros2::dds

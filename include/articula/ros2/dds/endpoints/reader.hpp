@@ -4,10 +4,9 @@
 
 #include "articula/ros2/dds/endpoints/endpoint.hpp"
 #include "articula/ros2/dds/endpoints/inbox.hpp"
-#include "articula/ros2/dds/endpoints/payload_pool.hpp"
+#include "articula/ros2/dds/endpoints/waiting_messages.hpp"
 #include "articula/ros2/dds/packets/packet_guard.hpp"
 
-#include <fastdds/rtps/history/ReaderHistory.h>
 #include <fastdds/rtps/reader/RTPSReader.h>
 #include <fastdds/rtps/reader/ReaderListener.h>
 
@@ -43,8 +42,7 @@ class Reader final : public eprosima::fastrtps::rtps::ReaderListener {
   Inbox* inbox_;
   Inbox::Queue queue_;
   Matched writers_{};
-  std::shared_ptr<PayloadPool> pool_;
-  eprosima::fastrtps::rtps::ReaderHistory history_;
+  WaitingMessages history_;
   eprosima::fastrtps::rtps::RTPSReader* reader_;
 };
 
