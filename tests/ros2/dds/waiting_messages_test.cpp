@@ -100,7 +100,7 @@ TEST_CASE("messages of which a fragment never comes make room for others") {
 
 TEST_CASE("a message that is too large is passed over, whole or in fragments") {
   talk_over_udp_only();
-  const std::size_t size = GENERATE(20'000, 200'000);
+  const auto size = GENERATE(std::size_t{20'000}, std::size_t{200'000});
   Listener listener(10'000);
   FastDdsPeer fast(domain());
   CyclonePeer cyclone(domain());

@@ -31,6 +31,20 @@ export async function slider(browser, url) {
   await robot.page.keyboard.press('Enter');
   await robot.until('a goal beyond the limit becomes the limit', isNear, Math.PI / 2);
   check((await robot.notices()).length === 0, 'no refusal');
+  await robot.type(goal, 'e'); // a letter that fields of numbers take
+  await robot.page.keyboard.press('Tab');
+  await robot.until(
+    'a goal that is no number becomes the one that Go moves to',
+    (goal) => document.querySelector(goal).value === '1.571',
+    goal,
+  );
+  const stop = {stop: ['pid_plus_gravity'], best_effort: true};
+  await robot.page.evaluate((stop) => articula.session.ask('/switch_controllers', stop), stop);
+  await robot.type(goal, 1.5);
+  await robot.page.keyboard.press('Enter');
+  await robot.until('the page says that no controller moves the joint', () =>
+    /no active controller moves to it: 'shoulder/.test(document.body.textContent),
+  );
 }
 
 export async function live_drag(browser, url) {

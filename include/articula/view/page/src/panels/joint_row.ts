@@ -26,12 +26,17 @@ export class JointRow {
     this.step = isPrismatic(joint) ? 0.001 : 0.01;
     const [min, max] = this.range;
     const unit = positionUnit(joint);
-    const input = (from: HTMLInputElement) => {
-      if (from.value === '' || !Number.isFinite(from.valueAsNumber)) return;
+    /** False for a text that is no number. The field then shows again where Go moves the joint. */
+    const input = (from: HTMLInputElement): boolean => {
+      if (from.value === '' || !Number.isFinite(from.valueAsNumber)) {
+        this.set(this.goal);
+        return false;
+      }
       this.set(Math.min(max, Math.max(min, from.valueAsNumber)));
       this.touched = true;
       this.mark();
       change(this);
+      return true;
     };
     // Some browsers make tiny steps by the arrow keys if step is "any": they are handled here.
     this.slider = element('input', {
@@ -51,8 +56,8 @@ export class JointRow {
       'aria-label': `Goal of ${joint.name} [${unit}]`,
       change: () => input(this.number),
       // Enter moves the robot, and comes before the change.
-      keydown: ({key}: KeyboardEvent) => {
-        if (key === 'Enter') input(this.number);
+      keydown: (event: KeyboardEvent) => {
+        if (event.key === 'Enter' && !input(this.number)) event.stopPropagation();
       },
     });
     this.box = element(
@@ -107,7 +112,7 @@ export class JointRow {
     this.box.classList.toggle('touched', this.touched);
   }
 
-  private key(event: KeyboardEvent, changed: () => void): void {
+  private key(event: KeyboardEvent, changed: () => unknown): void {
     const steps: Record<string, number> = {
       ArrowRight: 1,
       ArrowUp: 1,

@@ -103,9 +103,11 @@ export class JointsPanel {
     if (touched.length === 0) return;
     const positions = Object.fromEntries(touched.map((row) => [row.joint.name, row.goal]));
     const answer = await this.session.ask('/go', {positions, speed: this.speed.valueAsNumber});
+    if (!answer.success) return this.enable();
+    // The answer may name joints that no controller moves.
+    if (answer.message !== 'done') this.session.notify(answer.message);
     // The answer can come at the end of the motion, when a slider may have another goal.
-    if (answer.success)
-      for (const row of touched) if (row.goal === positions[row.joint.name]) row.giveUp();
+    for (const row of touched) if (row.goal === positions[row.joint.name]) row.giveUp();
     this.enable();
   }
 

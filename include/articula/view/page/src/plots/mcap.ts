@@ -5,6 +5,9 @@ import {inputs, type RobotSheet, statuses} from '../wire';
 
 type Json = {[name: string]: Json} | number | string | null;
 
+// ms of work at a time. A page that takes no messages for seconds loses the controls.
+const slice = 10;
+
 /** The part of a file that is in memory. */
 class Parts {
   readonly parts: Uint8Array<ArrayBuffer>[] = [];
@@ -47,7 +50,12 @@ export async function mcapFile(
     messageEncoding: 'json',
     metadata: new Map(),
   });
+  let next = performance.now() + slice;
   for (let row = first; row < end; ++row) {
+    if (performance.now() > next) {
+      await new Promise((resolve) => setTimeout(resolve));
+      next = performance.now() + slice;
+    }
     const logTime = BigInt(Math.round(samples.time(row) * 1e9));
     const data = encoder.encode(record(row));
     await writer.addMessage({channelId, sequence: row - first, logTime, publishTime: logTime, data});
