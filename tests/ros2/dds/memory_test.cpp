@@ -173,7 +173,7 @@ TEST_CASE("packets are well-formed if all their parts are within them") {
   for (const unsigned byte :
        {0x16U, 0x01U, 44U,   0U,    0U,    0U,    28U,   0U,    0x00U, 0x01U, 0x00U, 0xc7U,
         0x00U, 0x01U, 0x00U, 0xc2U, 0U,    0U,    0U,    0U,    1U,    0U,    0U,    0U,
-        1U,    0U,    0U,    0U,    1U,    0U,    12U,   0U,    200U,  0U,    0U,    0U,
+        4U,    0U,    0U,    0U,    1U,    0U,    64U,   0U,    204U,  0U,    0U,    0U,
         0x00U, 0x03U, 0x00U, 0x00U, 0x50U, 0x00U, 0x10U, 0x00U, 1U,    2U,    3U,    4U}) {
     fragment.push_back(static_cast<std::byte>(byte));
   }
@@ -182,6 +182,27 @@ TEST_CASE("packets are well-formed if all their parts are within them") {
   CHECK(dds::is_well_formed(fragment));
   fragment.at(26) = static_cast<std::byte>(0xff);  // as above: its payload begins behind the end
   CHECK_FALSE(dds::is_well_formed(fragment));
+  fragment.at(26) = static_cast<std::byte>(28);
+  REQUIRE(dds::is_well_formed(fragment));
+  const auto fragment_with = [&](std::size_t at, unsigned value) {
+    Bytes changed = fragment;
+    changed.at(at) = static_cast<std::byte>(value);
+    return dds::is_well_formed(changed);
+  };
+  CHECK_FALSE(fragment_with(21, 0x05));  // of a key
+  CHECK_FALSE(fragment_with(44, 0));     // the fragment before the first
+  CHECK_FALSE(fragment_with(44, 3));     // shorter than it says
+  CHECK_FALSE(fragment_with(44, 5));     // behind the end of the message
+  CHECK_FALSE(fragment_with(48, 2));     // two in a part
+  CHECK_FALSE(fragment_with(50, 63));    // so tiny that Fast DDS 2.9.1 hangs for some
+  CHECK_FALSE(fragment_with(52, 205));   // shorter than the last one
+  Bytes empty(fragment.begin(), fragment.end() - 12);
+  empty.at(22) = static_cast<std::byte>(32);
+  CHECK_FALSE(dds::is_well_formed(empty));  // Fast DDS 2.9.1 ends the program for some
+  Bytes whole = fragment;
+  whole.at(44) = static_cast<std::byte>(1);
+  whole.at(52) = static_cast<std::byte>(12);
+  CHECK_FALSE(dds::is_well_formed(whole));  // a message that needs no fragments
 }
 
 TEST_CASE("a part of statistics is the last one, and parts end at a multiple of four") {

@@ -9,16 +9,15 @@ namespace {
 
 // Until all fragments have come, Fast DDS keeps a list of four bytes an entry in the message's own
 // memory. Its last entry may begin at the last byte, rounded up to a multiple of four.
-constexpr std::size_t room_for_list = 8;
+constexpr std::uint32_t room_for_list = 8;
 
 }  // namespace
 
 bool PayloadPool::get_payload(std::uint32_t size, rtps::CacheChange_t& change) {
   if (size > largest_) return false;
-  const std::size_t bytes = size + room_for_list;
-  if (!has_room(bytes)) make_room_(bytes);
-  if (!has_room(bytes)) return false;
-  take(bytes, change);
+  if (!has_room(size)) make_room_(size);
+  if (!has_room(size)) return false;
+  take(size, change);
   return true;
 }
 
@@ -29,9 +28,10 @@ bool PayloadPool::get_payload(rtps::SerializedPayload_t& data, rtps::IPayloadPoo
   return change.serializedPayload.copy(&data);
 }
 
-void PayloadPool::take(std::size_t size, rtps::CacheChange_t& change) {
-  change.serializedPayload.reserve(static_cast<std::uint32_t>(size));
-  used_ += change.serializedPayload.max_size;
+void PayloadPool::take(std::uint32_t size, rtps::CacheChange_t& change) {
+  change.serializedPayload.reserve(size + room_for_list);
+  change.serializedPayload.max_size = size;  // a longer message must not take its place
+  used_ += size;
   change.payload_owner(this);
 }
 

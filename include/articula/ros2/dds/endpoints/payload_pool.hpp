@@ -39,7 +39,7 @@ class PayloadPool final : public eprosima::fastrtps::rtps::IPayloadPool {
   bool release_payload(eprosima::fastrtps::rtps::CacheChange_t& change) override;
 
  private:
-  void take(std::size_t size, eprosima::fastrtps::rtps::CacheChange_t& change);
+  void take(std::uint32_t size, eprosima::fastrtps::rtps::CacheChange_t& change);
 
   std::size_t largest_;
   std::size_t total_;

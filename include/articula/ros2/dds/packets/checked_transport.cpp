@@ -5,6 +5,7 @@
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <span>
@@ -37,8 +38,11 @@ class CheckedTransport final : public transports::ChainingTransport {
   void receive(transports::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    std::vector<rtps::octet> own(bytes, bytes + size);
-    const auto packet = std::as_writable_bytes(std::span(own));
+    // Fast DDS 2.9.1 believes the first fragment of a message that the others are as long.
+    constexpr std::size_t longest_fragment = 0xffff;
+    std::vector<rtps::octet> own(size + longest_fragment);
+    std::copy_n(bytes, size, own.begin());
+    const auto packet = std::as_writable_bytes(std::span(own)).first(size);
     if (!descriptor_.guard().receive(packet, std::chrono::steady_clock::now())) return;
     receiver->OnDataReceived(own.data(), size, local, remote);
   }
