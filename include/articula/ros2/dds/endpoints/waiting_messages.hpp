@@ -15,9 +15,9 @@ namespace articula::ros2::dds {
 /// The history of a reader whose messages leave it as soon as they have come. What stays waits for
 /// messages before it, or for its fragments. All writers share its memory.
 ///
-/// The next message of a reliable writer always finds room. Otherwise a full history would never see the
-/// message that others wait for, and the reader would be deaf. So messages behind a missing one
-/// get half of the memory: their writer sends the rest again. If fragments fill all of it, the
+/// The next message of a reliable writer always finds room. Otherwise a full history would never
+/// see the message that others wait for, and the reader would be deaf. So messages behind a missing
+/// one get half of the memory: their writer sends the rest again. If fragments fill all of it, the
 /// oldest message makes room of the participant that holds most of it.
 class WaitingMessages final : public eprosima::fastrtps::rtps::ReaderHistory {
  public:
