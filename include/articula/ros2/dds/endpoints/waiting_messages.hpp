@@ -18,7 +18,7 @@ namespace articula::ros2::dds {
 /// The next message of a reliable writer always finds room. Otherwise a full history would never
 /// see the message that others wait for, and the reader would be deaf. So messages behind a missing
 /// one get half of the memory: their writer sends the rest again. If fragments fill all of it, the
-/// oldest message makes room of the participant that holds most of it.
+/// participant that holds most of it loses its oldest message, which comes again.
 class WaitingMessages final : public eprosima::fastrtps::rtps::ReaderHistory {
  public:
   /// @param largest  bytes of a message; a larger one is passed over for good

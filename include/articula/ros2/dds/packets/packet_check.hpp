@@ -20,8 +20,8 @@ namespace detail {
 constexpr bool can_be_gap(Packet part) noexcept { return part.size() >= 28; }
 
 /// A fragment of a message that has several, alone in its part, and with all its bytes. Fast DDS
-/// 2.9.1 reads beyond the part for those that lack bytes. It frees memory twice or uses it after
-/// that for empty ones, those of a key, and those that are a whole message. It hangs for tiny ones,
+/// 2.9.1 reads beyond the part for those that lack bytes. It frees what it does not own for empty
+/// ones, and uses freed memory for those of a key or of a whole message. It hangs for tiny ones,
 /// between which it keeps a list.
 constexpr bool is_good_fragment(std::uint32_t flags, Packet part) noexcept {
   constexpr std::uint32_t has_key = 4, least = 64;  // bytes

@@ -112,7 +112,7 @@ export class JointRow {
     this.box.classList.toggle('touched', this.touched);
   }
 
-  private key(event: KeyboardEvent, changed: () => unknown): void {
+  private key(event: KeyboardEvent, changed: () => void): void {
     const steps: Record<string, number> = {
       ArrowRight: 1,
       ArrowUp: 1,
