@@ -300,8 +300,12 @@ TEST_CASE("messages name units, expressions and quotation marks around numbers")
   const auto p = [](const std::string& value) {
     return of_gains(joints + "shoulder_active_joint:\n  p: " + value + "\n");
   };
-  for (const std::string value : {"5 Nm", "5N", "5;", "5,", "5%"}) {
+  for (const std::string value : {"5;", "5,", "5%"}) {
     CHECK_THAT(p(value), Contains("'" + value + "', expected a number; write the number alone, 5"));
+  }
+  for (const std::string value : {"5 Nm", "5N", "30deg"}) {
+    CHECK_THAT(p(value), Contains("'" + value +
+                                  "', expected a number; write a number in SI units, and no unit"));
   }
   CHECK_THAT(p("\"5\""), Contains("the quoted text '5', expected a number without quotes"));
   for (const std::string value : {"1/2", "2*3", "pi/2"}) {

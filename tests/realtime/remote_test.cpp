@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loop's side of a Remote does not touch the heap, whatever it is asked.
 #include "allocation_guard.hpp"
+#include "articula/remote/request_text.hpp"
 #include "catch.hpp"
 #include "remote/remote_arm.hpp"
 

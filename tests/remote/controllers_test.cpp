@@ -190,6 +190,31 @@ TEST_CASE("gains of which one is bad are refused together, and nothing changes")
   CHECK(arm.ask(SetParameters{}).verdict == support::Verdict::refused);
 }
 
+TEST_CASE("the log tells what requests change, and what became of those that were refused") {
+  SwitchedArm arm;
+  arm.ask(Activate{});
+  const std::string p = "pid_plus_gravity." + elbow + ".p";
+  const auto log = [&] {
+    std::vector<std::string> lines;
+    while (const auto event = arm.session->event()) {
+      const bool warns = event->level == Event::Level::warning;
+      if (event->text.starts_with("test: ")) lines.push_back((warns ? "! " : "") + event->text);
+    }
+    return lines;
+  };
+  log();
+  arm.ask(SetParameters{{{p, 300}}});
+  CHECK(log() == std::vector<std::string>{"test: set_parameters " + p + " = 300"});
+  const Answer negative = arm.ask(SetParameters{{{p, -1}}});
+  CHECK(log() ==
+        std::vector<std::string>{"! test: set_parameters " + p + " = -1: " + negative.text});
+  const Answer unknown = arm.ask(SwitchControllers{{"pid"}, {"computed_torque"}});
+  const std::string request = "test: switch_controllers start pid stop computed_torque";
+  CHECK(log() == std::vector<std::string>{request, "! " + request + ": " + unknown.text});
+  arm.ask(Go{{{elbow, 100}}});  // sliders make such requests many times a second
+  CHECK(log().empty());
+}
+
 TEST_CASE("gains that follow each other before the loop takes them add up") {
   SupervisedArm arm;
   const std::string name = "pid_plus_gravity." + shoulder;

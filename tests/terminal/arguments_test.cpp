@@ -102,6 +102,8 @@ TEST_CASE("a command line that makes no sense gets one line and exit status 2") 
                                                {"gains", "set"},
                                                {"gains", "set", "p"},
                                                {"gains", "set", "p=0x10"},
+                                               {"gains", "set", "p=none"},
+                                               {"go", "elbow=inf"},
                                                {"gains", "set", "p=1", "p=2"},
                                                {"speed"},
                                                {"speed", "0"},

@@ -55,7 +55,8 @@ TEST_CASE("hints on texts that are no numbers") {
                                    {"many", ""},
                                    {"${kp}", ""},
                                    {"1,5", "; write 1.5 if the comma is a decimal one"},
-                                   {"5 Nm", "; write the number alone, 5"},
+                                   {"5,", "; write the number alone, 5"},
+                                   {"30deg", "; write a number in SI units, and no unit"},
                                    {"2*3", "; expressions are not computed"}}) {
     CHECK(number_hint(text) == hint);
   }

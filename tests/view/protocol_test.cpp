@@ -6,6 +6,7 @@
 #include "articula/view/protocol/read_stateless.hpp"
 #include "catch.hpp"
 
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -259,6 +260,11 @@ TEST_CASE("services become requests") {
   CHECK(request_of<remote::SetParameters>("/set_parameters", R"({"values":{"p":3}})")
             .values.at(0)
             .value == 3);
+  CHECK(request_of<remote::SetParameters>("/set_parameters", R"({"values":{"p":"-inf"}})")
+            .values.at(0)
+            .value == -std::numeric_limits<double>::infinity());
+  CHECK_THAT(refusal_of("/set_parameters", R"({"values":{"p":"nan"}})"),
+             Catch::Matchers::ContainsSubstring("values: expected an object of numbers"));
   CHECK_FALSE(request_of<remote::Pause>("/pause", R"({"paused":false})").paused);
   CHECK(request_of<remote::Step>("/step", R"({"cycles":7})").cycles == 7);
   CHECK(request_of<remote::Step>("/step", "{}").cycles == 1);

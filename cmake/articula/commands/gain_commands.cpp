@@ -32,6 +32,13 @@ std::string range_text(const Json& parameter) {
   return "";
 }
 
+/// The value as `gains set` takes it. An infinite one is null: it is at the bound that is infinite.
+std::string value_text(const Json& parameter) {
+  const Json value = parameter.value("value", Json());
+  if (value.is_number()) return shown(value.get<double>());
+  return parameter.value("highest", Json()).is_null() ? "inf" : "-inf";
+}
+
 void print_gains(const Program& program, const std::string& name) {
   Connection connection(program);
   const Json all = connection.call("/describe_parameters").value("parameters", Json::array());
@@ -42,9 +49,8 @@ void print_gains(const Program& program, const std::string& name) {
     names.push_back(parameter.value("name", ""));
     if (!name.empty() && !is_below(names.back(), name)) continue;
     chosen.push_back(parameter);
-    const Json value = parameter.value("value", Json());
-    rows.push_back({names.back(), value.is_number() ? shown(value.get<double>()) : "none",
-                    parameter.value("unit", ""), range_text(parameter)});
+    rows.push_back(
+        {names.back(), value_text(parameter), parameter.value("unit", ""), range_text(parameter)});
   }
   if (!name.empty() && chosen.empty()) {
     const std::vector<std::string_view> known(names.begin(), names.end());
@@ -72,7 +78,7 @@ void add_gain_commands(CLI::App& app, Program& program) {
   CLI::App* set =
       add_command(*gains, program, "set", "Sets gains between two cycles: all of them, or none.",
                   [&program, values] {
-                    const Json request = values_by_name(*values, "gain");
+                    const Json request = values_by_name(*values, "gain", {"inf", "-inf"});
                     Connection connection(program);
                     Json answer = connection.operate("/set_parameters", {{"values", request}});
                     const std::string message = answer.value("message", "");

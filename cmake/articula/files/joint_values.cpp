@@ -4,9 +4,12 @@
 #include <articula/text/number_hint.hpp>
 #include <articula/text/numbers.hpp>
 
+#include <algorithm>
+
 namespace terminal {
 
-Json values_by_name(const std::vector<std::string>& arguments, const std::string& kind) {
+Json values_by_name(const std::vector<std::string>& arguments, const std::string& kind,
+                    const std::vector<std::string>& words) {
   Json values = Json::object();
   for (const std::string& argument : arguments) {
     const std::size_t equals = argument.rfind('=');
@@ -15,12 +18,15 @@ Json values_by_name(const std::vector<std::string>& arguments, const std::string
     }
     const std::string name = argument.substr(0, equals), text = argument.substr(equals + 1);
     const auto number = articula::detail::number_of(text);
-    if (!number) {
-      throw WrongUsage("'" + argument + "': '" + text + "' is not a finite number" +
+    const bool is_word = std::find(words.begin(), words.end(), text) != words.end();
+    if (!number && !is_word) {
+      std::string expected = "a finite number";
+      for (const std::string& word : words) expected += " or " + word;
+      throw WrongUsage("'" + argument + "': '" + text + "' is not " + expected +
                        articula::detail::number_hint(text));
     }
     if (values.contains(name)) throw WrongUsage(kind + " '" + name + "' is given twice");
-    values[name] = *number;
+    values[name] = is_word ? Json(text) : Json(*number);
   }
   return values;
 }

@@ -8,26 +8,39 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace articula {
 
+/// A gain as JSON: a number, or the text "inf" or "-inf".
+/// Real-time: no (allocates).
+[[nodiscard]] inline Json gain_json(double gain) {
+  if (!std::isinf(gain)) return gain;
+  return gain > 0 ? "inf" : "-inf";
+}
+
+/// The gain of such JSON; nothing if it is none.
+/// @tparam AnyJson  a kind of nlohmann::basic_json
+template <class AnyJson>
+[[nodiscard]] std::optional<double> gain_of_json(const AnyJson& json) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (json.is_number()) return json.template get<double>();
+  if (json == "inf") return infinity;
+  if (json == "-inf") return -infinity;
+  return std::nullopt;
+}
+
 /// A change of a loop, without the number of its cycle:
 ///
 ///     {"gains": {"pid.elbow.p": 5}}    {"start": ["pid"], "stop": ["bypass"], "replace": true}
 ///
-/// A gain that is infinite is the text "inf" or "-inf".
 /// Real-time: no (allocates).
 [[nodiscard]] inline Json change_json(const LoopChange& change) {
   Json json = Json::object();
   for (const GainSetting& gain : change.gains) {
-    Json& value = json["gains"][gain.parameter];
-    if (std::isinf(gain.value)) {
-      value = gain.value > 0 ? "inf" : "-inf";
-    } else {
-      value = gain.value;
-    }
+    json["gains"][gain.parameter] = gain_json(gain.value);
   }
   if (!is_empty(change.request)) {
     json["start"] = json["stop"] = Json::array();
@@ -45,14 +58,11 @@ namespace articula {
 /// @throws std::length_error if a name or a list is too long
 /// Real-time: no (allocates, throws).
 [[nodiscard]] inline LoopChange change_of_json(std::uint64_t cycle, const Json& json) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   LoopChange change{.cycle = cycle};
   if (json.contains("gains")) {
     for (const auto& [name, value] : json.at("gains").items()) {
-      const double number = !value.is_string() ? value.get<double>()
-                            : value == "-inf"  ? -infinity
-                                               : infinity;
-      change.gains.push_back({name, number});
+      const auto number = gain_of_json(value);
+      change.gains.push_back({name, number ? *number : value.get<double>()});
     }
   }
   if (json.contains("start")) {

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -42,10 +43,11 @@ class InFlight {
 
   /// Hands a task over.
   /// @param client, request  whom to answer
+  /// @param words            the request as the log lists it; empty: it does not
   /// @param changes          of gains, with their holders
   /// @pre                    not full()
-  void hand_over(std::uint64_t client, std::uint64_t request, typename Task<R>::Wish wish,
-                 Changes changes = {}) {
+  void hand_over(std::uint64_t client, std::uint64_t request, std::string words,
+                 typename Task<R>::Wish wish, Changes changes) {
     for (const auto& [holder, change] : changes) holder->hand_over(*change);
     auto task = std::make_unique<Task<R>>(std::move(wish));
     Task<R>* const handed_over = task.get();
@@ -57,13 +59,14 @@ class InFlight {
         !std::holds_alternative<task::StopJoints<joint_count<R>>>(handed_over->wish)) {
       handed_over->sign = rings_.watch.last_sign();
     }
-    pending_.push_back({std::move(task), client, request, Clock::now(), std::move(changes)});
+    pending_.push_back(
+        {std::move(task), client, request, std::move(words), Clock::now(), std::move(changes)});
     rings_.tasks.push(handed_over);
   }
 
   /// Takes back what the loop has ended, and answers what it did not take in time.
   /// @param note         called with each change of the controller that the loop has made
-  /// @param give         called with client and answer
+  /// @param give         called with client, answer, and the words of the request
   /// @param controllers  a function that returns the ControllerInfo of each
   void collect(auto&& note, auto&& give, auto&& controllers) {
     std::vector<Task<R>*> all_ended;
@@ -98,6 +101,7 @@ class InFlight {
     std::unique_ptr<Task<R>> task;
     std::uint64_t client = 0;
     std::uint64_t request = 0;
+    std::string words{};
     Clock::time_point since{};
     Changes changes{};
     bool answered = false;  ///< since the loop was late
@@ -117,7 +121,7 @@ class InFlight {
 
   static void answer(const Pending& own, Answer answer, auto& give) {
     answer.request = own.request;
-    give(own.client, std::move(answer));
+    give(own.client, std::move(answer), own.words);
   }
 
   /// Who waits for the loop has an answer in time, also where it does not run any more.

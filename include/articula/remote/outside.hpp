@@ -12,6 +12,7 @@
 #include "articula/remote/planned_motions.hpp"
 #include "articula/remote/published.hpp"
 #include "articula/remote/remote_options.hpp"
+#include "articula/remote/request_text.hpp"
 #include "articula/remote/sheet/robot_sheet_of.hpp"
 #include "articula/remote/task_maker.hpp"
 
@@ -44,7 +45,7 @@ class Outside {
   /// @throws std::invalid_argument as Remote
   Outside(LoopType& loop, const RemoteOptions<joint_count>& options)
       : rings_(options.operator_lifetime / loop.period()),
-        side_(loop, rings_, limits_of(loop, options), options.tolerances,
+        side_(loop, rings_, checked_limits(loop.hardware().robot(), options), options.tolerances,
               options.when_operator_is_lost),
         robot_(loop.hardware().robot()),
         sheet_(robot_sheet_of(loop, options.urdf)),
@@ -147,8 +148,11 @@ class Outside {
     const std::lock_guard lock(mutex_);
     pump();
     const std::uint64_t number = ++clients_.of(client).last_request;
+    const std::string words = is_frequent(request) ? "" : in_words(request);
     const auto refuse = [&](std::string text, TrajectoryOutcome outcome = TrajectoryOutcome::idle) {
-      clients_.of(client).answers.push_back({number, Verdict::refused, std::move(text), outcome});
+      Answer answer{number, Verdict::refused, std::move(text), outcome};
+      log_outcome(clients_.of(client).name, words, answer);
+      clients_.of(client).answers.push_back(std::move(answer));
       return number;
     };
     // Whoever may operate may stop, also without the controls.
@@ -162,15 +166,13 @@ class Outside {
     if (in_flight_.full(stops || std::holds_alternative<Deactivate>(request)))
       return refuse("too many requests are waiting for the loop");
     try {
-      hand_over(client, number, request);
+      hand_over(client, number, words, request);
     } catch (const TrajectoryError& error) {
       return refuse(error.what(), error.outcome());
     } catch (const std::exception& error) {
       return refuse(error.what());
     }
-    if (!is_frequent(request)) {
-      tell(clients_.of(client).name + ": " + std::string(name_of(request)));
-    }
+    if (!words.empty()) tell(clients_.of(client).name + ": " + words);
     return number;
   }
   [[nodiscard]] std::optional<Answer> answer(std::uint64_t client) {
@@ -197,17 +199,8 @@ class Outside {
  private:
   using Changes = typename GainParameters<R>::Changes;
 
-  /// The checked limits of profiles.
-  [[nodiscard]] static MotionLimits<joint_count> limits_of(
-      LoopType& loop, const RemoteOptions<joint_count>& options) {
-    validate(options);
-    const R& robot = loop.hardware().robot();
-    const auto limits = options.limits.value_or(default_motion_limits(robot));
-    validate(robot, limits);
-    return limits;
-  }
-
-  void hand_over(std::uint64_t client, std::uint64_t number, const Request& request) {
+  void hand_over(std::uint64_t client, std::uint64_t number, const std::string& words,
+                 const Request& request) {
     Changes changes;
     typename Task<R>::Wish wish = maker_.make(request, published_.reference());
     if (const auto* follow = std::get_if<task::Follow<R>>(&wish); follow && !follow->note.empty()) {
@@ -218,23 +211,30 @@ class Outside {
       for (const ParameterValue& own : set->values) settings.push_back({own.name, own.value});
       wish = task::SetGains{parameters_.change(set->values, changes), std::move(settings)};
     }
-    in_flight_.hand_over(client, number, std::move(wish), std::move(changes));
+    in_flight_.hand_over(client, number, words, std::move(wish), std::move(changes));
   }
 
   void pump() {
     published_.collect(clients_);
     // After the records: the change of a cycle is in the ring before its record.
     in_flight_.collect([this](LoopChange change) { published_.note(std::move(change)); },
-                       [this](std::uint64_t client, Answer answer) {
+                       [this](std::uint64_t client, Answer answer, const std::string& words) {
                          if (auto* const found = clients_.find(client)) {
+                           log_outcome(found->name, words, answer);
                            found->answers.push_back(std::move(answer));
                          }
                        },
                        [this] { return published_.controllers(); });
     clients_.watch_operator(published_.time());
   }
-  void tell(std::string text) {
-    clients_.tell({published_.time(), Event::Level::info, std::move(text)});
+  void tell(std::string text, Event::Level level = Event::Level::info) {
+    clients_.tell({published_.time(), level, std::move(text)});
+  }
+  /// An outcome that has something to say.
+  void log_outcome(const std::string& client, const std::string& words, const Answer& answer) {
+    if (words.empty() || answer.text.empty()) return;
+    tell(client + ": " + words + ": " + answer.text,
+         answer.verdict == Verdict::done ? Event::Level::info : Event::Level::warning);
   }
 
   Rings rings_;

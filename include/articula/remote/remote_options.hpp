@@ -62,4 +62,16 @@ void validate(const RemoteOptions<N>& options) {
   positive("largest_force", options.largest_force);
 }
 
+/// The limits of profiles that the options ask for.
+/// @throws std::invalid_argument naming what makes no sense, in the options or in the limits
+/// Real-time: no (throws).
+template <Robot R>
+[[nodiscard]] MotionLimits<joint_count<R>> checked_limits(
+    const R& robot, const RemoteOptions<joint_count<R>>& options) {
+  validate(options);
+  const auto limits = options.limits.value_or(default_motion_limits(robot));
+  validate(robot, limits);
+  return limits;
+}
+
 }  // namespace articula::remote

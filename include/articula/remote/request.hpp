@@ -140,34 +140,6 @@ using Request = std::variant<Activate, Deactivate, AcknowledgeFault, Go, SetRefe
                              PlayTrajectory, PlaySignals, Stop, SwitchControllers, SetParameters,
                              Pause, Step, SetSpeed, Reset, Pull, SetTrajectorySpeed>;
 
-/// The name of a request, as in the log.
-[[nodiscard]] inline std::string_view name_of(const Request& request) {
-  constexpr std::array<std::string_view, std::variant_size_v<Request>> names{
-      "activate",
-      "deactivate",
-      "acknowledge_fault",
-      "go",
-      "set_reference",
-      "play_trajectory",
-      "play_signals",
-      "stop",
-      "switch_controllers",
-      "set_parameters",
-      "pause",
-      "step",
-      "set_speed",
-      "reset",
-      "pull",
-      "set_trajectory_speed"};
-  return names[request.index()];
-}
-
-/// Whether a request comes so often that the log does not list it.
-[[nodiscard]] inline bool is_frequent(const Request& request) {
-  return std::holds_alternative<SetReference>(request) || std::holds_alternative<Pull>(request) ||
-         std::holds_alternative<Go>(request);
-}
-
 /// What has become of a request.
 enum class Verdict : unsigned char {
   done,       ///< It is done.

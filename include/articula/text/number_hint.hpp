@@ -42,9 +42,13 @@ namespace articula::detail {
                        text.find_first_of("0123456789") != std::string_view::npos;
   if (is_term) return "; expressions are not computed";
   const std::string_view number = leading_number(text);
-  const bool has_unit = !number.empty() && text.find_first_of("0123456789.+-", number.size()) ==
-                                               std::string_view::npos;
-  return has_unit ? "; write the number alone, " + shown(number) : "";
+  const std::string_view rest = text.substr(number.size());
+  if (number.empty() || rest.find_first_of("0123456789.+-") != rest.npos) return "";
+  const bool is_unit = std::any_of(rest.begin(), rest.end(), [](char x) {
+    return (x >= 'a' && x <= 'z') || (x >= 'A' && x <= 'Z');
+  });
+  return is_unit ? "; write a number in SI units, and no unit"
+                 : "; write the number alone, " + shown(number);
 }
 
 }  // namespace articula::detail

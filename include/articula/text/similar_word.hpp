@@ -43,12 +43,12 @@ namespace articula::detail {
 }
 
 /// True if one word is likely to be a misspelling of the other: they have letters in common and
-/// differ by at most two.
+/// differ by at most two, and by half of them.
 [[nodiscard]] inline bool is_near(std::string_view a, std::string_view b) {
   const std::size_t longer = std::max(a.size(), b.size());
   if (longer > std::min(a.size(), b.size()) + 2) return false;
   const std::size_t distance = edit_distance(a, b);
-  return distance <= 2 && distance < longer;
+  return distance <= 2 && 2 * distance <= longer;
 }
 
 /// The known word that an unknown word probably stands for; empty if no word is near, or if several

@@ -205,6 +205,33 @@ TEST_CASE("packets are well-formed if all their parts are within them") {
   CHECK_FALSE(dds::is_well_formed(whole));  // a message that needs no fragments
 }
 
+TEST_CASE("fragments that are asked for have numbers from 1") {
+  Bytes packet = announcement(1, 1);
+  packet.resize(20);
+  // Reader, writer, number, first fragment, bits, a bit, count.
+  for (const unsigned byte :
+       {0x12U, 1U, 32U, 0U, 0U, 0U, 1U, 7U, 0U, 0U, 1U, 3U, 0U, 0U,   0U, 0U, 1U, 0U,
+        0U,    0U, 1U,  0U, 0U, 0U, 1U, 0U, 0U, 0U, 0U, 0U, 0U, 128U, 1U, 0U, 0U, 0U}) {
+    packet.push_back(static_cast<std::byte>(byte));
+  }
+  CHECK(dds::is_well_formed(packet));
+  packet.at(40) = std::byte{0};  // Fast DDS 2.9.1 reads before the message, or sends it for ever
+  CHECK_FALSE(dds::is_well_formed(packet));
+  for (const std::size_t at : {40U, 41U, 42U, 43U}) packet.at(at) = std::byte{0xff};
+  CHECK_FALSE(dds::is_well_formed(packet));  // the fragments after it have no number
+}
+
+TEST_CASE("addresses of groups are hidden") {
+  // Fast DDS 2.9.1 ends the program if two readers share one.
+  const Bytes address(24, std::byte{1});
+  for (const std::uint32_t id : {0x30U, 0x33U, 0x48U}) {
+    CHECK(dds::detail::worth_of(id, address, true) == dds::detail::Worth::unknown);
+  }
+  for (const std::uint32_t id : {0x2fU, 0x31U, 0x32U}) {
+    CHECK(dds::detail::worth_of(id, address, true) == dds::detail::Worth::whole);
+  }
+}
+
 TEST_CASE("a part of statistics is the last one, and parts end at a multiple of four") {
   Bytes packet = announcement(1, 1);
   packet.resize(20);
@@ -249,9 +276,18 @@ TEST_CASE("texts in messages of discovery are within their parameters") {
     CHECK_FALSE(good(id, {5, 0}));
     CHECK_FALSE(good(id, {huge, 0}));
     CHECK_FALSE(good(id, {}));
+    CHECK_FALSE(good(id, {3, 0, 0}));  // bytes after it: Fast DDS 2.9.1 keeps the message for ever
   }
+  std::vector<std::uint32_t> name(64);  // 256 bytes; likewise for one more word
+  name[0] = 4 * 63;
+  CHECK(good(0x05, name));
+  name[0] += 4;
+  name.push_back(0);
+  CHECK_FALSE(good(0x05, name));
+  CHECK(good(0x2c, name));
   CHECK(good(0x29, {2, 1, 0, 4, 0}));
   CHECK_FALSE(good(0x29, {3, 1, 0, 4, 0}));
+  CHECK_FALSE(good(0x29, {1, 1, 0, 4, 0}));
   CHECK_FALSE(good(0x29, {huge, 1, 0}));
   CHECK(good(0x59, {1, 1, 0, 2, 0}));
   CHECK_FALSE(good(0x59, {1, 1, 0, huge, 0}));

@@ -39,13 +39,30 @@ void append_data(Bytes& bytes, unsigned writer_kind, unsigned writer) {
   append(bytes, {0, 0, 16, 0, 0, 0, 0, 0, 0, writer >> 8, writer & 255, writer_kind});
   append(bytes, {0, 0, 0, 0, 1, 0, 0, 0});
 }
+/// The name of a topic in an announcement: four letters, and what follows their end.
+Bytes topic(std::uint32_t number, unsigned behind = 0) {
+  Bytes list;
+  append(list, {5, 0, 12, 0, 6, 0, 0, 0});
+  for (int k = 0; k < 4; ++k) append(list, {'a' + (number >> (4 * k) & 15)});
+  append(list, {0, behind, 0, 0});
+  return list;
+}
+/// An address in an announcement.
+Bytes address(std::uint32_t number) {
+  Bytes list;
+  append(list, {0x2f, 0, 24, 0, 1, 0, 0, 0, number & 255, number >> 8, 0, 0});
+  append(list, {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 127, 0, 0, 1});
+  return list;
+}
+
 /// What a participant sends of a reader.
 /// @param owner        of the identity that it announces
 /// @param reliability  1: best effort, 2: reliable
 /// @param other        the identity is named twice
+/// @param further      parameters
 Bytes endpoint(std::uint32_t number, unsigned entity, std::uint32_t owner, unsigned reliability,
-               unsigned other = 0) {
-  Bytes list;
+               unsigned other = 0, const Bytes& further = {}) {
+  Bytes list = further;
   for (const unsigned each : {entity, other}) {
     if (each == 0) continue;
     append(list, {0x5a, 0, 16, 0});
@@ -183,7 +200,7 @@ TEST_CASE("readers and writers are of the participant that announces them, and d
   CHECK_FALSE(passes(gate, endpoint(1, 10, 2, 1), start));  // of another participant
   CHECK_FALSE(passes(gate, endpoint(1, 10, 1, 1, 11), start));  // two identities
   CHECK_FALSE(passes(gate, endpoint(1, 0, 1, 1), start));       // none
-  for (unsigned entity = 12; entity < 256; ++entity) {
+  for (unsigned entity = 12; entity < 128; ++entity) {
     CHECK(passes(gate, endpoint(1, entity, 1, 1), start));
   }
 }
@@ -215,6 +232,64 @@ TEST_CASE("a participant may open and close many readers") {
   CHECK_FALSE(passes(gate, endpoint(1, 1, 1, 2), start));
 }
 
+TEST_CASE("one participant does not fill a topic") {
+  ParticipantGate gate;
+  constexpr unsigned most = dds::KnownEndpoints::most_of_topic;
+  for (const std::uint32_t participant : {1U, 2U}) {
+    REQUIRE(admits(gate, announcement(participant), start));
+    for (unsigned own = 1; own <= most; ++own) {
+      REQUIRE(passes(gate, endpoint(participant, own, participant, 1, 0, topic(7)), start));
+    }
+  }
+  const auto reader = [](unsigned entity, const Bytes& name) {
+    return endpoint(1, entity, 1, 1, 0, name);
+  };
+  CHECK_FALSE(passes(gate, reader(most + 1, topic(7)), start));
+  CHECK_FALSE(passes(gate, reader(most + 2, topic(7, 1)), start));  // the same name, to Fast DDS
+  Bytes two = topic(8);
+  const Bytes last = topic(7);
+  two.insert(two.end(), last.begin(), last.end());
+  CHECK_FALSE(passes(gate, reader(most + 3, two), start));  // Fast DDS takes the last one
+  CHECK(passes(gate, reader(most + 4, topic(8)), start));
+  CHECK(passes(gate, reader(most, topic(7)), start));  // which is there
+  REQUIRE(passes(gate, farewell(1, 3, 5), start));
+  REQUIRE(passes(gate, farewell(1, 3, 5), start));  // again
+  CHECK(passes(gate, reader(most + 1, topic(7)), start));
+  CHECK_FALSE(passes(gate, reader(5, topic(7)), start));
+}
+
+TEST_CASE("a participant has so many addresses, and no more") {
+  ParticipantGate gate;
+  REQUIRE(admits(gate, announcement(1), start));
+  constexpr unsigned most = dds::KnownEndpoints::most_addresses;
+  const auto at = [&](unsigned entity, unsigned number) {
+    return passes(gate, endpoint(1, entity, 1, 1, 0, address(number)), start);
+  };
+  for (unsigned number = 0; number < most; ++number) REQUIRE(at(1, number));
+  CHECK_FALSE(at(1, most));
+  CHECK_FALSE(at(2, most));
+  CHECK(at(2, 3));
+}
+
+TEST_CASE("an endpoint that is announced again and again takes the room of its participant alone") {
+  ParticipantGate gate;
+  for (const std::uint32_t participant : {1U, 2U}) {
+    REQUIRE(admits(gate, announcement(participant), start));
+  }
+  const auto announced = [&](unsigned number) {
+    Bytes packet = endpoint(1, 1, 1, 1);
+    packet.at(40) = static_cast<std::byte>(number & 255);
+    packet.at(41) = static_cast<std::byte>(number >> 8);
+    return passes(gate, packet, start);
+  };
+  unsigned number = 1;
+  while (number < 65'000 && announced(number)) ++number;
+  CHECK(number > 20'000);
+  CHECK(number < dds::KnownEndpoints::most_memory / 1024);
+  CHECK(announced(number - 1));  // it is sent again because it was lost
+  CHECK(passes(gate, endpoint(2, 1, 2, 1), start));
+}
+
 TEST_CASE("announcements find no room at last, until silent participants are forgotten") {
   ParticipantGate gate;
   std::uint32_t participant = 1;
@@ -222,14 +297,14 @@ TEST_CASE("announcements find no room at last, until silent participants are for
   for (bool room = true; room; ++participant) {
     REQUIRE(admits(gate, announcement(participant), start));
     for (unsigned own = 1; own < 5000 && room; ++own) {
-      room = passes(gate, endpoint(participant, own, participant, 1), start);
+      room = passes(gate, endpoint(participant, own, participant, 1, 0, topic(own)), start);
       if (room) ++readers;
     }
   }
   CHECK(readers > 200'000);
   CHECK(readers < ParticipantGate::most_memory / 1024);
   // One that announces itself again takes no more room.
-  CHECK(passes(gate, endpoint(1, 1, 1, 1), start));
+  CHECK(passes(gate, endpoint(1, 1, 1, 1, 0, topic(1)), start));
   // A packet of any kind is a sign of life, by which Fast DDS keeps a participant.
   CHECK(admits(gate, header(2), start + seconds(200)));
   const auto later = start + seconds(400);

@@ -110,7 +110,8 @@ export async function openPage(
         input.focus();
         input.select();
       });
-      await field.type(String(value));
+      if (value === '') await page.keyboard.press('Backspace');
+      else await field.type(String(value));
     },
     picture: async (name) => {
       mkdirSync(SCREENSHOTS, {recursive: true});

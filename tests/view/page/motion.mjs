@@ -141,8 +141,8 @@ export async function plots(browser, url) {
   await robot.page.evaluate(() =>
     articula.session.ask('/go', {positions: {shoulder_active_joint: 0.4}}),
   );
-  await robot.until('the metrics of the step are shown', () =>
-    /overshoot/.test(document.querySelector('.metrics').textContent),
+  await robot.until('the metrics of the motion are shown', () =>
+    /motion .* takes .*overshoot/.test(document.querySelector('.metrics').textContent),
   );
   await robot.click('button::-p-text(Latency)');
   await robot.until('the histogram has bars', () =>

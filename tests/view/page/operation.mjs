@@ -178,6 +178,25 @@ export async function gains(browser, url) {
   );
   await watcher.until('the other page shows it', valueOf, field, 2000);
   await robot.picture('gains');
+
+  // A clamp is set, and an empty field takes it away.
+  const clamp = 'input[aria-label^="pid_plus_gravity.shoulder_active_joint.u_clamp_min "]';
+  await robot.page.$eval(clamp, (input) => input.closest('details').setAttribute('open', ''));
+  const before = await robot.page.$eval(clamp, (input) => input.value);
+  for (const [typed, shown] of [
+    ['-25', '-25'],
+    ['', ''],
+  ]) {
+    await robot.type(clamp, typed);
+    await robot.page.keyboard.press('Enter');
+    await watcher.until(
+      `the lowest output is ${shown || 'none'}`,
+      (selector, value) => document.querySelector(selector).value === value,
+      clamp,
+      shown,
+    );
+  }
+  check(before === '', 'the shoulder had no lowest output at first');
 }
 
 export async function fault(browser, url, server) {

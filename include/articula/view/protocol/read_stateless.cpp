@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/read_stateless.hpp"
 
+#include "articula/recording/change_json.hpp"
+
 #include <limits>
 #include <utility>
 
@@ -46,11 +48,11 @@ Action read_set_parameters(const Json& message) {
   for (const Json& parameter : *list) {
     const auto name = text_of(parameter, "name");
     if (!name) return fail("a \"name\" in each parameter");
-    const auto value = parameter.find("value");
-    if (value == parameter.end() || !value->is_number()) {
-      return fail("a number as \"value\" of '" + name->substr(0, 256) + "'");
+    const auto value = gain_of_json(parameter.value("value", Json()));
+    if (!value) {
+      return fail("a number, \"inf\" or \"-inf\" as \"value\" of '" + name->substr(0, 256) + "'");
     }
-    setting.values.push_back({*name, value->get<double>()});
+    setting.values.push_back({*name, *value});
   }
   return setting;
 }

@@ -2,6 +2,7 @@
 /// @file The topic, type and quality of service of a reader or writer of DDS.
 #pragma once
 
+#include "articula/ros2/dds/packets/known_endpoints.hpp"
 #include "articula/ros2/quality_of_service.hpp"
 
 #include <fastdds/rtps/attributes/HistoryAttributes.h>
@@ -61,7 +62,8 @@ inline std::vector<unsigned char> octets(const std::string& text) {
 /// Participants in a domain, and readers or writers of each, that are noted. Others are ignored.
 inline constexpr std::size_t most_participants = 256;
 inline constexpr std::size_t most_endpoints = 2048;
-/// Peers' readers that match a writer here, and likewise.
-inline constexpr std::size_t most_matches = 1024;
+/// Peers' readers that match a writer here, and likewise: more than one participant can have in a
+/// topic.
+inline constexpr std::size_t most_matches = most_participants * KnownEndpoints::most_of_topic;
 
 }  // namespace articula::ros2::dds

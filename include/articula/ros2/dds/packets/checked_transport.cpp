@@ -4,11 +4,15 @@
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
+#include <fastdds/rtps/common/LocatorList.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
+#include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace articula::ros2::dds {
@@ -24,16 +28,29 @@ class CheckedTransport final : public transports::ChainingTransport {
       : ChainingTransport(descriptor), descriptor_(descriptor) {}
 
   transports::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+  bool OpenOutputChannel(transports::SendResourceList& resources,
+                         const rtps::Locator_t& receiver) override {
+    const bool is_open = ChainingTransport::OpenOutputChannel(resources, receiver);
+    if (is_open) open_.insert(receiver);
+    return is_open;
+  }
+  // Fast DDS 2.9.1 ends the program at a receiver for which it has opened nothing. It holds one lock
+  // here and while it opens.
   bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size,
             rtps::LocatorsIterator* first, rtps::LocatorsIterator* last,
             const std::chrono::steady_clock::time_point& deadline) override {
+    std::vector<rtps::Locator_t> receivers;
+    for (; *first != *last; ++*first) {
+      if (open_.contains(**first)) receivers.push_back(**first);
+    }
+    transports::Locators begin(receivers.cbegin()), end(receivers.cend());
     const Packet packet = std::as_bytes(std::span(bytes, size));
     if (!PacketGuard::has_acknowledgement(packet)) {
-      return below->send(bytes, size, first, last, deadline);
+      return below->send(bytes, size, &begin, &end, deadline);
     }
     std::vector<rtps::octet> own(bytes, bytes + size);
     descriptor_.guard().send(std::as_writable_bytes(std::span(own)));
-    return below->send(own.data(), size, first, last, deadline);
+    return below->send(own.data(), size, &begin, &end, deadline);
   }
   void receive(transports::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
@@ -48,7 +65,15 @@ class CheckedTransport final : public transports::ChainingTransport {
   }
 
  private:
+  struct Before {  // kind, port, address
+    bool operator()(const rtps::Locator_t& a, const rtps::Locator_t& b) const {
+      const auto order = std::pair(a.kind, a.port) <=> std::pair(b.kind, b.port);
+      return order != 0 ? order < 0 : std::memcmp(a.address, b.address, sizeof a.address) < 0;
+    }
+  };
+
   CheckedTransportDescriptor descriptor_;
+  std::set<rtps::Locator_t, Before> open_{};
 };
 
 }  // namespace

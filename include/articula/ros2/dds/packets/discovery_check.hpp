@@ -20,7 +20,12 @@ constexpr bool take_text(Packet& bytes, bool little) noexcept {
   return true;
 }
 
-/// Whether so many entries of some texts follow their number.
+/// Whether the bytes are one text, or some bytes with their length.
+constexpr bool is_text(Packet bytes, bool little) noexcept {
+  return take_text(bytes, little) && bytes.empty();
+}
+
+/// Whether the bytes are a number and so many entries of some texts.
 /// @param texts  of each, as 2 for a name and a value
 constexpr bool has_texts(Packet bytes, bool little, std::size_t texts) noexcept {
   if (bytes.size() < 4) return false;
@@ -30,11 +35,11 @@ constexpr bool has_texts(Packet bytes, bool little, std::size_t texts) noexcept 
   for (std::size_t k = 0; k < count * texts; ++k) {
     if (!take_text(bytes, little)) return false;
   }
-  return true;
+  return bytes.empty();
 }
 
-/// The size of a parameter that always has the same one; 0 for others. Source: [RTPS], tables 9.13
-/// and 9.14.
+/// The size of a parameter that always has the same one; 0 for others, and for addresses of groups:
+/// Fast DDS 2.9.1 ends the program if two readers share one. Source: [RTPS], tables 9.13 and 9.14.
 constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
   switch (id) {
     case 0x06:  // strength of ownership
@@ -68,11 +73,8 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
     case 0x5a:  // of an endpoint
       return 16;
     case 0x2f:  // addresses
-    case 0x30:
     case 0x31:
     case 0x32:
-    case 0x33:
-    case 0x48:
       return 24;
     case 0x1e:  // durability service
       return 28;
@@ -81,12 +83,13 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
   }
 }
 
+inline constexpr std::size_t longest_name = 256;     ///< with its length [bytes]
 inline constexpr std::uint32_t longest_lease = 300;  ///< of a participant [s]; ROS has 10 or 20
 
 /// What a parameter of discovery is worth.
 enum class Worth : unsigned char {
   whole,    ///< It contains what it says.
-  broken,   ///< It does not.
+  broken,   ///< It does not, or Fast DDS 2.9.1 keeps the message for ever.
   unknown,  ///< It has another size, or nobody here needs it, as filters and security.
 };
 
@@ -97,10 +100,11 @@ constexpr Worth worth_of(std::uint32_t id, Packet value, bool little) noexcept {
     case 0x05:  // name of a topic
     case 0x07:  // name of a type
     case 0x62:  // name of an entity
+      return judged(value.size() <= longest_name && is_text(value, little));
     case 0x2c:  // data of a user,
     case 0x2d:  // of a group,
     case 0x2e:  // of a topic
-      return judged(take_text(value, little));
+      return judged(is_text(value, little));
     case 0x29:  // partitions
       return judged(has_texts(value, little, 1));
     case 0x59:  // properties

@@ -52,8 +52,9 @@ constexpr std::optional<Body> body_of(Packet part, std::uint32_t flags,
                                       std::size_t fields) noexcept {
   const bool little = (flags & 1U) != 0, has_parameters = (flags & 2U) != 0;
   if (part.size() < fields) return std::nullopt;
-  const std::size_t at = 4 + number_at(part, 2, 2, little);
-  if (at < fields || at > part.size()) return std::nullopt;
+  constexpr std::size_t most = 0x7fff;  // Fast DDS 2.9.1 takes more for a negative number
+  const std::size_t behind = number_at(part, 2, 2, little), at = 4 + behind;
+  if (behind > most || at < fields || at > part.size()) return std::nullopt;
   const Packet rest = part.subspan(at);
   if (!has_parameters) return Body{.payload = rest};
   const std::size_t size =
@@ -65,6 +66,7 @@ constexpr std::optional<Body> body_of(Packet part, std::uint32_t flags,
 /// A message of discovery.
 struct DiscoveryMessage {
   std::uint32_t writer = 0;
+  std::uint64_t number = 0;
   Body body{};
   std::optional<ParameterList> list{};  ///< what it announces, or the identity of what ends
   bool ends = false;                    ///< what it names leaves
@@ -78,7 +80,8 @@ constexpr std::optional<DiscoveryMessage> discovery_of(Packet part, std::uint32_
   if (!writes_discovery(writer_of(part))) return std::nullopt;
   const auto body = body_of(part, flags, 20);
   if (!body) return std::nullopt;
-  DiscoveryMessage message{.writer = writer_of(part), .body = *body};
+  DiscoveryMessage message{
+      .writer = writer_of(part), .number = sequence_at(part, 12, (flags & 1U) != 0), .body = *body};
   if (body->has_inline_list) {
     message.body.inline_list.for_each([&](std::uint32_t id, Packet value, Worth) {
       constexpr std::uint32_t status = 0x71;  // 1: disposed, 2: unregistered, 3: both

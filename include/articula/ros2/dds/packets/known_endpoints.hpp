@@ -13,8 +13,10 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace articula::ros2::dds {
 
@@ -31,11 +33,14 @@ inline Prefix prefix_at(Packet bytes, std::size_t at) {
 /// What a participant and its readers and writers have announced of themselves. What DDS forbids to
 /// change never changes, also not after their end: names, durability, liveliness, ownership, order,
 /// reliability. Nor does the lease of a participant. Fast DDS 2.9.1 ends the program if a reader
-/// becomes reliable.
+/// becomes reliable. One participant can neither fill a topic nor have addresses without end.
 /// For one thread at a time. Real-time: no (allocates).
 class KnownEndpoints {
  public:
-  static constexpr std::size_t most = 1 << 16;  ///< in the life of a participant
+  static constexpr std::size_t most = 1 << 16;         ///< in the life of a participant
+  static constexpr int most_of_topic = 128;            ///< readers at a time, and writers
+  static constexpr std::size_t most_addresses = 128;   ///< in the life of a participant
+  static constexpr std::size_t most_memory = 1 << 25;  ///< for announcements [bytes]
 
   /// Whether all identities in a message are one, of a participant or of something that it has.
   [[nodiscard]] static bool is_of(const Prefix& source, const detail::DiscoveryMessage& message) {
@@ -56,30 +61,58 @@ class KnownEndpoints {
         return agrees(value);
       });
     };
-    constexpr std::uint32_t key = 0x70;
     if (message.body.has_inline_list && !check(message.body.inline_list, key)) return false;
     if (!message.list) return true;
     count = 0;
     return check(*message.list, identity_in(message)) && count == 1;
   }
 
-  /// Whether an announcement says what others of the same thing did.
+  /// Whether an announcement says what others of the same thing did, and there is room for it.
+  /// Fast DDS 2.9.1 may keep each number of an endpoint that is announced again.
   /// @param message  is_of, with a list
   /// @param room     for what Fast DDS keeps of it [bytes]
   [[nodiscard]] bool admits(const detail::DiscoveryMessage& message, std::size_t room) {
     const std::size_t memory = 1024 + message.list->bytes.size();  // roughly
     const Name name{message.writer, entity_in(message)};
     const auto known = said_.find(name);
-    if (known == said_.end() && (said_.size() >= most || memory > room)) return false;
-    Said& said = said_[name];
+    const bool is_new = known == said_.end();
+    if (is_new && said_.size() >= most) return false;
     const std::size_t constants = constants_of(*message.list);
-    if (known != said_.end() && said.constants != constants) return false;
-    const std::size_t more = memory - std::min(memory, said.memory);
-    if (more > room) return false;
+    if (!is_new && known->second.constants != constants) return false;
+
+    const bool is_participant = message.writer == detail::participant_writer;
+    const bool is_repeated = !is_new && (is_participant || message.number == known->second.number);
+    const std::size_t kept = is_repeated ? std::min(memory, known->second.memory) : 0;
+    const std::size_t more = memory - kept;
+    if (more > std::min(room, most_memory - memory_)) return false;
+    const Topic topic{message.writer, topic_in(*message.list)};
+    const bool joins = !is_participant && (is_new || !known->second.lives);
+    if (joins && living_[topic] >= most_of_topic) return false;
+    if (!has_room_for_addresses(*message.list)) return false;
+
+    Said& said = said_[name];
     said.constants = constants;
+    said.number = message.number;
     said.memory += more;
     memory_ += more;
+    if (joins) {
+      said.lives = true;
+      said.topic = topic;
+      ++living_[topic];
+    }
     return true;
+  }
+  /// Notes that something ends: a reader, a writer, or the participant with all that it has.
+  /// @param message  is_of, and ends
+  void end(const detail::DiscoveryMessage& message) {
+    if (message.writer == detail::participant_writer) {
+      for (auto& each : said_) each.second.lives = false;
+      living_.clear();
+    } else if (const auto own = said_.find({message.writer, entity_in(message)});
+               own != said_.end() && own->second.lives) {
+      own->second.lives = false;
+      --living_[own->second.topic];
+    }
   }
   /// What Fast DDS keeps of all that was announced, at most [bytes].
   [[nodiscard]] std::size_t memory() const { return memory_; }
@@ -94,8 +127,13 @@ class KnownEndpoints {
 
  private:
   using Name = std::pair<std::uint32_t, std::uint32_t>;  // writer of discovery, entity
+  using Topic = std::pair<std::uint32_t, std::string>;   // writer of discovery, name
+  static constexpr std::uint32_t topic_name = 0x05, key = 0x70;
   struct Said {
     std::size_t constants = 0, memory = 0;
+    std::uint64_t number = 0;  ///< of the announcement
+    bool lives = false;        ///< a reader or a writer
+    Topic topic{};
     WriterNumbers numbers{};
   };
 
@@ -103,22 +141,39 @@ class KnownEndpoints {
   [[nodiscard]] static std::uint32_t identity_in(const detail::DiscoveryMessage& message) {
     return message.writer == detail::participant_writer ? 0x50 : 0x5a;
   }
-  /// The entity that a message announces.
+  /// The entity that a message names: in its list, or by a key.
   [[nodiscard]] static std::uint32_t entity_in(const detail::DiscoveryMessage& message) {
     std::uint32_t entity = 0;
-    message.list->for_each([&](std::uint32_t id, Packet value, detail::Worth) {
-      if (id == identity_in(message)) entity = detail::number_at(value, Prefix{}.size(), 4, false);
+    const auto find = [&](const detail::ParameterList& list, std::uint32_t identity) {
+      list.for_each([&](std::uint32_t id, Packet value, detail::Worth) {
+        if (id == identity) entity = detail::number_at(value, Prefix{}.size(), 4, false);
+        return true;
+      });
+    };
+    if (message.body.has_inline_list) find(message.body.inline_list, key);
+    if (message.list) find(*message.list, identity_in(message));
+    return entity;
+  }
+  /// The name of a topic as Fast DDS reads it: the last one, up to its first byte that is zero.
+  [[nodiscard]] static std::string topic_in(const detail::ParameterList& list) {
+    std::string name;
+    list.for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
+      if (id != topic_name || worth != detail::Worth::whole) return true;
+      name.clear();
+      for (std::size_t k = 4; k < value.size() && value[k] != std::byte{0}; ++k) {
+        name += static_cast<char>(value[k]);
+      }
       return true;
     });
-    return entity;
+    return name;
   }
   /// A number for all that must not change, which nobody else can foresee.
   [[nodiscard]] static std::size_t constants_of(const detail::ParameterList& list) {
     static const std::uint32_t secret = std::random_device()();
     std::string text = std::to_string(secret);
     list.for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
-      constexpr std::array<std::uint32_t, 9> constants{0x02, 0x05, 0x07, 0x1a, 0x1b,
-                                                       0x1d, 0x1f, 0x21, 0x25};
+      constexpr std::array<std::uint32_t, 9> constants{0x02, topic_name, 0x07, 0x1a, 0x1b,
+                                                       0x1d, 0x1f,       0x21, 0x25};
       if (worth != detail::Worth::whole) return true;  // Fast DDS does not see it
       if (std::find(constants.begin(), constants.end(), id) == constants.end()) return true;
       text += static_cast<char>(id) + std::to_string(value.size()) + ':';
@@ -127,8 +182,24 @@ class KnownEndpoints {
     });
     return std::hash<std::string>()(text);
   }
+  /// Notes the addresses in a list. Fast DDS 2.9.1 keeps each to which it has ever sent, and goes
+  /// through all of them at each packet.
+  [[nodiscard]] bool has_room_for_addresses(const detail::ParameterList& list) {
+    return list.for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
+      constexpr std::array<std::uint32_t, 3> unicast{0x2f, 0x31, 0x32};
+      if (worth != detail::Worth::whole) return true;
+      if (std::find(unicast.begin(), unicast.end(), id) == unicast.end()) return true;
+      std::vector<std::byte> address(value.begin(), value.end());
+      if (addresses_.contains(address)) return true;
+      if (addresses_.size() >= most_addresses) return false;
+      addresses_.insert(std::move(address));
+      return true;
+    });
+  }
 
   std::map<Name, Said> said_{};
+  std::map<Topic, int> living_{};  ///< readers and writers
+  std::set<std::vector<std::byte>> addresses_{};
   std::size_t memory_ = 0;
   std::map<std::uint32_t, WriterNumbers> builtin_{};
 };

@@ -54,6 +54,14 @@ constexpr bool is_good_set(Packet part, bool little, std::size_t at, std::size_t
   return bits <= 256 && part.size() >= at + 4 + (bits + 31) / 32 * 4 + behind;
 }
 
+/// Whether a set of fragments, which is there, has possible numbers. There is no fragment 0: Fast
+/// DDS 2.9.1 reads before the message for it, or sends it for ever.
+constexpr bool has_fragments(Packet part, bool little) noexcept {
+  constexpr std::uint32_t most = 0xffff'ffff - 256;
+  const std::uint32_t first = number_at(part, 16, 4, little);
+  return first >= 1 && first <= most;
+}
+
 /// A part without its head of four bytes.
 constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part) noexcept {
   const bool little = (flags & 1U) != 0;
@@ -71,7 +79,7 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
     case destination_part:
       return part.size() >= 12;
     case fragments_missing_part:
-      return is_good_set(part, little, 20, 4);
+      return is_good_set(part, little, 20, 4) && has_fragments(part, little);
     case fragments_heartbeat_part:
       return part.size() >= 24;
     case message_part:

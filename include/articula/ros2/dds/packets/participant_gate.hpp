@@ -88,6 +88,7 @@ class ParticipantGate {
 
   /// A message of discovery of a participant that is known.
   [[nodiscard]] bool admits(KnownEndpoints& endpoints, const detail::DiscoveryMessage& message) {
+    if (message.ends) endpoints.end(message);
     if (!message.list || message.ends) return true;
     const std::size_t before = endpoints.memory();
     const bool admitted = endpoints.admits(message, most_memory - memory_);

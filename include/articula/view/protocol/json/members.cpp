@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/json/members.hpp"
 
+#include "articula/recording/change_json.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +15,8 @@ namespace {
 constexpr std::size_t longest_text = 256;  // bytes; names of joints have at most 63
 
 bool is_number(const Json& x) { return x.is_number(); }
+
+bool is_gain(const Json& x) { return gain_of_json(x).has_value(); }
 
 bool is_integer(const Json& x) {
   if (x.is_number_unsigned()) {
@@ -56,6 +60,8 @@ bool is_of(Kind kind, const Json& x) {
       return is_text(x);
     case Kind::number_by_name:
       return x.is_object() && has_short_names(x) && all_are(x, is_number);
+    case Kind::gain_by_name:
+      return x.is_object() && has_short_names(x) && all_are(x, is_gain);
     case Kind::numbers:
       return x.is_array() && all_are(x, is_number);
     case Kind::number_lists:
@@ -89,6 +95,8 @@ std::string_view words_for(Kind kind) {
       return "a text of at most 256 bytes";
     case Kind::number_by_name:
       return "an object of numbers, as {\"shoulder\": 0.5}";
+    case Kind::gain_by_name:
+      return "an object of numbers, \"inf\" or \"-inf\", as {\"pid.elbow.p\": 300}";
     case Kind::numbers:
       return "an array of numbers";
     case Kind::number_lists:
@@ -133,6 +141,10 @@ Json schema_of_kind(Kind kind) {
       return {{"type", "string"}};
     case Kind::number_by_name:
       return {{"type", "object"}, {"additionalProperties", number}};
+    case Kind::gain_by_name:
+      return {{"type", "object"},
+              {"additionalProperties",
+               {{"anyOf", Json::array({number, {{"enum", Json::array({"inf", "-inf"})}}})}}}};
     case Kind::numbers:
       return {{"type", "array"}, {"items", number}};
     case Kind::number_lists:

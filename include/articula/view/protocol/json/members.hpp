@@ -17,6 +17,7 @@ enum class Kind : unsigned char {
   boolean,         ///< true or false
   text,            ///< at most 256 bytes
   number_by_name,  ///< object of numbers, as {"shoulder": 0.5}
+  gain_by_name,    ///< likewise; "inf" and "-inf" are infinite
   numbers,         ///< array of numbers
   number_lists,    ///< array of arrays of numbers
   three_numbers,   ///< array of three numbers

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/requests/futures_messages.hpp"
 
+#include "articula/recording/change_json.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -102,7 +104,7 @@ Asked read_futures(const Json& call) {
   remote::FuturesQuestion question;
   if (const auto gains = call.find("gains"); gains != call.end()) {
     for (const auto& [name, value] : gains->items()) {
-      question.gains.push_back({name, value.get<double>()});
+      question.gains.push_back({name, gain_of_json(value).value()});
     }
   }
   FutureOptions& options = question.options;

@@ -12,7 +12,7 @@ namespace articula::view {
 
 /// Of the service /futures.
 inline constexpr std::array futures_members{
-    Member{"gains", Kind::number_by_name},  Member{"count", Kind::integer},
+    Member{"gains", Kind::gain_by_name},    Member{"count", Kind::integer},
     Member{"horizon", Kind::number},        Member{"samples", Kind::integer},
     Member{"seed", Kind::integer},          Member{"mass", Kind::number},
     Member{"friction", Kind::number},       Member{"delay", Kind::integer},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/view/protocol/requests/requests.hpp"
 
+#include "articula/recording/change_json.hpp"
 #include "articula/view/protocol/requests/futures_messages.hpp"
 #include "articula/view/protocol/requests/read_motion.hpp"
 
@@ -19,7 +20,7 @@ constexpr std::array reference_members{Member{"positions", number_by_name},
 constexpr std::array switch_members{Member{"start", texts}, Member{"stop", texts},
                                     Member{"best_effort", boolean}, Member{"replace", boolean}};
 constexpr std::array stop_members{Member{"joints", texts}};
-constexpr std::array parameter_members{Member{"values", number_by_name, true}};
+constexpr std::array parameter_members{Member{"values", gain_by_name, true}};
 constexpr std::array pause_members{Member{"paused", boolean, true}};
 constexpr std::array step_members{Member{"cycles", integer}};
 constexpr std::array speed_members{Member{"factor", number, true}};
@@ -62,7 +63,7 @@ Asked switch_controllers(const Json& call) {
 Asked set_parameters(const Json& call) {
   remote::SetParameters request;
   for (const auto& [name, value] : call.at("values").items()) {
-    request.values.push_back({name, value.get<double>()});
+    request.values.push_back({name, gain_of_json(value).value()});
   }
   return remote::Request(request);
 }

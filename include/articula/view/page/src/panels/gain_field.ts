@@ -50,9 +50,20 @@ export class GainField {
     this.reset();
   }
 
-  /** The number in the field; NaN if there is none. */
+  /** The number in the field; NaN if there is none, as in that of a clamp that does not act. */
   get value(): number {
     return this.input.value === '' ? NaN : this.input.valueAsNumber;
+  }
+
+  /** What the port gets for it. An empty field asks for no limit, as that of a clamp. */
+  get setting(): number | 'inf' | '-inf' {
+    if (!Number.isNaN(this.value)) return this.value;
+    return this.parameter.highest === null ? 'inf' : '-inf';
+  }
+
+  /** Whether the field holds text that is no number. */
+  get isMalformed(): boolean {
+    return this.input.validity.badInput;
   }
 
   get isChanged(): boolean {
@@ -60,10 +71,10 @@ export class GainField {
   }
 
   /** The value that holds in the loop. A number that the user is about to change stays. */
-  holds(value: number): void {
+  holds(value: number | null): void {
     const changed = this.isChanged;
-    this.parameter.value = value;
-    if (!changed || this.value === value) this.reset();
+    this.parameter.value = Number.isFinite(value) ? value : null;
+    if (!changed || !this.isChanged) this.reset();
     this.mark();
   }
 

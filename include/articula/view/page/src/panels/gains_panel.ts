@@ -141,13 +141,14 @@ export class GainsPanel {
     const changed = this.fields.filter((field) => field.isChanged);
     for (const field of this.fields) field.refuse('');
     this.outcome.textContent = '';
-    const empty = changed.filter((field) => Number.isNaN(field.value));
-    for (const field of empty) field.refuse('A number is missing.');
-    if (changed.length === 0 || empty.length > 0) return;
-    const values = Object.fromEntries(changed.map((field) => [field.parameter.name, field.value]));
+    const malformed = this.fields.filter((field) => field.isMalformed);
+    for (const field of malformed) field.refuse('A number is missing.');
+    if (changed.length === 0 || malformed.length > 0) return;
+    const given = changed.map((field) => field.value);
+    const values = Object.fromEntries(changed.map((field) => [field.parameter.name, field.setting]));
     const answer = await this.session.askQuietly('/set_parameters', {values});
     if (answer.success) {
-      for (const field of changed) field.holds(values[field.parameter.name]);
+      changed.forEach((field, k) => field.holds(given[k]));
       this.outcome.textContent =
         changed.length === 1 ? 'One gain is set.' : `${changed.length} gains are set.`;
     } else {

@@ -25,9 +25,12 @@ export function stepLines(
     const unit = positionUnit(sheet.joints[joint]);
     const name = element('b', {}, sheet.joints[joint].name);
     name.style.setProperty('--line', jointColour(joint));
+    // The rise along a profile is that of the profile.
+    const kind = step.duration === 0 ? 'step' : 'motion';
+    const rise = step.duration === 0 ? `rise ${formatTime(step.rise)}` : `takes ${formatTime(step.duration)}`;
     const text =
-      ` step ${step.from.toFixed(3)} → ${step.to.toFixed(3)} ${unit}: ` +
-      `rise ${formatTime(step.rise)}, overshoot ${format(100 * step.overshoot, 3)} %, ` +
+      ` ${kind} ${step.from.toFixed(3)} → ${step.to.toFixed(3)} ${unit}: ` +
+      `${rise}, overshoot ${format(100 * step.overshoot, 3)} %, ` +
       `settles in ${formatTime(step.settling)}, error ${format(step.error, 5)} ${unit}`;
     return [element('span', {}, name, text.replaceAll('-', '−'))];
   });

@@ -6,6 +6,7 @@ export interface StepMetrics {
   from: number;
   to: number;
   start: number; // time at which the reference left its old value [s]
+  duration: number; // of the change of the reference [s]; 0 for a step, more along a profile
   rise: number; // from 10 % to 90 % of the way [s]; NaN if it was not reached
   overshoot: number; // beyond the new value, share of the way
   settling: number; // from the start until within 2 % of the way for good [s]; NaN likewise
@@ -30,22 +31,24 @@ export function lastStep(
   let row = end - 1;
   while (row > first && Math.abs(at(row - 1) - to) <= least) --row;
   if (row === first || samples.time(end - 1) - samples.time(row) < shortestRest) return null;
+  const arrival = row;
   while (row > first && Math.abs(at(row) - at(row - 1)) > least / 10) --row;
   if (row === first) return null;
   const from = at(row);
-  const way = to - from;
-  if (Math.abs(way) <= 10 * least) return null;
+  const height = to - from;
+  if (Math.abs(height) <= 10 * least) return null;
   let rest = row; // unless the turning point of a wave
   while (rest > first && Math.abs(at(rest - 1) - from) <= least) --rest;
   if (rest > first && samples.time(row) - samples.time(rest) < shortestRest) return null;
 
   const start = samples.time(row);
+  const duration = arrival - row > 1 ? samples.time(arrival) - start : 0;
   let tenth = NaN;
   let ninety = NaN;
   let furthest = -Infinity;
   let outside = start;
   for (; row < end; ++row) {
-    const share = (position(row) - from) / way;
+    const share = (position(row) - from) / height;
     const time = samples.time(row);
     if (Number.isNaN(tenth) && share >= 0.1) tenth = time;
     if (Number.isNaN(ninety) && share >= 0.9) ninety = time;
@@ -57,6 +60,7 @@ export function lastStep(
     from,
     to,
     start,
+    duration,
     rise: ninety - tenth,
     overshoot: Math.max(0, furthest - 1),
     settling: settled ? outside - start : NaN,
