@@ -133,6 +133,12 @@ FastDdsPeer::FastDdsPeer(unsigned domain, const Options& options)
     const unsigned char prefix[] = {0x01, 0x10, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
     std::copy(std::begin(prefix), std::end(prefix), quality.wire_protocol().prefix.value);
   }
+  if (options.joins_group) {
+    rtps::Locator_t group = loopback;
+    rtps::IPLocator::setIPv4(group, "239.255.9.9");
+    group.port = 20000 + domain;
+    quality.wire_protocol().default_multicast_locator_list.push_back(group);
+  }
   Entities& e = *entities_;
   e.depth = options.depth;
   e.participant =

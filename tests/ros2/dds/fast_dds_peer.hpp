@@ -20,6 +20,7 @@ class FastDdsPeer {
   struct Options {
     bool poses_as_cyclone = false;  ///< its identifier begins as those of Cyclone DDS
     int depth = 100;                ///< of the histories of writers and readers
+    bool joins_group = false;       ///< readers listen to an address of a group, too
     /// Whether a message of a writer is lost on its way, or a fragment of it. Called each time it is
     /// sent. Fragments are numbered from 1; 0 is a whole message.
     std::function<bool(std::uint32_t message, std::uint32_t fragment)> loses{};

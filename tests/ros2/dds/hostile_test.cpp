@@ -124,6 +124,30 @@ TEST_CASE("a message that is too large arrives nowhere, and others' messages arr
   CHECK(sizes == std::vector<std::size_t>{100'000, 8});
 }
 
+TEST_CASE("peers that listen to the same group hear a topic") {
+  talk_over_udp_only();
+  FastDdsTransport transport({.domain = domain()});
+  const auto writer = transport.advertise(text_topic("/text", reliable));
+  FastDdsPeer::Options options;
+  options.joins_group = true;
+  FastDdsPeer first(domain(), options), second(domain(), options);
+  const std::string type = "std_msgs::msg::dds_::String_";
+  const std::size_t in_first = first.make_reader("rt/text", type),
+                    in_second = second.make_reader("rt/text", type);
+  // Fast DDS 2.9.1 would end the program at the second one.
+  REQUIRE(poll_until(transport, [&] {
+    return writer->readers() == 2 && first.matches_of_reader(in_first) == 1 &&
+           second.matches_of_reader(in_second) == 1;
+  }));
+  for (int k = 0; k < 10; ++k) writer->write(text_bytes(std::to_string(k)));
+  std::size_t heard_by_first = 0, heard_by_second = 0;
+  CHECK(poll_until(transport, [&] {
+    heard_by_first += first.take(in_first).size();
+    heard_by_second += second.take(in_second).size();
+    return heard_by_first == 10 && heard_by_second == 10;
+  }));
+}
+
 TEST_CASE("requests of any bytes in both dialects do not keep a service from others") {
   talk_over_udp_only();
   FastDdsTransport transport({.domain = domain()});

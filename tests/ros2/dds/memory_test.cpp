@@ -221,17 +221,6 @@ TEST_CASE("fragments that are asked for have numbers from 1") {
   CHECK_FALSE(dds::is_well_formed(packet));  // the fragments after it have no number
 }
 
-TEST_CASE("addresses of groups are hidden") {
-  // Fast DDS 2.9.1 ends the program if two readers share one.
-  const Bytes address(24, std::byte{1});
-  for (const std::uint32_t id : {0x30U, 0x33U, 0x48U}) {
-    CHECK(dds::detail::worth_of(id, address, true) == dds::detail::Worth::unknown);
-  }
-  for (const std::uint32_t id : {0x2fU, 0x31U, 0x32U}) {
-    CHECK(dds::detail::worth_of(id, address, true) == dds::detail::Worth::whole);
-  }
-}
-
 TEST_CASE("a part of statistics is the last one, and parts end at a multiple of four") {
   Bytes packet = announcement(1, 1);
   packet.resize(20);

@@ -34,14 +34,16 @@ class CheckedTransport final : public transports::ChainingTransport {
     if (is_open) open_.insert(receiver);
     return is_open;
   }
-  // Fast DDS 2.9.1 ends the program at a receiver for which it has opened nothing. It holds one lock
-  // here and while it opens.
+  // Fast DDS 2.9.1 ends the program at a receiver for which it has opened nothing: the second of two
+  // readers that share the address of a group. It holds one lock here and while it opens.
   bool send(rtps::SenderResource* below, const rtps::octet* bytes, std::uint32_t size,
             rtps::LocatorsIterator* first, rtps::LocatorsIterator* last,
             const std::chrono::steady_clock::time_point& deadline) override {
     std::vector<rtps::Locator_t> receivers;
     for (; *first != *last; ++*first) {
-      if (open_.contains(**first)) receivers.push_back(**first);
+      if (open_.contains(**first) || OpenOutputChannel(unused_, **first)) {
+        receivers.push_back(**first);
+      }
     }
     transports::Locators begin(receivers.cbegin()), end(receivers.cend());
     const Packet packet = std::as_bytes(std::span(bytes, size));
@@ -73,7 +75,8 @@ class CheckedTransport final : public transports::ChainingTransport {
   };
 
   CheckedTransportDescriptor descriptor_;
-  std::set<rtps::Locator_t, Before> open_{};
+  std::set<rtps::Locator_t, Before> open_{};  // receivers
+  transports::SendResourceList unused_{};     // sockets, since Fast DDS goes through its own ones
 };
 
 }  // namespace

@@ -38,8 +38,8 @@ constexpr bool has_texts(Packet bytes, bool little, std::size_t texts) noexcept 
   return bytes.empty();
 }
 
-/// The size of a parameter that always has the same one; 0 for others, and for addresses of groups:
-/// Fast DDS 2.9.1 ends the program if two readers share one. Source: [RTPS], tables 9.13 and 9.14.
+/// The size of a parameter that always has the same one; 0 for others. Source: [RTPS], tables 9.13
+/// and 9.14.
 constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
   switch (id) {
     case 0x06:  // strength of ownership
@@ -73,8 +73,11 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
     case 0x5a:  // of an endpoint
       return 16;
     case 0x2f:  // addresses
+    case 0x30:
     case 0x31:
     case 0x32:
+    case 0x33:
+    case 0x48:
       return 24;
     case 0x1e:  // durability service
       return 28;

@@ -186,9 +186,9 @@ class KnownEndpoints {
   /// through all of them at each packet.
   [[nodiscard]] bool has_room_for_addresses(const detail::ParameterList& list) {
     return list.for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
-      constexpr std::array<std::uint32_t, 3> unicast{0x2f, 0x31, 0x32};
+      constexpr std::array<std::uint32_t, 6> ids{0x2f, 0x30, 0x31, 0x32, 0x33, 0x48};
       if (worth != detail::Worth::whole) return true;
-      if (std::find(unicast.begin(), unicast.end(), id) == unicast.end()) return true;
+      if (std::find(ids.begin(), ids.end(), id) == ids.end()) return true;
       std::vector<std::byte> address(value.begin(), value.end());
       if (addresses_.contains(address)) return true;
       if (addresses_.size() >= most_addresses) return false;
