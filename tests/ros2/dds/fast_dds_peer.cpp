@@ -138,6 +138,7 @@ FastDdsPeer::FastDdsPeer(unsigned domain, const Options& options)
     rtps::IPLocator::setIPv4(group, "239.255.9.9");
     group.port = 20000 + domain;
     quality.wire_protocol().default_multicast_locator_list.push_back(group);
+    quality.wire_protocol().default_unicast_locator_list.push_back(loopback);
   }
   Entities& e = *entities_;
   e.depth = options.depth;
