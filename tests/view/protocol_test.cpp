@@ -264,7 +264,7 @@ TEST_CASE("services become requests") {
             .values.at(0)
             .value == -std::numeric_limits<double>::infinity());
   CHECK_THAT(refusal_of("/set_parameters", R"({"values":{"p":"nan"}})"),
-             Catch::Matchers::ContainsSubstring("values: expected an object of numbers"));
+             Catch::Contains("values: expected an object of numbers"));
   CHECK_FALSE(request_of<remote::Pause>("/pause", R"({"paused":false})").paused);
   CHECK(request_of<remote::Step>("/step", R"({"cycles":7})").cycles == 7);
   CHECK(request_of<remote::Step>("/step", "{}").cycles == 1);

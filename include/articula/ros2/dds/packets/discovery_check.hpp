@@ -25,9 +25,10 @@ constexpr bool is_text(Packet bytes, bool little) noexcept {
   return take_text(bytes, little) && bytes.empty();
 }
 
-/// Whether the bytes are a number and so many entries of some texts.
+/// Takes a number and so many entries of some texts off.
 /// @param texts  of each, as 2 for a name and a value
-constexpr bool has_texts(Packet bytes, bool little, std::size_t texts) noexcept {
+/// @return whether they are there
+constexpr bool take_texts(Packet& bytes, bool little, std::size_t texts) noexcept {
   if (bytes.size() < 4) return false;
   const std::size_t count = number_at(bytes, 0, 4, little);
   bytes = bytes.subspan(4);
@@ -35,7 +36,7 @@ constexpr bool has_texts(Packet bytes, bool little, std::size_t texts) noexcept 
   for (std::size_t k = 0; k < count * texts; ++k) {
     if (!take_text(bytes, little)) return false;
   }
-  return bytes.empty();
+  return true;
 }
 
 /// The size of a parameter that always has the same one; 0 for others. Source: [RTPS], tables 9.13
@@ -109,9 +110,9 @@ constexpr Worth worth_of(std::uint32_t id, Packet value, bool little) noexcept {
     case 0x2e:  // of a topic
       return judged(is_text(value, little));
     case 0x29:  // partitions
-      return judged(has_texts(value, little, 1));
-    case 0x59:  // properties
-      return judged(has_texts(value, little, 2));
+      return judged(take_texts(value, little, 1) && value.empty());
+    case 0x59:  // properties, before others of bytes
+      return judged(take_texts(value, little, 2));
     case 0x73:  // representations of data, of two bytes each
       return judged(value.size() >= 4 && number_at(value, 0, 4, little) <= (value.size() - 4) / 2);
     case 0x02: {

@@ -23,7 +23,7 @@ interface Events {
   statistics: Statistics;
   log: LogEntry;
   parameters: Parameter[];
-  values: Map<string, number>; // parameters that have changed
+  values: Map<string, number | null>; // parameters that have changed
   futures: Futures | null; // of gains that are typed and not applied
   notice: {text: string; isError: boolean};
 }
@@ -51,8 +51,8 @@ export class Session extends Emitter<Events> {
       this.emit('notice', {text: message, isError: level > 0}),
     );
     this.client.on('parameters', (list) => {
-      const values = list.filter(({value}) => typeof value === 'number');
-      this.emit('values', new Map(values.map(({name, value}) => [name, value as number])));
+      const gains = list.filter(({value}) => typeof value === 'number' || value === null);
+      this.emit('values', new Map(gains.map(({name, value}) => [name, value as number | null])));
     });
     this.client.subscribe('/situation', (message) => {
       this.situation = message as Situation;

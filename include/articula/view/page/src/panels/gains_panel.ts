@@ -129,7 +129,7 @@ export class GainsPanel {
     );
   }
 
-  private update(values: Map<string, number>): void {
+  private update(values: Map<string, number | null>): void {
     for (const field of this.fields) {
       const value = values.get(field.parameter.name);
       if (value !== undefined) field.holds(value);
