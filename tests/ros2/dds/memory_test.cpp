@@ -16,6 +16,7 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -219,6 +220,38 @@ TEST_CASE("fragments that are asked for have numbers from 1") {
   CHECK_FALSE(dds::is_well_formed(packet));
   for (const std::size_t at : {40U, 41U, 42U, 43U}) packet.at(at) = std::byte{0xff};
   CHECK_FALSE(dds::is_well_formed(packet));  // the fragments after it have no number
+}
+
+TEST_CASE("numbers of messages are possible ones") {
+  // Kinds of parts, and where their numbers begin.
+  for (const auto& [kind, size, places] :
+       {std::tuple<unsigned, unsigned, std::vector<std::size_t>>{0x07, 28, {8, 16}},
+        {0x08, 28, {8, 16}},
+        {0x06, 24, {8}},
+        {0x13, 24, {8}},
+        {0x15, 20, {12}}}) {
+    CAPTURE(kind);
+    Bytes packet = announcement(1, 1);
+    packet.resize(20);
+    for (const unsigned byte : {kind, 1U, size, 0U}) {
+      packet.push_back(static_cast<std::byte>(byte));
+    }
+    packet.resize(packet.size() + size);
+    if (kind == 0x15) packet.at(26) = std::byte{16};  // where what follows the fields begins
+    CHECK(dds::is_well_formed(packet));
+    for (const std::size_t place : places) {
+      CAPTURE(place);
+      Bytes changed = packet;
+      std::byte& highest = changed.at(24 + place + 3);
+      highest = std::byte{0x3f};
+      CHECK(dds::is_well_formed(changed));
+      // After 0x7fffffffffffffff Fast DDS 2.9.1 has no number, and ends the program.
+      for (const unsigned impossible : {0x40U, 0x7fU, 0x80U, 0xffU}) {
+        highest = static_cast<std::byte>(impossible);
+        CHECK_FALSE(dds::is_well_formed(changed));
+      }
+    }
+  }
 }
 
 TEST_CASE("a part of statistics is the last one, and parts end at a multiple of four") {

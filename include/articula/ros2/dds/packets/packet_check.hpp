@@ -19,6 +19,12 @@ namespace detail {
 /// Whether a message or a fragment can become a gap.
 constexpr bool can_be_gap(Packet part) noexcept { return part.size() >= 28; }
 
+/// Whether a part has a possible sequence number at a place, as no writer reaches more. Fast DDS
+/// 2.9.1 ends the program for the number after the largest one.
+constexpr bool has_number(Packet part, bool little, std::size_t at) noexcept {
+  return sequence_at(part, at, little) < std::uint64_t{1} << 62;
+}
+
 /// A fragment of a message that has several, alone in its part, and with all its bytes. Fast DDS
 /// 2.9.1 reads beyond the part for those that lack bytes. It frees what it does not own for empty
 /// ones, and uses freed memory for those of a key or of a whole message. It hangs for tiny ones,
@@ -39,6 +45,7 @@ constexpr bool is_good_fragment(std::uint32_t flags, Packet part) noexcept {
 /// become a gap, except that of a participant. Fragments of the rest of DDS itself are refused.
 constexpr bool is_good_message(std::uint32_t kind, std::uint32_t flags, Packet part) noexcept {
   if (!body_of(part, flags, kind == fragment_part ? 32 : 20)) return false;
+  if (!has_number(part, (flags & 1U) != 0, 12)) return false;
   const std::uint32_t writer = writer_of(part);
   if (kind == fragment_part && is_builtin(writer) && !writes_discovery(writer)) return false;
   if (is_good_discovery(kind, flags, part)) return true;
@@ -67,11 +74,12 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
   const bool little = (flags & 1U) != 0;
   switch (kind) {
     case acknowledgement_part:
-      return is_good_set(part, little, 16, 4);
+      return is_good_set(part, little, 16, 4) && has_number(part, little, 8);
     case heartbeat_part:
-      return part.size() >= 28;
+      return part.size() >= 28 && has_number(part, little, 8) && has_number(part, little, 16);
     case gap_part:
-      return is_good_set(part, little, 24, 0);
+      return is_good_set(part, little, 24, 0) && has_number(part, little, 8) &&
+             has_number(part, little, 16);
     case 0x09:  // time
       return (flags & 2U) != 0 || part.size() >= 8;
     case source_part:
@@ -79,9 +87,10 @@ constexpr bool is_good_part(std::uint32_t kind, std::uint32_t flags, Packet part
     case destination_part:
       return part.size() >= 12;
     case fragments_missing_part:
-      return is_good_set(part, little, 20, 4) && has_fragments(part, little);
+      return is_good_set(part, little, 20, 4) && has_number(part, little, 8) &&
+             has_fragments(part, little);
     case fragments_heartbeat_part:
-      return part.size() >= 24;
+      return part.size() >= 24 && has_number(part, little, 8);
     case message_part:
       return is_good_message(kind, flags, part);
     case fragment_part:
