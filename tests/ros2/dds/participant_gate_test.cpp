@@ -3,6 +3,7 @@
 #include <articula/ros2/dds/packets/discovery_filter.hpp>
 #include <articula/ros2/dds/packets/participant_gate.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -97,6 +98,19 @@ Bytes farewell(std::uint32_t owner, unsigned status, unsigned entity = 8) {
 Bytes announcement(std::uint32_t number) {
   Bytes bytes = header(number);
   append_data(bytes, 0xc2, 0x0100);
+  REQUIRE(dds::is_well_formed(bytes));
+  return bytes;
+}
+
+/// What a participant sends to be discovered, with a lease [s]. Its seconds begin at byte 52.
+Bytes leased(std::uint32_t number, unsigned seconds) {
+  Bytes bytes = header(number);
+  append(bytes, {0x15, 5, 60, 0});
+  append(bytes, {0, 0, 16, 0, 0, 1, 0, 0xc7, 0, 1, 0, 0xc2, 0, 0, 0, 0, 7, 0, 0, 0});
+  append(bytes, {0, 3, 0, 0, 0x02, 0, 8, 0, seconds & 255, seconds >> 8, 0, 0, 0, 0, 0, 0});
+  append(bytes, {0x50, 0, 16, 0});
+  append_prefix(bytes, number);
+  append(bytes, {0, 0, 1, 0xc1, 1, 0, 0, 0});
   REQUIRE(dds::is_well_formed(bytes));
   return bytes;
 }
@@ -230,6 +244,62 @@ TEST_CASE("a participant may open and close many readers") {
   }
   // Fast DDS may see messages in another order, so an end allows no change.
   CHECK_FALSE(passes(gate, endpoint(1, 1, 1, 2), start));
+}
+
+TEST_CASE("leases end in the gate, and not in Fast DDS") {
+  ParticipantGate gate;
+  auto now = start;
+  Bytes packet = leased(1, 10);
+  REQUIRE(gate.admits(packet, now));
+  const Bytes endless = {std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0x7f}};
+  CHECK(std::equal(endless.begin(), endless.end(), packet.begin() + 52));
+  REQUIRE(admits(gate, leased(2, 300), now));
+  for (int k = 0; k < 10; ++k) REQUIRE(admits(gate, header(2), now += seconds(1)));
+  CHECK(gate.farewells().empty());
+  REQUIRE(admits(gate, header(1), now));  // any packet renews the lease
+  for (int k = 0; k < 10; ++k) REQUIRE(admits(gate, header(2), now += seconds(1)));
+  CHECK(gate.farewells().empty());
+  REQUIRE(admits(gate, header(2), now += seconds(1)));
+  const auto farewells = gate.farewells();
+  REQUIRE(farewells.size() == 1);
+  REQUIRE(admits(gate, header(2), now += seconds(1)));
+  CHECK(gate.farewells().empty());  // once
+  // The packet is what the participant would have sent, with the number after its announcement.
+  REQUIRE(dds::is_well_formed(farewells[0]));
+  CHECK(std::equal(packet.begin(), packet.begin() + 20, farewells[0].begin()));
+  dds::for_each_part(farewells[0], [&](std::uint32_t kind, std::uint32_t flags, dds::Packet part) {
+    CHECK(kind == dds::detail::message_part);
+    const auto message = dds::detail::discovery_of(part, flags);
+    REQUIRE(message);
+    CHECK(message->ends);
+    CHECK(message->number == 8);
+    CHECK(dds::KnownEndpoints::is_of(dds::prefix_at(farewells[0], 8), *message));
+    return true;
+  });
+  // It may come back, and its new lease ends, too.
+  REQUIRE(admits(gate, leased(1, 10), now));
+  for (int k = 0; k < 11; ++k) REQUIRE(admits(gate, header(2), now += seconds(1)));
+  CHECK(gate.farewells().size() == 1);
+}
+
+TEST_CASE("while this program stands still, no lease ends") {
+  ParticipantGate gate;
+  REQUIRE(admits(gate, leased(1, 10), start));
+  REQUIRE(admits(gate, leased(2, 10), start));
+  REQUIRE(admits(gate, header(2), start + seconds(40)));
+  CHECK(gate.farewells().empty());
+  REQUIRE(admits(gate, header(2), start + seconds(44)));
+  REQUIRE(admits(gate, header(2), start + seconds(48)));
+  CHECK(gate.farewells().size() == 1);
+}
+
+TEST_CASE("an end that Fast DDS may not believe leaves the lease") {
+  ParticipantGate gate;
+  REQUIRE(admits(gate, leased(1, 10), start));
+  Bytes end = dds::detail::farewell(dds::prefix_at(header(1), 8), 3);  // before the announcement
+  REQUIRE(gate.admits(end, start));
+  for (int k = 1; k <= 11; ++k) REQUIRE(admits(gate, header(2), start + seconds(k)));
+  CHECK(gate.farewells().size() == 1);
 }
 
 TEST_CASE("one participant does not fill a topic") {

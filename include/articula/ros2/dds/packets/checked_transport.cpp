@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <mutex>
 #include <set>
 #include <span>
 #include <utility>
@@ -30,9 +31,12 @@ class CheckedTransport final : public transports::ChainingTransport {
   transports::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
   bool OpenOutputChannel(transports::SendResourceList& resources,
                          const rtps::Locator_t& receiver) override {
-    const bool is_open = ChainingTransport::OpenOutputChannel(resources, receiver);
-    if (is_open) open_.insert(receiver);
-    return is_open;
+    // Fast DDS 2.9.1 keeps each address for ever, and goes through all of them at each packet.
+    constexpr std::size_t most = 1 << 15;  // more than the ports that a host gives its programs
+    if (open_.size() >= most && !open_.contains(receiver)) return false;
+    if (!ChainingTransport::OpenOutputChannel(resources, receiver)) return false;
+    open_.insert(receiver);
+    return true;
   }
   // Fast DDS 2.9.1 ends the program at a receiver for which it has opened nothing: the second of two
   // readers that share the address of a group. It holds one lock here and while it opens.
@@ -62,7 +66,19 @@ class CheckedTransport final : public transports::ChainingTransport {
     std::vector<rtps::octet> own(size + longest_fragment);
     std::copy_n(bytes, size, own.begin());
     const auto packet = std::as_writable_bytes(std::span(own)).first(size);
+    // Fast DDS 2.9.1 keeps participants for ever that come and go in two threads at a time.
+    const std::lock_guard lock(receiving_);
     if (!descriptor_.guard().receive(packet, std::chrono::steady_clock::now())) return;
+    // The receiver of an announcement has to do with participants, and hears this program's own
+    // ones, if nobody else's. Whoever has left makes room first.
+    if (PacketGuard::has_announcement(packet)) {
+      for (const std::vector<std::byte>& farewell : descriptor_.guard().farewells()) {
+        std::vector<rtps::octet> end(farewell.size() + longest_fragment);
+        std::memcpy(end.data(), farewell.data(), farewell.size());
+        receiver->OnDataReceived(end.data(), static_cast<std::uint32_t>(farewell.size()), local,
+                                 remote);
+      }
+    }
     receiver->OnDataReceived(own.data(), size, local, remote);
   }
 
@@ -75,6 +91,7 @@ class CheckedTransport final : public transports::ChainingTransport {
   };
 
   CheckedTransportDescriptor descriptor_;
+  std::mutex receiving_{};
   std::set<rtps::Locator_t, Before> open_{};  // receivers
   transports::SendResourceList unused_{};     // sockets, since Fast DDS goes through its own ones
 };

@@ -25,18 +25,16 @@ constexpr bool is_text(Packet bytes, bool little) noexcept {
   return take_text(bytes, little) && bytes.empty();
 }
 
-/// Takes a number and so many entries of some texts off.
-/// @param texts  of each, as 2 for a name and a value
-/// @return whether they are there
-constexpr bool take_texts(Packet& bytes, bool little, std::size_t texts) noexcept {
+/// Whether the bytes are a number and so many texts.
+constexpr bool has_texts(Packet bytes, bool little) noexcept {
   if (bytes.size() < 4) return false;
   const std::size_t count = number_at(bytes, 0, 4, little);
   bytes = bytes.subspan(4);
   if (count > bytes.size() / 4) return false;
-  for (std::size_t k = 0; k < count * texts; ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     if (!take_text(bytes, little)) return false;
   }
-  return true;
+  return bytes.empty();
 }
 
 /// The size of a parameter that always has the same one; 0 for others. Source: [RTPS], tables 9.13
@@ -58,6 +56,7 @@ constexpr std::size_t fixed_size(std::uint32_t id) noexcept {
     case 0x60:  // size of the type
     case 0x77:  // quality of builtin endpoints
       return 4;
+    case 0x02:  // lease
     case 0x04:  // time filter
     case 0x21:  // presentation
     case 0x23:  // deadline
@@ -94,7 +93,7 @@ inline constexpr std::uint32_t longest_lease = 300;  ///< of a participant [s]; 
 enum class Worth : unsigned char {
   whole,    ///< It contains what it says.
   broken,   ///< It does not, or Fast DDS 2.9.1 keeps the message for ever.
-  unknown,  ///< It has another size, or nobody here needs it, as filters and security.
+  unknown,  ///< It has another size, or nobody here needs it, as filters, properties, security.
 };
 
 /// Judges a parameter of discovery.
@@ -110,17 +109,9 @@ constexpr Worth worth_of(std::uint32_t id, Packet value, bool little) noexcept {
     case 0x2e:  // of a topic
       return judged(is_text(value, little));
     case 0x29:  // partitions
-      return judged(take_texts(value, little, 1) && value.empty());
-    case 0x59:  // properties, before others of bytes
-      return judged(take_texts(value, little, 2));
+      return judged(has_texts(value, little));
     case 0x73:  // representations of data, of two bytes each
       return judged(value.size() >= 4 && number_at(value, 0, 4, little) <= (value.size() - 4) / 2);
-    case 0x02: {
-      // With a lease of less than a second participants only come and go. After the longest one,
-      // the participant is forgotten.
-      const bool is_usual = value.size() == 8 && number_at(value, 0, 4, little) - 1 < longest_lease;
-      return is_usual ? Worth::whole : Worth::unknown;
-    }
     default:
       return value.size() == fixed_size(id) && !value.empty() ? Worth::whole : Worth::unknown;
   }

@@ -39,8 +39,8 @@ class KnownEndpoints {
  public:
   static constexpr std::size_t most = 1 << 16;         ///< in the life of a participant
   static constexpr int most_of_topic = 128;            ///< readers at a time, and writers
-  static constexpr std::size_t most_addresses = 128;   ///< in the life of a participant
-  static constexpr std::size_t most_memory = 1 << 25;  ///< for announcements [bytes]
+  static constexpr std::size_t most_addresses = 64;    ///< in the life of a participant
+  static constexpr std::size_t most_memory = 1 << 26;  ///< for announcements [bytes]
 
   /// Whether all identities in a message are one, of a participant or of something that it has.
   [[nodiscard]] static bool is_of(const Prefix& source, const detail::DiscoveryMessage& message) {
@@ -102,12 +102,16 @@ class KnownEndpoints {
     }
     return true;
   }
+  /// Notes that the participant ends with all that it has.
+  void end() {
+    for (auto& each : said_) each.second.lives = false;
+    living_.clear();
+  }
   /// Notes that something ends: a reader, a writer, or the participant with all that it has.
   /// @param message  is_of, and ends
   void end(const detail::DiscoveryMessage& message) {
     if (message.writer == detail::participant_writer) {
-      for (auto& each : said_) each.second.lives = false;
-      living_.clear();
+      end();
     } else if (const auto own = said_.find({message.writer, entity_in(message)});
                own != said_.end() && own->second.lives) {
       own->second.lives = false;

@@ -13,6 +13,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace articula::ros2::dds {
 
@@ -33,6 +34,21 @@ class PacketGuard {
     if (!gate_.admits(packet, now)) return false;
     number(packet, now);
     return true;
+  }
+  /// What Fast DDS gets for participants whose leases have ended.
+  [[nodiscard]] std::vector<std::vector<std::byte>> farewells() {
+    const std::lock_guard lock(mutex_);
+    return gate_.farewells();
+  }
+  /// Whether a packet has a participant's announcement.
+  [[nodiscard]] static bool has_announcement(Packet packet) {
+    bool has = false;
+    for_each_part(packet, [&](std::uint32_t kind, std::uint32_t, Packet part) {
+      has = has ||
+            (kind == detail::message_part && detail::writer_of(part) == detail::participant_writer);
+      return true;
+    });
+    return has;
   }
   /// Changes a packet of Fast DDS such that its receivers understand it.
   /// @param[in,out] packet  to the network

@@ -12,11 +12,44 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <span>
+#include <vector>
 
 namespace articula::ros2::dds {
+
+namespace detail {
+
+/// What a participant sends at its end: inline its key and a status, then its identity.
+/// @param number  of this message, larger than those of its announcements
+[[nodiscard]] inline std::vector<std::byte> farewell(const Prefix& prefix, std::uint64_t number) {
+  std::vector<std::byte> packet;
+  const auto put = [&](std::initializer_list<unsigned> bytes) {
+    for (const unsigned byte : bytes) packet.push_back(static_cast<std::byte>(byte));
+  };
+  const auto put_identity = [&] {
+    packet.insert(packet.end(), prefix.begin(), prefix.end());
+    put({0, 0, 1, 0xc1});
+  };
+  put({'R', 'T', 'P', 'S', 2, 3, 1, 15});
+  packet.insert(packet.end(), prefix.begin(), prefix.end());
+  // Little endian, with an inline list and a key; 80 bytes. The list begins after 16 bytes.
+  put({message_part, 0x0b, 80, 0, 0, 0, 16, 0, 0, 1, 0, 0xc7, 0, 1, 0, 0xc2});
+  const std::size_t at = packet.size();
+  packet.resize(at + 8);
+  put_sequence(std::span(packet), at, true, number);
+  put({0x70, 0, 16, 0});
+  put_identity();
+  put({0x71, 0, 4, 0, 0, 0, 0, 3, 1, 0, 0, 0});  // disposed and unregistered
+  put({0, 3, 0, 0, 0x50, 0, 16, 0});
+  put_identity();
+  put({1, 0, 0, 0});
+  return packet;
+}
+
+}  // namespace detail
 
 /// Decides which announcements of participants Fast DDS gets to see. Fast DDS 2.9.1 keeps some 80
 /// bytes for ever of each participant that has ever announced itself, also of those for which it
@@ -25,6 +58,10 @@ namespace articula::ros2::dds {
 /// So many participants may be new at once, and then one per second. As many more come in at their
 /// second announcement: participants repeat theirs, and a storm of ever new ones does not. Those
 /// that are known may announce themselves as often as they like.
+///
+/// Leases end here, and Fast DDS gets the end of the participant as if it had said so. Fast DDS
+/// 2.9.1 has no leases that end: its checks of them end the program if a participant leaves at that
+/// time, and stand still if a writer does.
 ///
 /// Announcements of readers and writers pass if their participant is known. Those for which there
 /// is no room, or that KnownEndpoints refuses, become gaps. All other packets pass. For one thread
@@ -37,6 +74,7 @@ class ParticipantGate {
   static constexpr std::size_t most_known = 4096;      ///< for longest_lease after their last sign
   static constexpr std::size_t most_memory = 1 << 28;  ///< for all announcements [bytes]
   static constexpr std::size_t most_waiting = 8192;    ///< for their second announcement
+  static constexpr std::chrono::seconds longest_pause{4};  ///< of packets, in leases
 
   /// Whether to hand a packet on.
   /// @param[in,out] packet  well-formed, as filter_discovery left it
@@ -44,6 +82,9 @@ class ParticipantGate {
   /// Real-time: no (allocates).
   [[nodiscard]] bool admits(std::span<std::byte> packet, Time now) {
     Prefix source = prefix_at(packet, 8);
+    // While this program stood still it could hear nobody: no lease ends by that.
+    heard_ += std::clamp(now - now_, Time::duration{}, Time::duration(longest_pause));
+    now_ = now;
     note_sign(source, now);
     return for_each_part(packet, [&](std::uint32_t kind, std::uint32_t flags, Packet part) {
       if (kind == detail::source_part) note_sign(source = prefix_at(part, 8), now);
@@ -55,11 +96,28 @@ class ParticipantGate {
       if (is_participant && !discovery->ends && !admits(source, now)) return false;
       const auto known = known_.find(source);
       if (known == known_.end()) return false;
-      if (admits(known->second.endpoints, *discovery)) return true;
-      if (is_participant) return false;
-      detail::make_gap(packet, flags, part);
+      if (!admits(known->second.endpoints, *discovery)) {
+        if (is_participant) return false;
+        detail::make_gap(packet, flags, part);
+      } else if (is_participant) {
+        note_lease(packet, known->second, *discovery);
+      }
       return true;
     });
+  }
+
+  /// The ends of participants whose leases have ended, as they would have announced them.
+  [[nodiscard]] std::vector<std::vector<std::byte>> farewells() {
+    std::vector<std::vector<std::byte>> all;
+    if (heard_ - checked_ < std::chrono::milliseconds(100)) return all;
+    checked_ = heard_;
+    for (auto& [prefix, known] : known_) {
+      if (!known.lives || heard_ - known.heard <= known.lease) continue;
+      known.lives = false;
+      known.endpoints.end();
+      all.push_back(detail::farewell(prefix, known.number + 1));
+    }
+    return all;
   }
 
   /// What a participant has announced; null if it is not known.
@@ -70,7 +128,11 @@ class ParticipantGate {
 
  private:
   struct Known {
-    Time last{};  ///< sign
+    Time last{};             ///< sign
+    Time::duration heard{};  ///< likewise, by heard_
+    bool lives = false;      ///< Fast DDS has it, if there was room
+    std::chrono::seconds lease{};
+    std::uint64_t number = 0;  ///< largest one of its announcements
     KnownEndpoints endpoints{};
   };
 
@@ -82,7 +144,9 @@ class ParticipantGate {
     }
     forget_silent(now);
     if (known_.size() >= most_known) return false;
-    known_[source].last = now;
+    Known& known = known_[source];
+    known.last = now;
+    known.heard = heard_;
     return true;
   }
 
@@ -105,9 +169,32 @@ class ParticipantGate {
       return is_silent;
     });
   }
-  /// Fast DDS keeps a participant as long as packets come from it.
+  /// A participant is kept as long as packets come from it.
   void note_sign(const Prefix& source, Time now) {
-    if (const auto known = known_.find(source); known != known_.end()) known->second.last = now;
+    const auto known = known_.find(source);
+    if (known == known_.end()) return;
+    known->second.last = now;
+    known->second.heard = heard_;
+  }
+  /// Takes the lease out of an announcement, if it has one, and puts one that does not end.
+  void note_lease(std::span<std::byte> packet, Known& known,
+                  const detail::DiscoveryMessage& announcement) {
+    known.number = std::max(known.number, announcement.number);
+    // Fast DDS may take an end for an old message: the participant ends by its lease then.
+    if (!announcement.list || announcement.ends) return;
+    known.lives = true;
+    known.lease = std::chrono::seconds(usual_lease);
+    const bool little = announcement.list->little;
+    announcement.list->for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
+      constexpr std::uint32_t lease = 0x02;
+      if (id != lease || worth != detail::Worth::whole) return true;
+      const std::uint32_t seconds = detail::number_at(value, 0, 4, little);
+      known.lease = std::chrono::seconds(std::clamp(seconds, 1U, detail::longest_lease));
+      const std::span<std::byte> own = detail::mutable_part(packet, value);
+      std::fill(own.begin(), own.end(), std::byte{0xff});
+      own[little ? 3 : 0] = std::byte{0x7f};
+      return true;
+    });
   }
 
   /// Remembers a participant until it announces itself again, or many others have come.
@@ -119,8 +206,12 @@ class ParticipantGate {
     order_.pop_front();
   }
 
+  static constexpr std::uint32_t usual_lease = 100;  ///< [s]. Source: [RTPS], table 9.14
   std::map<Prefix, Known> known_{};
-  std::size_t memory_ = 0;  ///< of their announcements
+  Time now_{};                ///< of the last packet
+  Time::duration heard_{};    ///< time in which packets could come
+  Time::duration checked_{};  ///< heard_ when leases were checked
+  std::size_t memory_ = 0;    ///< of their announcements
   std::set<Prefix> waiting_{};
   std::deque<Prefix> order_{};                       ///< of those that wait, the oldest first
   Budget first_{most_at_once, 1}, second_ = first_;  ///< of first and second announcements
