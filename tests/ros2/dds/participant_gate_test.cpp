@@ -291,6 +291,12 @@ TEST_CASE("while this program stands still, no lease ends") {
   REQUIRE(admits(gate, header(2), start + seconds(44)));
   REQUIRE(admits(gate, header(2), start + seconds(48)));
   CHECK(gate.farewells().size() == 1);
+  // Nor is a participant forgotten before, which Fast DDS still has.
+  REQUIRE(admits(gate, leased(3, 10), start + seconds(1000)));
+  CHECK(gate.farewells().empty());
+  REQUIRE(admits(gate, leased(4, 10), start + seconds(1004)));
+  REQUIRE(admits(gate, header(4), start + seconds(1008)));
+  CHECK(gate.farewells().size() == 1);
 }
 
 TEST_CASE("an end that Fast DDS may not believe leaves the lease") {

@@ -164,7 +164,8 @@ class ParticipantGate {
   void forget_silent(Time now) {
     std::erase_if(known_, [&](const auto& each) {
       const Known& own = each.second;
-      const bool is_silent = now - own.last > std::chrono::seconds(detail::longest_lease);
+      const bool is_silent =
+          !own.lives && now - own.last > std::chrono::seconds(detail::longest_lease);
       if (is_silent) memory_ -= own.endpoints.memory();
       return is_silent;
     });
