@@ -101,7 +101,7 @@ rtps::RTPSParticipantAttributes participant_attributes(const FastDdsOptions& opt
   }
 
   auto& builtin = attributes.builtin;
-  builtin.discovery_config.leaseDuration = {20, 0};  // as rmw_fastrtps
+  builtin.discovery_config.leaseDuration = {ParticipantGate::own_lease.count(), 0};
   for (const std::string& peer : options.peers) {
     builtin.initialPeersList.push_back(locator(peer, 0));  // port 0: all participants of the peer
   }

@@ -16,6 +16,7 @@
 #include <map>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace articula::ros2::dds {
@@ -75,6 +76,7 @@ class ParticipantGate {
   static constexpr std::size_t most_memory = 1 << 28;  ///< for all announcements [bytes]
   static constexpr std::size_t most_waiting = 8192;    ///< for their second announcement
   static constexpr std::chrono::seconds longest_pause{4};  ///< of packets, in leases
+  static constexpr std::chrono::seconds own_lease{20};     ///< as rmw_fastrtps
 
   /// Whether to hand a packet on.
   /// @param[in,out] packet  well-formed, as filter_discovery left it
@@ -82,7 +84,9 @@ class ParticipantGate {
   /// Real-time: no (allocates).
   [[nodiscard]] bool admits(std::span<std::byte> packet, Time now) {
     Prefix source = prefix_at(packet, 8);
-    // While this program stood still it could hear nobody: no lease ends by that.
+    // While this program stood still it could hear nobody: no lease ends by that. After its own
+    // lease nobody knows it any more, and it must know nobody: Cyclone DDS returns only then.
+    was_forgotten_ = was_forgotten_ || (now_ != Time{} && now - now_ > own_lease);
     heard_ += std::clamp(now - now_, Time::duration{}, Time::duration(longest_pause));
     now_ = now;
     note_sign(source, now);
@@ -106,13 +110,14 @@ class ParticipantGate {
     });
   }
 
-  /// The ends of participants whose leases have ended, as they would have announced them.
+  /// The ends of participants whose leases have ended, or of all after a long standstill, as they would have announced them.
   [[nodiscard]] std::vector<std::vector<std::byte>> farewells() {
     std::vector<std::vector<std::byte>> all;
-    if (heard_ - checked_ < std::chrono::milliseconds(100)) return all;
+    if (!was_forgotten_ && heard_ - checked_ < std::chrono::milliseconds(100)) return all;
     checked_ = heard_;
+    const bool ends_all = std::exchange(was_forgotten_, false);
     for (auto& [prefix, known] : known_) {
-      if (!known.lives || heard_ - known.heard <= known.lease) continue;
+      if (!known.lives || (!ends_all && heard_ - known.heard <= known.lease)) continue;
       known.lives = false;
       known.endpoints.end();
       all.push_back(detail::farewell(prefix, known.number + 1));
@@ -209,10 +214,11 @@ class ParticipantGate {
 
   static constexpr std::uint32_t usual_lease = 100;  ///< [s]. Source: [RTPS], table 9.14
   std::map<Prefix, Known> known_{};
-  Time now_{};                ///< of the last packet
-  Time::duration heard_{};    ///< time in which packets could come
-  Time::duration checked_{};  ///< heard_ when leases were checked
-  std::size_t memory_ = 0;    ///< of their announcements
+  Time now_{};                  ///< of the last packet
+  Time::duration heard_{};      ///< time in which packets could come
+  Time::duration checked_{};    ///< heard_ when leases were checked
+  bool was_forgotten_ = false;  ///< by all peers
+  std::size_t memory_ = 0;      ///< of their announcements
   std::set<Prefix> waiting_{};
   std::deque<Prefix> order_{};                       ///< of those that wait, the oldest first
   Budget first_{most_at_once, 1}, second_ = first_;  ///< of first and second announcements
