@@ -110,7 +110,8 @@ class ParticipantGate {
     });
   }
 
-  /// The ends of participants whose leases have ended, or of all after a long standstill, as they would have announced them.
+  /// The ends of participants whose leases have ended, or of all after a long standstill. They are
+  /// as the participants would have announced them.
   [[nodiscard]] std::vector<std::vector<std::byte>> farewells() {
     std::vector<std::vector<std::byte>> all;
     if (!was_forgotten_ && heard_ - checked_ < std::chrono::milliseconds(100)) return all;
