@@ -62,8 +62,8 @@ inline std::vector<unsigned char> octets(const std::string& text) {
 /// Participants in a domain, and readers or writers of each, that are noted. Others are ignored.
 inline constexpr std::size_t most_participants = 256;
 inline constexpr std::size_t most_endpoints = 2048;
-/// Peers' readers that match a writer here, and likewise: more than one participant can have in a
-/// topic.
+/// Peers' readers that match a writer here, and likewise: more than one participant has in a topic
+/// that announces no false ends.
 inline constexpr std::size_t most_matches = most_participants * KnownEndpoints::most_of_topic;
 
 }  // namespace articula::ros2::dds

@@ -33,7 +33,8 @@ inline Prefix prefix_at(Packet bytes, std::size_t at) {
 /// What a participant and its readers and writers have announced of themselves. What DDS forbids to
 /// change never changes, also not after their end: names, durability, liveliness, ownership, order,
 /// reliability. Nor does the lease of a participant. Fast DDS 2.9.1 ends the program if a reader
-/// becomes reliable. One participant can neither fill a topic nor have addresses without end.
+/// becomes reliable. Readers and writers of a topic are bounded, but an end that Fast DDS ignores
+/// makes room here, too. Addresses are bounded.
 /// For one thread at a time. Real-time: no (allocates).
 class KnownEndpoints {
  public:
