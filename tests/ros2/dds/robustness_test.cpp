@@ -14,6 +14,7 @@
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -123,7 +124,62 @@ unsigned given_domain() {
   return text == nullptr ? domain() : static_cast<unsigned>(std::strtoul(text, nullptr, 10));
 }
 
+// Runs a test case of this program in a process of its own, in the domain of this one.
+pid_t start(const std::string& tag) {
+  ::setenv("ARTICULA_TEST_DOMAIN", std::to_string(domain()).c_str(), 1);  // NOLINT
+  std::array<std::string, 2> words{"/proc/self/exe", tag};
+  std::array<char*, 3> arguments{words[0].data(), words[1].data(), nullptr};
+  pid_t process = 0;
+  REQUIRE(::posix_spawn(&process, words[0].c_str(), nullptr, nullptr, arguments.data(), environ) ==
+          0);
+  return process;
+}
+
+constexpr int many = 20;  // topics
+
+std::string topic_of(int number) { return "/topic_" + std::to_string(number); }
+
+// How long a transport takes to end while a reader of its topics stands still.
+Clock::duration time_to_end(int topics) {
+  auto transport = std::make_unique<FastDdsTransport>(FastDdsOptions{.domain = domain()});
+  std::vector<std::unique_ptr<SampleWriter>> writers;
+  for (int k = 0; k < topics; ++k) {
+    writers.push_back(transport->advertise(text_topic(topic_of(k), {.depth = 10})));
+  }
+  const pid_t reader = start("[.reader]");
+  const bool found = poll_until(*transport, [&] {
+    return std::all_of(writers.begin(), writers.end(),
+                       [](const auto& writer) { return writer->readers() == 1; });
+  });
+  ::kill(reader, SIGSTOP);
+  int status = 0;
+  ::waitpid(reader, &status, WUNTRACED);
+  for (const auto& writer : writers) writer->write(text_bytes("read by nobody"));
+  const auto before = Clock::now();
+  writers.clear();
+  transport.reset();
+  const auto time = Clock::now() - before;
+  ::kill(reader, SIGKILL);
+  ::waitpid(reader, &status, 0);
+  REQUIRE(found);
+  return time;
+}
+
 }  // namespace
+
+TEST_CASE("a process that is going to stand still", "[.reader]") {
+  talk_over_udp_only();
+  FastDdsPeer peer(given_domain());
+  for (int k = 0; k < many; ++k) {
+    peer.make_reader(topic_name(topic_of(k)), dds_type_name<TextMessage>());
+  }
+  std::this_thread::sleep_for(std::chrono::minutes(2));
+}
+
+TEST_CASE("many topics wait no longer than one for a reader that stands still") {
+  // Each waits for some 0.3 s: together 0.3 s, and one after another 6 s. 5 leaves room for noise.
+  CHECK(time_to_end(many) < 5 * time_to_end(1));
+}
 
 TEST_CASE("a client that is going to be killed", "[.victim]") {
   talk_over_udp_only();
@@ -144,12 +200,7 @@ TEST_CASE("a client that is killed with a goal and requests leaves a bridge that
   talk_over_udp_only();
   RunningArm arm;
   const Bridge bridge(arm.loop->port(), {.dds = {.domain = domain()}});
-  ::setenv("ARTICULA_TEST_DOMAIN", std::to_string(domain()).c_str(), 1);  // NOLINT
-  std::array<std::string, 2> words{"/proc/self/exe", "[.victim]"};
-  std::array<char*, 3> arguments{words[0].data(), words[1].data(), nullptr};
-  pid_t victim = 0;
-  REQUIRE(::posix_spawn(&victim, words[0].c_str(), nullptr, nullptr, arguments.data(), environ) ==
-          0);
+  const pid_t victim = start("[.victim]");
   const bool began =
       eventually([&] { return arm.loop->port().situation().motion == "trajectory"; });
   std::this_thread::sleep_for(std::chrono::milliseconds(300));  // for requests

@@ -9,8 +9,13 @@
 #include <fastdds/dds/log/Log.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace articula::ros2::dds {
 
@@ -24,6 +29,9 @@ constexpr std::size_t most_requests = 100;
 constexpr std::size_t least_replies = 64;
 // The dialect of rmw_cyclonedds has as many bytes more in requests and replies.
 constexpr std::size_t dialect_header = 16;
+// A packet may be lost, and what a writer sends last may be a stop. Its readers get as long to ask
+// for it again, which is more than a period of heartbeats.
+constexpr std::chrono::milliseconds longest_last_wait{300};
 
 rtps::RTPSParticipant* make_participant(const FastDdsOptions& options,
                                         const std::shared_ptr<PacketGuard>& guard) {
@@ -56,6 +64,16 @@ Participant::Participant(FastDdsOptions options, Distribution distribution)
                options_.largest_message});
 }
 
+Participant::~Participant() {
+  std::vector<Writer*> all{graph_writer_.get()};
+  for (const auto& writer : writers_) all.push_back(writer.get());
+  for (const auto& leaving : leaving_writers_) all.push_back(leaving.writer.get());
+  for (const auto& service : services_) all.push_back(&service.second->writer());
+  const Clock::time_point end = Clock::now() + longest_last_wait;
+  for (Writer* const writer : all) writer->request_acknowledgements();
+  for (Writer* const writer : all) writer->await_acknowledgements(end);
+}
+
 Endpoint Participant::endpoint_of(const TopicEndpoint& topic) const {
   const std::string& name = topic.topic;
   check_full_name("topic", name);
@@ -78,7 +96,12 @@ Writer& Participant::advertise(const TopicEndpoint& topic) {
 void Participant::remove(const Writer& writer) {
   graph_.remove(writer.guid());
   graph_changed_ = true;
-  std::erase_if(writers_, [&](const auto& other) { return other.get() == &writer; });
+  const auto own = std::find_if(writers_.begin(), writers_.end(),
+                                [&](const auto& other) { return other.get() == &writer; });
+  if (own == writers_.end()) return;
+  (*own)->request_acknowledgements();
+  leaving_writers_.push_back({std::move(*own), Clock::now() + longest_last_wait});
+  writers_.erase(own);
 }
 
 void Participant::subscribe(const TopicEndpoint& topic, Transport::OnSample on_sample) {
@@ -159,14 +182,23 @@ void Participant::send_graph() {
   graph_writer_->write(graph_.message(distribution_, participant_->getGuid()));
 }
 
+void Participant::remove_leaving_writers() {
+  const Clock::time_point now = Clock::now();
+  std::erase_if(leaving_writers_, [&](const LeavingWriter& leaving) {
+    return now >= leaving.deadline || leaving.writer->await_acknowledgements(now);
+  });
+}
+
 void Participant::poll(std::chrono::milliseconds longest) {
   const Clock::time_point end = Clock::now() + std::max(longest, std::chrono::milliseconds(0));
   for (;;) {
     send_graph();
     send_waiting_replies();
+    remove_leaving_writers();
     const bool any = inbox_.deliver();
     if (any || Clock::now() >= end) return;
     Clock::time_point next = end;
+    if (!leaving_writers_.empty()) next = std::min(next, leaving_writers_.front().deadline);
     for (const WaitingReply& waiting : waiting_replies_) next = std::min(next, waiting.deadline);
     inbox_.wait_until(next);
   }

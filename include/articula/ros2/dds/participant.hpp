@@ -24,6 +24,9 @@ namespace articula::ros2::dds {
 class Participant : public std::enable_shared_from_this<Participant> {
  public:
   Participant(FastDdsOptions options, Distribution distribution);
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+  ~Participant();
 
   Writer& advertise(const TopicEndpoint& topic);
   void remove(const Writer& writer);
@@ -42,6 +45,12 @@ class Participant : public std::enable_shared_from_this<Participant> {
     Clock::time_point deadline{};
   };
 
+  // A writer without a user, whose readers may ask for its last messages again.
+  struct LeavingWriter {
+    std::unique_ptr<Writer> writer{};
+    Clock::time_point deadline{};
+  };
+
   struct RemoveParticipant {
     void operator()(eprosima::fastrtps::rtps::RTPSParticipant* participant) const;
   };
@@ -51,6 +60,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   void reply(ServiceServer& service, const Client& client, Sample bytes);
   void send_waiting_replies();
   void send_graph();
+  void remove_leaving_writers();
 
   FastDdsOptions options_;
   Distribution distribution_;
@@ -58,6 +68,7 @@ class Participant : public std::enable_shared_from_this<Participant> {
   std::shared_ptr<PacketGuard> guard_ = std::make_shared<PacketGuard>();
   std::unique_ptr<eprosima::fastrtps::rtps::RTPSParticipant, RemoveParticipant> participant_;
   std::vector<std::unique_ptr<Writer>> writers_{};
+  std::deque<LeavingWriter> leaving_writers_{};  // earliest deadline first
   std::vector<std::unique_ptr<Reader>> readers_{};
   std::map<std::string, std::unique_ptr<ServiceServer>> services_{};
   std::deque<WaitingReply> waiting_replies_{};

@@ -60,6 +60,7 @@ class ServiceServer {
 
   [[nodiscard]] const Reader& reader() const { return reader_; }
   [[nodiscard]] const Writer& writer() const { return writer_; }
+  [[nodiscard]] Writer& writer() { return writer_; }
 
  private:
   void take(const Arrival& arrival);

@@ -10,6 +10,7 @@
 #include <fastrtps/qos/WriterQos.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
@@ -25,8 +26,6 @@ constexpr std::size_t kept_largest_messages = 8;
 // Larger messages are sent in fragments, each in a UDP packet.
 constexpr std::size_t largest_unfragmented_message = 60'000;
 const eprosima::fastrtps::Duration_t heartbeat_period = {0, 200'000'000};
-// More than a period of heartbeats.
-const eprosima::fastrtps::Duration_t longest_last_wait = {0, 300'000'000};
 
 }  // namespace
 
@@ -64,14 +63,7 @@ Writer::Writer(rtps::RTPSParticipant& participant, Inbox& inbox, Endpoint endpoi
   }
 }
 
-// A packet may be lost, and what comes last may be a stop: readers get the time to ask for it again.
-Writer::~Writer() {
-  if (auto* const writer = dynamic_cast<rtps::StatefulWriter*>(writer_)) {
-    writer->send_periodic_heartbeat();
-    writer->wait_for_all_acked(longest_last_wait);
-  }
-  rtps::RTPSDomain::removeRTPSWriter(writer_);
-}
+Writer::~Writer() { rtps::RTPSDomain::removeRTPSWriter(writer_); }
 
 void Writer::write(Sample sample, const rtps::SampleIdentity& related) {
   if (sample.size() > endpoint_.largest_message) {
@@ -100,6 +92,18 @@ void Writer::send_heartbeat() {
   if (auto* const writer = dynamic_cast<rtps::StatefulWriter*>(writer_)) {
     writer->send_periodic_heartbeat(true, true);
   }
+}
+
+void Writer::request_acknowledgements() {
+  if (auto* const writer = dynamic_cast<rtps::StatefulWriter*>(writer_)) {
+    writer->send_periodic_heartbeat();
+  }
+}
+
+bool Writer::await_acknowledgements(Inbox::Clock::time_point end) {
+  using Seconds = std::chrono::duration<long double>;
+  const Seconds left = end - Inbox::Clock::now();
+  return writer_->wait_for_all_acked(eprosima::fastrtps::Duration_t(std::max(left.count(), 0.0L)));
 }
 
 void Writer::onWriterMatched(rtps::RTPSWriter* /*writer*/, rtps::MatchingInfo& info) {

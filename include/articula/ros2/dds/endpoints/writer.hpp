@@ -36,6 +36,12 @@ class Writer final : public eprosima::fastrtps::rtps::WriterListener {
   void write(Sample sample, const eprosima::fastrtps::rtps::SampleIdentity& related =
                                 eprosima::fastrtps::rtps::SampleIdentity::unknown());
 
+  /// Asks the readers to say which messages they have.
+  void request_acknowledgements();
+  /// Waits until all readers have said that they have all messages, or until a time.
+  /// @return whether they have
+  bool await_acknowledgements(Inbox::Clock::time_point end);
+
   [[nodiscard]] const Matched& readers() const { return readers_; }
   [[nodiscard]] const eprosima::fastrtps::rtps::GUID_t& guid() const { return writer_->getGuid(); }
 
