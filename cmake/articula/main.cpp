@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -48,25 +49,57 @@ int tell(const Program& program, ExitCode code, std::string message) {
   return code;
 }
 
+/// The innermost command of a command line, or the program.
+const CLI::App& command_of(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+/// A command and those that it belongs to, as "gains set".
+std::string words_of(const CLI::App& command) {
+  const CLI::App* const parent = command.get_parent();
+  const bool is_inner = parent != nullptr && parent->get_parent() != nullptr;
+  return (is_inner ? words_of(*parent) + " " : "") + command.get_name();
+}
+
 /// What is wrong with a command line that lacks something which is required.
 std::string lack_of(const CLI::App& app, const CLI::RequiredError& error) {
-  const CLI::App* parent = &app;
-  while (!parent->get_subcommands().empty()) parent = parent->get_subcommands().front();
+  const CLI::App& parent = command_of(app);
   std::vector<std::string> names;
-  for (const CLI::App* command : parent->get_subcommands([](const CLI::App* each) {
+  for (const CLI::App* command : parent.get_subcommands([](const CLI::App* each) {
          return !each->get_group().empty();  // not hidden
        })) {
     names.push_back(command->get_name());
   }
-  if (names.empty()) return error.what();  // an argument of a command
+  if (names.empty()) {  // an argument of a command
+    return std::string(error.what()) + ", see: articula " + words_of(parent) + " --help";
+  }
   const std::vector<std::string> words = app.remaining(true);
   const std::string word = words.empty() || words.front().starts_with('-') ? "" : words.front();
   return (word.empty() ? "a command is missing"
                        : "there is no command " + articula::detail::quoted_text(word)) +
          ", expected one such as: articula " +
-         (parent == &app ? "go shoulder_active_joint=0.5"
-                         : parent->get_name() + " " + names.front()) +
+         (&parent == &app ? "go shoulder_active_joint=0.5"
+                          : parent.get_name() + " " + names.front()) +
          articula::detail::choice_of(word, "commands", names);
+}
+
+/// What is wrong with a command line that has more than its command takes.
+std::string excess_of(const CLI::App& app) {
+  const CLI::App& command = command_of(app);
+  std::vector<std::string> names;
+  for (const CLI::App* each = &command; each != nullptr; each = each->get_parent()) {
+    for (const CLI::Option* option : each->get_options()) {
+      const std::string name = option->get_name();
+      const bool is_new = std::find(names.begin(), names.end(), name) == names.end();
+      if (option->nonpositional() && is_new) names.push_back(name);
+    }
+  }
+  const std::vector<std::string> words = app.remaining(true);
+  const std::string word = words.empty() ? "" : words.front();
+  return words_of(command) + " takes no " + articula::detail::quoted_text(word) +
+         articula::detail::choice_of(word, "options", names);
 }
 
 int run(int count, char** words) {
@@ -106,6 +139,8 @@ int run(int count, char** words) {
     return done;
   } catch (const CLI::RequiredError& error) {
     return tell(program, wrong_usage, lack_of(app, error));
+  } catch (const CLI::ExtrasError&) {
+    return tell(program, wrong_usage, excess_of(app));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
     return tell(program, wrong_usage, error.what());

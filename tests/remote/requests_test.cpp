@@ -99,8 +99,9 @@ TEST_CASE("a go is refused with joint, value and limit") {
   REQUIRE(done(arm.ask(Activate{})));
   CHECK(refused(arm.ask(Go{}), "no joint is named"));
   CHECK(refused(arm.ask(Go{{{"knee", 0}}}), "'knee'"));
-  CHECK(refused(arm.ask(Go{{{shoulder, 2}}}),
-                "position 2 of joint 'shoulder_active_joint' is not within -1.5708 .. 1.5708"));
+  CHECK(refused(
+      arm.ask(Go{{{shoulder, 2}}}),
+      "position 2 rad of joint 'shoulder_active_joint' is not within -1.5708 .. 1.5708 rad"));
   CHECK(refused(arm.ask(Go{{{shoulder, support::not_a_number}}}), "position nan"));
   CHECK(refused(arm.ask(Go{{{shoulder, 0}, {shoulder, 1}}}), "named twice"));
   CHECK(refused(arm.ask(Go{{{shoulder, 0}}, 0}), "speed 0 is not within"));
@@ -136,8 +137,9 @@ TEST_CASE("a reference is set at once for the named joints") {
   CHECK(reference.position == JointVector<2>(0.15, 0));
   CHECK(reference.effort == JointVector<2>(0, 0.3));
   CHECK(refused(arm.ask(SetReference{}), "no joint is named"));
-  CHECK(refused(arm.ask(SetReference{{{elbow, -2}}}), "position -2 of joint 'elbow_active_joint'"));
-  CHECK(refused(arm.ask(SetReference{{}, {{shoulder, 3}}}), "velocity 3 of joint"));
+  CHECK(refused(arm.ask(SetReference{{{elbow, -2}}}),
+                "position -2 rad of joint 'elbow_active_joint'"));
+  CHECK(refused(arm.ask(SetReference{{}, {{shoulder, 3}}}), "velocity 3 rad/s of joint"));
   CHECK(refused(arm.ask(SetReference{{}, {}, {{shoulder, 28}}}), "above the limit 27.94"));
 }
 
@@ -168,7 +170,7 @@ TEST_CASE(
   CHECK(done(answer));
   CHECK(answer.text.find("without 1 of its first points") != std::string::npos);
   play.trajectory.points = {{.time_from_start = 1, .positions = {0.4}, .effort = {28}}};
-  CHECK(refused(arm.ask(play), "trajectory: effort 28 of joint 'shoulder_active_joint'"));
+  CHECK(refused(arm.ask(play), "trajectory: effort 28 N m of joint 'shoulder_active_joint'"));
 }
 
 TEST_CASE("signals beyond the range of a joint are refused") {
@@ -179,9 +181,9 @@ TEST_CASE("signals beyond the range of a joint are refused") {
   const auto answer_to = [&](const Signal& signal) {
     return arm.ask(PlaySignals{{{shoulder, signal}}, 0.05}, 2000);
   };
-  CHECK(refused(answer_to(StepSignal{0.1, 0}), "signals: position 1.6 of joint"));
-  CHECK(refused(answer_to(SquareSignal{0.1, 1}), "signals: position 1.6 of joint"));
-  CHECK(refused(answer_to(StepSignal{-3.1, 0}), "signals: position -1.6 of joint"));
+  CHECK(refused(answer_to(StepSignal{0.1, 0}), "signals: position 1.6 rad of joint"));
+  CHECK(refused(answer_to(SquareSignal{0.1, 1}), "signals: position 1.6 rad of joint"));
+  CHECK(refused(answer_to(StepSignal{-3.1, 0}), "signals: position -1.6 rad of joint"));
   CHECK(done(answer_to(StepSignal{-0.1, 0})));
   CHECK(done(answer_to(SineSignal{0.05, 1})));
   // Opposite steps cancel.
@@ -215,7 +217,7 @@ TEST_CASE(
   const PlayTrajectory fast{{{shoulder},
                              {{.time_from_start = 1, .positions = {0}, .velocities = {0}},
                               {.time_from_start = 1.5, .positions = {1}, .velocities = {0}}}}};
-  CHECK(refused(arm.ask(fast), "velocity 3 of joint 'shoulder_active_joint' is above"));
+  CHECK(refused(arm.ask(fast), "velocity 3 rad/s of joint 'shoulder_active_joint' is above"));
   const auto& text =
       arm.ask(PlayTrajectory{{{elbow}, {{.time_from_start = 1e-3, .positions = {1}}}}});
   CHECK(text.verdict == support::Verdict::refused);

@@ -66,6 +66,17 @@ class OddServer {
 
 }  // namespace
 
+TEST_CASE("what a command lacks, or has too much, is named") {
+  const auto says = [](const Words& words, const std::string& text) {
+    CAPTURE(joined(words));
+    CHECK_THAT(run_articula(words).errors, Catch::Contains(text));
+  };
+  says({"gains", "set"}, "values is required, see: articula gains set --help");
+  says({"status", "--jsn"}, "status takes no '--jsn'; did you mean '--json'?");
+  says({"fault", "ack", "now"}, "fault ack takes no 'now'; options: --help, ");
+  says({"play", "/"}, "/: it is a folder, expected a file");
+}
+
 TEST_CASE("a command line that makes no sense gets one line and exit status 2") {
   for (const Words& words : std::vector<Words>{{},
                                                {"nonsense"},

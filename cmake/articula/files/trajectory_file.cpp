@@ -7,9 +7,12 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,6 +28,10 @@ class TrajectoryReader {
   explicit TrajectoryReader(std::string file) : file_(std::move(file)) {}
 
   [[nodiscard]] Json read() {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file_, ignored)) {
+      throw FileError({.file = file_}, "it is a folder", "a file");
+    }
     std::ifstream stream(file_, std::ios::binary);
     if (!stream) throw FileError({.file = file_}, "the file cannot be read");
     std::stringstream text;

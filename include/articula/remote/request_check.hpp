@@ -8,6 +8,7 @@
 #include "articula/core/refuse.hpp"
 #include "articula/model/robot.hpp"
 #include "articula/remote/request.hpp"
+#include "articula/remote/sheet/robot_sheet.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -70,14 +71,17 @@ class RequestCheck {
   void check_position(std::string_view what, int joint, double value) const {
     const JointLimits& limits = limits_of(joint);
     if (is_finite(value) && value >= limits.lower && value <= limits.upper) return;
-    articula::detail::refuse({what, ": position ", value, " of joint '", name_of(joint),
-                              "' is not within ", limits.lower, " .. ", limits.upper});
+    const std::string unit = unit_of("position", joint);
+    articula::detail::refuse({what, ": position ", value, " ", unit, " of joint '", name_of(joint),
+                              "' is not within ", limits.lower, " .. ", limits.upper, " ", unit});
   }
+  /// @param quantity  "velocity" or "effort"
   void check_size(std::string_view what, std::string_view quantity, int joint, double value,
                   double limit) const {
     if (is_finite(value) && std::abs(value) <= limit) return;
-    articula::detail::refuse({what, ": ", quantity, " ", value, " of joint '", name_of(joint),
-                              "' is above the limit ", limit});
+    const std::string unit = unit_of(quantity, joint);
+    articula::detail::refuse({what, ": ", quantity, " ", value, " ", unit, " of joint '",
+                              name_of(joint), "' is above the limit ", limit, " ", unit});
   }
 
   /// The efforts of a trajectory's points.
@@ -107,6 +111,12 @@ class RequestCheck {
   }
 
  private:
+  [[nodiscard]] std::string unit_of(std::string_view quantity, int joint) const {
+    const SheetJoint own{.type = model_of(robot_).joints[joint].type};
+    if (quantity == "effort") return own.effort_unit();
+    return own.position_unit() + (quantity == "velocity" ? "/s" : "");
+  }
+
   const R& robot_;
 };
 

@@ -49,10 +49,11 @@ class TextSource {
  private:
   [[nodiscard]] std::string file_contents(std::size_t capacity) const {
     std::error_code ignored;
-    std::ifstream file(name_, std::ios::binary);
-    if (!file || std::filesystem::is_directory(name_, ignored)) {
-      throw FileError(name_, "the file cannot be read");
+    if (std::filesystem::is_directory(name_, ignored)) {
+      throw FileError(FilePlace{name_}, "it is a folder", "a file");
     }
+    std::ifstream file(name_, std::ios::binary);
+    if (!file) throw FileError(name_, "the file cannot be read");
     std::string text;
     char block[1 << 16];
     while (text.size() <= capacity && file.read(block, sizeof block).gcount() > 0) {

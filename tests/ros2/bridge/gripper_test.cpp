@@ -122,7 +122,7 @@ TEST_CASE("goals of a gripper that cannot be are rejected, and the log says why"
            "max_effort 5 is below the limit of joint 'elbow_active_joint', 13.62, and the loop has "
            "no limit for one goal: send 0");
   rejected(to(0.3, -1), "max_effort -1 is not a finite number >= 0");
-  rejected(to(3), "position 3 of joint 'elbow_active_joint' is not within");
+  rejected(to(3), "position 3 rad of joint 'elbow_active_joint' is not within");
   rejected(to(std::numeric_limits<double>::quiet_NaN()), "position nan");
   CHECK(arm.send(1, to(0.1, 20)));  // the joint has no more than 13.62 anyway
 }

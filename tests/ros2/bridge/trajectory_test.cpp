@@ -396,7 +396,7 @@ TEST_CASE("references and commands are published, checked, and refused for inact
   CHECK(arm.logged("commands: 1 numbers for 2 joints"));
   arm.publish(controller + "reference", Point{.positions = {5, 0}});
   arm.run(3);
-  CHECK(arm.logged("position 5 of joint 'shoulder_active_joint'"));
+  CHECK(arm.logged("position 5 rad of joint 'shoulder_active_joint'"));
   arm.publish(controller + "reference", Point{.positions = {std::nan(""), 0}});
   arm.publish("/computed_torque/reference", Point{.positions = {0, 0}});
   CHECK(arm.logged("reference: controller 'computed_torque' is not active"));
