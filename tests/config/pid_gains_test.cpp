@@ -281,5 +281,5 @@ TEST_CASE("a file is read as a text is, and a missing one is named") {
       << "gains: {shoulder_active_joint: {p: 7}, elbow_active_joint: {p: 8}}";
   CHECK(load_pid_gains(Q2d(), file.path()).gains[1].proportional == 8);
   CHECK_THROWS_WITH(load_pid_gains(Q2d(), "no/such.yaml"), "no/such.yaml: the file cannot be read");
-  CHECK_THROWS_WITH(load_pid_gains(Q2d(), "/"), "/: the file cannot be read");
+  CHECK_THROWS_WITH(load_pid_gains(Q2d(), "/"), "/: it is a folder, expected a file");
 }

@@ -67,7 +67,7 @@ TEST_CASE("A good URDF is accepted") {
 
 TEST_CASE("Files that cannot be read") {
   CHECK(refusal("no/such.urdf") == "no/such.urdf: the file cannot be read");
-  CHECK(refusal("/") == "/: the file cannot be read");
+  CHECK(refusal("/") == "/: it is a folder, expected a file");
   CHECK(refusal("") == ": the file cannot be read");
   CHECK(refusal(std::string("<robot>\0</robot>", 16)) ==
         "URDF:1:8: a NUL character, expected UTF-8 text (UTF-16 is not supported)");
