@@ -126,10 +126,9 @@ TEST_CASE("the first heartbeat of a writer with high numbers decides their offse
   CHECK(numbers.original(10) == huge + 9);
 }
 
-TEST_CASE("a writer that is found again goes on where Fast DDS was") {
+TEST_CASE("numbers begin where Fast DDS was before the first heartbeat") {
   WriterNumbers numbers;
   Budget budget(longest, longest);
-  // Fast DDS remembers writers by their identity: its first acknowledgement tells how far it got.
   CHECK(numbers.acknowledge(500) == 500);
   CHECK(numbers.of_beginning(huge, budget, now) == 500);
   CHECK(numbers.of_message(huge + 1, budget, now) == 501);

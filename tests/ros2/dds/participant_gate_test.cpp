@@ -103,14 +103,15 @@ Bytes announcement(std::uint32_t number) {
 }
 
 /// What a participant sends to be discovered, with a lease [s]. Its seconds begin at byte 52.
-Bytes leased(std::uint32_t number, unsigned seconds) {
+/// @param builtin  the readers and writers that it has for discovery; 1: a writer of announcements
+Bytes leased(std::uint32_t number, unsigned seconds, unsigned builtin = 0x3f) {
   Bytes bytes = header(number);
-  append(bytes, {0x15, 5, 60, 0});
+  append(bytes, {0x15, 5, 68, 0});
   append(bytes, {0, 0, 16, 0, 0, 1, 0, 0xc7, 0, 1, 0, 0xc2, 0, 0, 0, 0, 7, 0, 0, 0});
   append(bytes, {0, 3, 0, 0, 0x02, 0, 8, 0, seconds & 255, seconds >> 8, 0, 0, 0, 0, 0, 0});
   append(bytes, {0x50, 0, 16, 0});
   append_prefix(bytes, number);
-  append(bytes, {0, 0, 1, 0xc1, 1, 0, 0, 0});
+  append(bytes, {0, 0, 1, 0xc1, 0x58, 0, 4, 0, builtin, 0, 0, 0, 1, 0, 0, 0});
   REQUIRE(dds::is_well_formed(bytes));
   return bytes;
 }
@@ -280,6 +281,51 @@ TEST_CASE("leases end in the gate, and not in Fast DDS") {
   REQUIRE(admits(gate, leased(1, 10), now));
   for (int k = 0; k < 11; ++k) REQUIRE(admits(gate, header(2), now += seconds(1)));
   CHECK(gate.farewells().size() == 1);
+}
+
+TEST_CASE("Fast DDS gets participants alone that it can end") {
+  ParticipantGate gate;
+  CHECK_FALSE(admits(gate, leased(1, 10, 0x3e), start));  // it would ignore the farewell
+  Bytes without_lease = leased(2, 10);
+  without_lease[48] = std::byte{0x60};  // another parameter; Fast DDS would end it at once
+  without_lease[49] = std::byte{0x80};
+  REQUIRE(dds::is_well_formed(without_lease));
+  CHECK_FALSE(admits(gate, without_lease, start));
+  CHECK(admits(gate, leased(1, 10), start));
+  CHECK(admits(gate, leased(2, 10), start));
+}
+
+TEST_CASE("the writers of a participant that returns begin anew, as in Fast DDS") {
+  ParticipantGate gate;
+  constexpr std::uint32_t writer = 0x000003c2;
+  constexpr std::uint64_t high = 1 << 20;
+  const auto beginning = [&](std::uint32_t number, std::uint64_t original) {
+    dds::Budget budget(dds::WriterNumbers::longest, dds::WriterNumbers::longest);
+    dds::KnownEndpoints* const known = gate.endpoints_of(dds::prefix_at(header(number), 8));
+    REQUIRE(known != nullptr);
+    return known->numbers_of(writer)->of_beginning(original, budget, start);
+  };
+  for (const std::uint32_t number : {1U, 2U, 3U}) {
+    REQUIRE(admits(gate, leased(number, 10), start));
+    CHECK(beginning(number, 1) == 1);
+    gate.endpoints_of(dds::prefix_at(header(number), 8))->numbers_of(writer)->acknowledge(high + 1);
+    CHECK(beginning(number, high) == high);
+  }
+  // 1 leaves, which its lease ends for Fast DDS, too; the lease of 2 ends, and 3 stays.
+  Bytes end = dds::detail::farewell(dds::prefix_at(header(1), 8), 8);
+  REQUIRE(gate.admits(end, start));
+  for (int k = 1; k <= 11; ++k) REQUIRE(admits(gate, header(3), start + seconds(k)));
+  CHECK(gate.farewells().size() == 2);
+  for (const std::uint32_t number : {1U, 2U, 3U}) {
+    REQUIRE(admits(gate, leased(number, 10), start + seconds(11)));
+  }
+  CHECK(beginning(1, 2 * high) == 1);
+  CHECK(beginning(2, 2 * high) == 1);
+  CHECK(beginning(3, high) == high);
+  for (const std::uint32_t number : {1U, 2U, 3U}) {  // announcements are repeated
+    REQUIRE(admits(gate, leased(number, 10), start + seconds(12)));
+  }
+  CHECK(beginning(1, 2 * high + 1) == 2);
 }
 
 TEST_CASE("while this program stands still for a while, no lease ends") {

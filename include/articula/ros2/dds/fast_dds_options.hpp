@@ -22,7 +22,7 @@ struct FastDdsOptions {
   /// Replies that wait for the reader of their client, in number and for how long. ROS clients
   /// announce their reader at about the time of their first request.
   std::size_t waiting_replies = 64;
-  std::chrono::milliseconds reply_patience{100};
+  std::chrono::milliseconds reply_patience{5000};
   /// Fast DDS writes what it finds wrong to the standard output. The setting is the process's.
   bool log = false;
 };

@@ -86,10 +86,13 @@ class KnownEndpoints {
     const std::size_t kept = is_repeated ? std::min(memory, known->second.memory) : 0;
     const std::size_t more = memory - kept;
     if (more > std::min(room, most_memory - memory_)) return false;
+    if (!has_room_for_addresses(*message.list)) return false;
     const Topic topic{message.writer, topic_in(*message.list)};
     const bool joins = !is_participant && (is_new || !known->second.lives);
-    if (joins && living_[topic] >= most_of_topic) return false;
-    if (!has_room_for_addresses(*message.list)) return false;
+    if (const auto living = living_.find(topic);
+        joins && living != living_.end() && living->second >= most_of_topic) {
+      return false;
+    }
 
     Said& said = said_[name];
     said.constants = constants;
@@ -99,6 +102,7 @@ class KnownEndpoints {
     if (joins) {
       said.lives = true;
       said.topic = topic;
+      said.numbers = {};
       ++living_[topic];
     }
     return true;
@@ -116,9 +120,12 @@ class KnownEndpoints {
     } else if (const auto own = said_.find({message.writer, entity_in(message)});
                own != said_.end() && own->second.lives) {
       own->second.lives = false;
-      --living_[own->second.topic];
+      const auto living = living_.find(own->second.topic);
+      if (living != living_.end() && --living->second == 0) living_.erase(living);
     }
   }
+  /// Notes that the participant is found anew. Fast DDS has forgotten how far its writers were.
+  void begin_numbers() { builtin_.clear(); }
   /// What Fast DDS keeps of all that was announced, at most [bytes].
   [[nodiscard]] std::size_t memory() const { return memory_; }
 

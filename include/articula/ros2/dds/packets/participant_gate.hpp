@@ -97,7 +97,9 @@ class ParticipantGate {
       if (!discovery) return true;
       const bool is_participant = discovery->writer == detail::participant_writer;
       if (!KnownEndpoints::is_of(source, *discovery)) return false;
-      if (is_participant && !discovery->ends && !admits(source, now)) return false;
+      if (is_participant && !discovery->ends) {
+        if (!can_end(*discovery) || !admits(source, now)) return false;
+      }
       const auto known = known_.find(source);
       if (known == known_.end()) return false;
       if (!admits(known->second.endpoints, *discovery)) {
@@ -137,6 +139,7 @@ class ParticipantGate {
     Time last{};             ///< sign
     Time::duration heard{};  ///< likewise, by heard_
     bool lives = false;      ///< Fast DDS has it, if there was room
+    bool has_left = false;   ///< said so itself
     std::chrono::seconds lease{};
     std::uint64_t number = 0;  ///< largest one of its announcements
     KnownEndpoints endpoints{};
@@ -183,20 +186,40 @@ class ParticipantGate {
     known->second.last = now;
     known->second.heard = heard_;
   }
-  /// Takes the lease out of an announcement, if it has one, and puts one that does not end.
+  /// Whether Fast DDS will end a participant at its farewell. It heeds that of one alone which has
+  /// a writer of announcements. Without a lease it would check an own one, which is 0.
+  [[nodiscard]] static bool can_end(const detail::DiscoveryMessage& announcement) {
+    if (!announcement.list) return true;  // Fast DDS does not read it
+    bool has_lease = false, has_writer = false;
+    announcement.list->for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
+      constexpr std::uint32_t lease = 0x02, builtin_endpoints = 0x58;
+      if (worth != detail::Worth::whole) return true;
+      has_lease = has_lease || id == lease;
+      if (id == builtin_endpoints) {  // the last one counts
+        has_writer = (detail::number_at(value, 0, 4, announcement.list->little) & 1U) != 0;
+      }
+      return true;
+    });
+    return has_lease && has_writer;
+  }
+  /// Takes the lease out of an announcement, and puts one that does not end.
   void note_lease(std::span<std::byte> packet, Known& known,
                   const detail::DiscoveryMessage& announcement) {
     known.number = std::max(known.number, announcement.number);
     // Fast DDS may take an end for an old message: the participant ends by its lease then.
+    known.has_left = known.has_left || announcement.ends;
     if (!announcement.list || announcement.ends) return;
+    const bool has_left = std::exchange(known.has_left, false);
+    if (has_left || !known.lives) known.endpoints.begin_numbers();
     known.lives = true;
-    known.lease = std::chrono::seconds(usual_lease);
     const bool little = announcement.list->little;
     announcement.list->for_each([&](std::uint32_t id, Packet value, detail::Worth worth) {
       constexpr std::uint32_t lease = 0x02;
       if (id != lease || worth != detail::Worth::whole) return true;
       const std::uint32_t seconds = detail::number_at(value, 0, 4, little);
-      known.lease = std::chrono::seconds(std::clamp(seconds, 1U, detail::longest_lease));
+      const bool has_fraction = detail::number_at(value, 4, 4, little) != 0;
+      known.lease = std::chrono::seconds(std::min(seconds, detail::longest_lease) +
+                                         (has_fraction || seconds == 0 ? 1 : 0));
       const std::span<std::byte> own = detail::mutable_part(packet, value);
       std::fill(own.begin(), own.end(), std::byte{0xff});
       own[little ? 3 : 0] = std::byte{0x7f};
@@ -213,7 +236,6 @@ class ParticipantGate {
     order_.pop_front();
   }
 
-  static constexpr std::uint32_t usual_lease = 100;  ///< [s]. Source: [RTPS], table 9.14
   std::map<Prefix, Known> known_{};
   Time now_{};                  ///< of the last packet
   Time::duration heard_{};      ///< time in which packets could come
