@@ -143,7 +143,8 @@ TEST_CASE("a reply waits for the reader of its client") {
 
 TEST_CASE("clients that never have a reader delay no other, and their replies are forgotten") {
   talk_over_udp_only();
-  FastDdsTransport transport({.domain = domain(), .waiting_replies = 3});
+  FastDdsTransport transport(
+      {.domain = domain(), .waiting_replies = 3, .reply_patience = std::chrono::milliseconds(100)});
   Server server(transport);
   CyclonePeer cyclone(domain());
   cyclone.make_request_writer("/arm/trigger");

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/dds/packets/checked_transport.hpp"
 
+#include "articula/ros2/dds/packets/split_fragments.hpp"
+
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
@@ -63,9 +65,12 @@ class CheckedTransport final : public transports::ChainingTransport {
                const rtps::Locator_t& remote) override {
     // Fast DDS 2.9.1 believes the first fragment of a message that the others are as long.
     constexpr std::size_t longest_fragment = 0xffff;
-    std::vector<rtps::octet> own(size + longest_fragment);
-    std::copy_n(bytes, size, own.begin());
-    const auto packet = std::as_writable_bytes(std::span(own)).first(size);
+    const Packet raw = std::as_bytes(std::span(bytes, size));
+    const auto split = split_fragments(raw);
+    const Packet whole = split ? Packet(*split) : raw;
+    std::vector<rtps::octet> own(whole.size() + longest_fragment);
+    std::memcpy(own.data(), whole.data(), whole.size());
+    const auto packet = std::as_writable_bytes(std::span(own)).first(whole.size());
     // Fast DDS 2.9.1 keeps participants for ever that come and go in two threads at a time.
     const std::lock_guard lock(receiving_);
     if (!descriptor_.guard().receive(packet, std::chrono::steady_clock::now())) return;
@@ -79,7 +84,7 @@ class CheckedTransport final : public transports::ChainingTransport {
                                  remote);
       }
     }
-    receiver->OnDataReceived(own.data(), size, local, remote);
+    receiver->OnDataReceived(own.data(), static_cast<std::uint32_t>(packet.size()), local, remote);
   }
 
  private:
