@@ -74,9 +74,10 @@ class CheckedTransport final : public transports::ChainingTransport {
     // Fast DDS 2.9.1 keeps participants for ever that come and go in two threads at a time.
     const std::lock_guard lock(receiving_);
     if (!descriptor_.guard().receive(packet, std::chrono::steady_clock::now())) return;
-    // The receiver of an announcement has to do with participants, and hears this program's own
-    // ones, if nobody else's. Whoever has left makes room first.
-    if (PacketGuard::has_announcement(packet)) {
+    // An announcement comes at least by this program's own ones, if nobody else is there. Whoever
+    // has left makes room first. Fast DDS looks for participants at even ports ([RTPS], 9.6.1.1):
+    // a farewell elsewhere would be lost.
+    if (local.port % 2 == 0 && PacketGuard::has_announcement(packet)) {
       for (const std::vector<std::byte>& farewell : descriptor_.guard().farewells()) {
         std::vector<rtps::octet> end(farewell.size() + longest_fragment);
         std::memcpy(end.data(), farewell.data(), farewell.size());
