@@ -61,8 +61,9 @@ std::uint32_t mutilated() {
 }
 
 // What a participant sends to be discovered, as the standard of RTPS has it (9.6.2.2).
-// `further` is a parameter more.
-Bytes announcement(std::uint32_t number, std::uint32_t lease_seconds, const Bytes& further = {}) {
+// `further` is a parameter more. Nobody listens at the usual port.
+Bytes announcement(std::uint32_t number, std::uint32_t lease_seconds, const Bytes& further = {},
+                   std::uint32_t port = 9) {
   Bytes bytes;
   const auto put = [&](std::initializer_list<unsigned> values) {
     for (const unsigned value : values) bytes.push_back(static_cast<std::byte>(value));
@@ -79,7 +80,7 @@ Bytes announcement(std::uint32_t number, std::uint32_t lease_seconds, const Byte
   const auto put_locator = [&](unsigned id) {
     put_parameter(id, 24);
     put_number(1);  // UDPv4
-    put_number(9);  // a port where nobody listens
+    put_number(port);
     put({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 127, 0, 0, 1});
   };
   put({'R', 'T', 'P', 'S', 2, 3, 0x01, 0x0f});
@@ -115,21 +116,41 @@ Bytes announcement(std::uint32_t number, std::uint32_t lease_seconds, const Byte
 // Sends packets to where the first participant of the domain expects announcements.
 class Announcer {
  public:
-  Announcer() : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {}
+  Announcer() : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
+    sockaddr_in own = address(0);
+    socklen_t size = sizeof own;
+    ::bind(socket_, reinterpret_cast<const sockaddr*>(&own), size);
+    ::getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size);
+    port_ = ntohs(own.sin_port);
+  }
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
   ~Announcer() { ::close(socket_); }
-  void send(const Bytes& packet) const {
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    to.sin_port = htons(static_cast<std::uint16_t>(7410 + 250 * domain()));
+  // `port` is the place among the ports of the domain.
+  void send(const Bytes& packet, unsigned port = 10) const {
+    const sockaddr_in to = address(7400 + 250 * domain() + port);
     ::sendto(socket_, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&to),
              sizeof to);
   }
+  [[nodiscard]] std::uint32_t port() const { return port_; }
+  // How many packets have come since the last call.
+  [[nodiscard]] std::size_t received() const {
+    std::size_t count = 0;
+    char byte = 0;
+    while (::recv(socket_, &byte, 1, 0) > 0) ++count;
+    return count;
+  }
 
  private:
+  static sockaddr_in address(unsigned port) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    place.sin_port = htons(static_cast<std::uint16_t>(port));
+    return place;
+  }
   int socket_;
+  std::uint32_t port_ = 0;
 };
 
 // Announces participants, with some bytes of each packet changed or with none.
@@ -353,6 +374,23 @@ TEST_CASE("a storm of announced and mutilated participants takes no memory, and 
   received = 0;
   peer.write(writer, text_bytes("still here"));
   REQUIRE(poll_until(transport, [&] { return received > 0; }));
+}
+
+TEST_CASE("who is silent gets nothing after its lease, wherever others announce themselves") {
+  FastDdsTransport transport({.domain = domain()});
+  const Announcer silent, other;
+  silent.send(announcement(1, 1, {}, silent.port()));
+  REQUIRE(poll_until(transport, [&] { return silent.received() > 0; }));
+  // 11 is the port of messages, where Fast DDS looks for no participants. The lease is 1 s.
+  other.send(announcement(2, 10));
+  for (int k = 0; k < 300; ++k) {
+    other.send(announcement(2, 10), 11);
+    poll_for(transport, std::chrono::milliseconds(10));
+  }
+  CHECK(poll_until(transport, [&] {
+    poll_for(transport, std::chrono::seconds(1));
+    return silent.received() == 0;
+  }));
 }
 
 TEST_CASE("parameters that say more than they have take no memory, and statistics end no program") {
