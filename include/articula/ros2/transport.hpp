@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace articula::ros2 {
 
@@ -66,7 +67,9 @@ class Transport {
   virtual void serve(const ServiceEndpoint& service, OnRequest on_request) = 0;
   /// Delivers what has come, or waits for something to come.
   /// @param longest  the longest wait
-  virtual void poll(std::chrono::milliseconds longest) = 0;
+  virtual void poll(std::chrono::microseconds longest) = 0;
+  /// What has come since the last call that users should know, as of a publisher that nobody hears.
+  [[nodiscard]] virtual std::vector<std::string> warnings() { return {}; }
 };
 
 }  // namespace articula::ros2

@@ -320,7 +320,7 @@ TEST_CASE("a bridge in a thread of its own serves a running loop") {
     }
     void subscribe(const TopicEndpoint&, OnSample) override {}
     void serve(const ServiceEndpoint&, OnRequest) override {}
-    void poll(std::chrono::milliseconds longest) override {
+    void poll(std::chrono::microseconds longest) override {
       if (count_ > 200) throw std::runtime_error("the network is gone");
       std::this_thread::sleep_for(longest);
     }

@@ -158,6 +158,15 @@ TEST_CASE("the broadcaster of joint states is switched as a controller") {
   CHECK(arm.transport.topics["/joint_states"].count >= count + 5);
 }
 
+TEST_CASE("a warning of the transport is in the log") {
+  BridgedArm arm;
+  arm.transport.own_warnings = {"a publisher is not heard"};
+  arm.run(2);
+  CHECK(arm.transport.last<rcl_interfaces::msg::Log<Jazzy>>("/rosout")->msg ==
+        "a publisher is not heard");
+  CHECK(arm.transport.topics["/rosout"].count == 1);
+}
+
 TEST_CASE("what has no meaning for compiled controllers is answered so") {
   BridgedArm arm;
   const auto ok = [&]<class Service>(const char* service, TypeOf<Service>, const char* name) {

@@ -186,7 +186,7 @@ TEST_CASE("a robot behind topics that is destroyed leaves no effort behind") {
 TEST_CASE("a robot behind topics whose transport fails leaves no effort behind, and says so") {
   // One command, and later an error.
   struct Failing : support::MemoryTransport {
-    void poll(std::chrono::milliseconds) override {
+    void poll(std::chrono::microseconds) override {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       if (!std::exchange(has_begun, true)) {
         publish("/robot_joint_commands",

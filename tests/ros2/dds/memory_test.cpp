@@ -458,9 +458,10 @@ TEST_CASE("while nobody polls, a topic keeps the last messages of its depth alon
   check_growth(before, 16);
   transport.poll(std::chrono::milliseconds(0));
   CHECK(sizes.size() == 7);
-  // The peer sends again what its history still has of the lost ones, at most 100 messages.
+  // The socket may still have 8 MiB of the 84. The peer sends again what its history has of the lost
+  // ones, at most 100 messages.
   REQUIRE(poll_until(transport, [&] { return sizes.back() == last.size(); }));
-  CHECK(sizes.size() < 200);
+  CHECK(sizes.size() < 600);
 }
 
 TEST_CASE("many thousand messages and requests take no memory") {

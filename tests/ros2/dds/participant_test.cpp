@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/messages/rmw_dds_common.hpp"
+#include "articula/ros2/names.hpp"
 #include "catch.hpp"
 #include "cyclone_peer.hpp"
 #include "fast_dds_peer.hpp"
 #include "support.hpp"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -150,6 +158,44 @@ TEST_CASE("with the default options all sockets are on loopback") {
     CHECK(column[1].substr(0, 8) == "0100007F");  // 127.0.0.1
   }
   CHECK(count >= 3);  // for discovery, for users, for sending
+}
+
+TEST_CASE("without free ports there is no transport") {
+  constexpr unsigned own_domain = 229;
+  const auto hold = [](int port) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const int held = socket(AF_INET, SOCK_DGRAM, 0);
+    if (bind(held, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return held;
+    close(held);
+    return -1;
+  };
+  constexpr int first = 7400 + 250 * static_cast<int>(own_domain);
+  std::vector<int> held;
+  for (int port = first; port < first + 250; ++port) held.push_back(hold(port));
+  CHECK_THROWS_WITH(FastDdsTransport({.domain = own_domain}),
+                    Contains("domain 229; expected two free UDP ports from 64650 on"));
+  for (const int socket : held) close(socket);
+  CHECK_NOTHROW(FastDdsTransport({.domain = own_domain}));
+}
+
+TEST_CASE("a publisher whose quality of service does not match is told of, once") {
+  FastDdsTransport transport({.domain = domain()});
+  transport.subscribe(text_topic("/arm/text", reliable), [](Sample) {});
+  FastDdsPeer peer(domain());
+  const std::string type = dds_type_name(TextMessage::ros_type.view());
+  (void)peer.make_writer(topic_name("/arm/text"), type);
+  poll_for(transport, std::chrono::milliseconds(500));
+  CHECK(transport.warnings().empty());
+  (void)peer.make_writer(topic_name("/arm/text"), type, false, true);
+  std::vector<std::string> warnings;
+  CHECK(poll_until(transport, [&] { return !(warnings = transport.warnings()).empty(); }));
+  CHECK(warnings ==
+        std::vector<std::string>{"a publisher of /arm/text is not heard: its quality of service is "
+                                 "best effort; expected reliable"});
+  CHECK(transport.warnings().empty());
 }
 
 TEST_CASE("options out of their range are refused with what is expected") {

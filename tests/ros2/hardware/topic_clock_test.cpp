@@ -65,7 +65,7 @@ struct CountingClock {
 // A simulator that runs a millisecond in each poll until it fails.
 class FailingSimulator final : public MemoryTransport {
  public:
-  void poll(std::chrono::milliseconds longest) override {
+  void poll(std::chrono::microseconds longest) override {
     std::this_thread::sleep_for(longest);
     publish_time(*this, milliseconds(++polls_));
     publish_states(*this);

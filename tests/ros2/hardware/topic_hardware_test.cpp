@@ -332,7 +332,7 @@ namespace {
 class ObedientJoints final : public MemoryTransport {
  public:
   explicit ObedientJoints(std::vector<double>& last) : last_(last) {}
-  void poll(std::chrono::milliseconds longest) override {
+  void poll(std::chrono::microseconds longest) override {
     std::this_thread::sleep_for(longest);
     note_command();
     States message;

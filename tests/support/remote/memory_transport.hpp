@@ -60,7 +60,10 @@ class MemoryTransport : public articula::ros2::Transport {
   void serve(const articula::ros2::ServiceEndpoint& service, OnRequest on_request) override {
     services[service.service] = {service, std::move(on_request)};
   }
-  void poll(std::chrono::milliseconds) override {}
+  void poll(std::chrono::microseconds) override {}
+  std::vector<std::string> warnings() override { return std::exchange(own_warnings, {}); }
+
+  std::vector<std::string> own_warnings{};  ///< for the next call of warnings
 
   /// Sends bytes to the readers of a topic.
   void publish(const std::string& topic, articula::ros2::Sample bytes) {

@@ -5,6 +5,7 @@
 #include "articula/ros2/bridge/bridge_nodes.hpp"
 #include "articula/ros2/dds/fast_dds_transport.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -14,9 +15,24 @@
 
 namespace articula::ros2 {
 
+namespace {
+
+/// Half of the shortest period at which something is published.
+std::chrono::microseconds pause_of(const BridgeOptions& options) {
+  constexpr std::chrono::microseconds shortest{200}, longest{2000};
+  const double rate =
+      std::max({options.state_rate, options.controller_state_rate, options.feedback_rate});
+  const auto half = std::chrono::duration<double>(0.5 / rate);
+  return std::clamp(std::chrono::duration_cast<std::chrono::microseconds>(half), shortest, longest);
+}
+
+}  // namespace
+
 struct Bridge::Parts {
   Parts(remote::Port& port, std::unique_ptr<Transport> own_transport, const BridgeOptions& options)
-      : transport(std::move(own_transport)), nodes(port, checked(), options) {}
+      : transport(std::move(own_transport)),
+        nodes(port, checked(), options),
+        pause(pause_of(options)) {}
 
   [[nodiscard]] Transport& checked() const {
     if (transport == nullptr) articula::detail::refuse({"ros2: there is no transport"});
@@ -27,7 +43,7 @@ struct Bridge::Parts {
     while (runs) {
       std::string caught_error;
       try {
-        transport->poll(std::chrono::milliseconds(2));
+        transport->poll(pause);
         nodes.update(std::chrono::system_clock::now().time_since_epoch());
       } catch (const std::exception& caught) {  // of one message: the others go on
         caught_error = caught.what();
@@ -40,7 +56,8 @@ struct Bridge::Parts {
   }
 
   std::unique_ptr<Transport> transport;
-  BridgeNodes nodes;  ///< ends before the transport
+  BridgeNodes nodes;                ///< ends before the transport
+  std::chrono::microseconds pause;  ///< longest, between two looks at the loop
   std::atomic<bool> runs = true;
   std::mutex mutex{};
   DroppedMessages dropped{};  ///< under the mutex

@@ -92,6 +92,12 @@ struct BridgeNodes::Parts {
     }
   }
 
+  void log_warnings() {
+    for (const std::string& warning : core.context.transport().warnings()) {
+      core.log.write(RosLog::Line::warn, "controller_manager", warning);
+    }
+  }
+
   BridgeCore core;
   std::chrono::nanoseconds simulator_time{0};  ///< by the topic of the options
   RobotTopics robot;
@@ -115,6 +121,7 @@ void BridgeNodes::update(std::chrono::nanoseconds now) {
   core.context.now = has_loops_time ? to_duration(core.watch.cycle.time) : clock;
   core.loop_operator.update(now);
   parts_->log_events();
+  parts_->log_warnings();
   parts_->robot.update();
   parts_->manager->update();
   if (parts_->introspection) parts_->introspection->update();

@@ -4,7 +4,9 @@
 #include "articula/ros2/dds/participant.hpp"
 
 #include <cstddef>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace articula::ros2 {
 
@@ -54,6 +56,8 @@ void FastDdsTransport::serve(const ServiceEndpoint& service, OnRequest on_reques
   participant_->serve(service, std::move(on_request));
 }
 
-void FastDdsTransport::poll(std::chrono::milliseconds longest) { participant_->poll(longest); }
+void FastDdsTransport::poll(std::chrono::microseconds longest) { participant_->poll(longest); }
+
+std::vector<std::string> FastDdsTransport::warnings() { return participant_->warnings(); }
 
 }  // namespace articula::ros2

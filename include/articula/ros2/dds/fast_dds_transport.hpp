@@ -8,6 +8,8 @@
 
 #include <chrono>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace articula::ros2 {
 
@@ -49,7 +51,8 @@ class FastDdsTransport final : public Transport {
   void serve(const ServiceEndpoint& service, OnRequest on_request) override;
   /// @param longest  the longest wait; less than 0 is 0
   /// Exceptions of the functions of topics and services pass. The next call continues.
-  void poll(std::chrono::milliseconds longest) override;
+  void poll(std::chrono::microseconds longest) override;
+  [[nodiscard]] std::vector<std::string> warnings() override;
 
  private:
   std::shared_ptr<dds::Participant> participant_;

@@ -39,10 +39,13 @@ rtps::RTPSParticipant* make_participant(const FastDdsOptions& options,
   if (!options.log) eprosima::fastdds::dds::Log::ClearConsumers();
   rtps::RTPSParticipant* const participant =
       rtps::RTPSDomain::createParticipant(options.domain, participant_attributes(options, guard));
-  if (participant == nullptr) {
+  // Fast DDS 2.9.1 makes participants without sockets, too.
+  if (participant == nullptr || !guard->has_sockets()) {
+    if (participant != nullptr) rtps::RTPSDomain::removeRTPSParticipant(participant);
     throw std::runtime_error(articula::detail::message_of(
-        {"ros2: Fast DDS made no participant of domain ", options.domain,
-         "; expected free UDP ports from ", 7400 + 250 * options.domain, " on"}));
+        {"ros2: Fast DDS cannot receive in domain ", options.domain,
+         "; expected two free UDP ports from ", 7400 + 250 * options.domain,
+         " on, and that this program may open more files"}));
   }
   return participant;
 }
@@ -189,8 +192,16 @@ void Participant::remove_leaving_writers() {
   });
 }
 
-void Participant::poll(std::chrono::milliseconds longest) {
-  const Clock::time_point end = Clock::now() + std::max(longest, std::chrono::milliseconds(0));
+std::vector<std::string> Participant::warnings() {
+  std::vector<std::string> all;
+  for (const auto& reader : readers_) {
+    if (auto warning = reader->warning()) all.push_back(std::move(*warning));
+  }
+  return all;
+}
+
+void Participant::poll(std::chrono::microseconds longest) {
+  const Clock::time_point end = Clock::now() + std::max(longest, std::chrono::microseconds(0));
   for (;;) {
     send_graph();
     send_waiting_replies();

@@ -32,7 +32,8 @@ class Participant : public std::enable_shared_from_this<Participant> {
   void remove(const Writer& writer);
   void subscribe(const TopicEndpoint& topic, Transport::OnSample on_sample);
   void serve(const ServiceEndpoint& service, Transport::OnRequest on_request);
-  void poll(std::chrono::milliseconds longest);
+  void poll(std::chrono::microseconds longest);
+  [[nodiscard]] std::vector<std::string> warnings();
 
  private:
   using Clock = Inbox::Clock;

@@ -27,6 +27,8 @@ constexpr const char* discovery_group = "239.255.0.1";  // of all DDS, by its st
 constexpr std::uint32_t discovery_port = 7400, ports_of_a_domain = 250;
 // Participants on a host take successive ports. ROS looks for as many.
 constexpr std::uint32_t participants_of_a_peer = 32;
+// The system may allow less (net.core.rmem_max), of which Linux makes twice as much.
+constexpr std::uint32_t wanted_receive_buffer = 1 << 22;  // bytes
 constexpr std::size_t least_message = 1024, largest_message = std::size_t{1} << 30;
 
 bool is_loopback(const std::string& address) { return address.starts_with("127."); }
@@ -94,6 +96,7 @@ rtps::RTPSParticipantAttributes participant_attributes(const FastDdsOptions& opt
   udp->interfaceWhiteList = options.interfaces;
   udp->maxInitialPeersRange = participants_of_a_peer;
   udp->non_blocking_send = true;  // what is lost is sent again
+  udp->receiveBufferSize = wanted_receive_buffer;
   attributes.userTransports.push_back(std::make_shared<CheckedTransportDescriptor>(udp, guard));
   if (options.shared_memory) {
     attributes.userTransports.push_back(

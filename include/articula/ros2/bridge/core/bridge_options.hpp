@@ -27,7 +27,7 @@ struct BridgeOptions {
   /// Time that the controls stay with ROS after its last message or request, if no trajectory is
   /// being followed [s].
   double controls_time = 1;
-  /// Of joint states and frames [Hz]. Up to some 400: the bridge looks every 2 ms.
+  /// Of joint states and frames [Hz], up to the loop's own rate.
   double state_rate = 100;
   double controller_state_rate = 50;  ///< of the controllers' states [Hz]
   double feedback_rate = 20;          ///< of goals [Hz]

@@ -33,6 +33,7 @@ Reader::Reader(rtps::RTPSParticipant& participant, std::shared_ptr<PacketGuard> 
                const Endpoint& endpoint, std::function<void(Arrival&)> deliver)
     : guard_(std::move(guard)),
       inbox_(&inbox),
+      topic_(endpoint.topic),
       queue_(endpoint.quality.depth, waiting_largest_messages * endpoint.largest_message,
              std::move(deliver)),
       history_(endpoint.largest_message) {
@@ -65,6 +66,22 @@ Reader::Reader(rtps::RTPSParticipant& participant, std::shared_ptr<PacketGuard> 
 }
 
 Reader::~Reader() { rtps::RTPSDomain::removeRTPSReader(reader_); }
+
+std::optional<std::string> Reader::warning() {
+  const bool is_unreliable = is_unreliable_.exchange(false);
+  const bool is_volatile = is_volatile_.exchange(false);
+  if (!is_unreliable && !is_volatile) return {};
+  const std::string topic = topic_.substr(topic_.find('/'));  // without DDS's "rt"
+  return "a publisher of " + topic + " is not heard: its quality of service is " +
+         (is_unreliable ? "best effort; expected reliable" : "volatile; expected transient local");
+}
+
+void Reader::on_requested_incompatible_qos(rtps::RTPSReader* /*reader*/,
+                                           eprosima::fastdds::dds::PolicyMask policies) {
+  using namespace eprosima::fastdds::dds;
+  if (policies.test(RELIABILITY_QOS_POLICY_ID)) is_unreliable_ = true;
+  if (policies.test(DURABILITY_QOS_POLICY_ID)) is_volatile_ = true;
+}
 
 void Reader::onReaderMatched(rtps::RTPSReader* /*reader*/, rtps::MatchingInfo& info) {
   writers_.set(info.remoteEndpointGuid, info.status == rtps::MATCHED_MATCHING);

@@ -10,8 +10,11 @@
 #include <fastdds/rtps/reader/RTPSReader.h>
 #include <fastdds/rtps/reader/ReaderListener.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace articula::ros2::dds {
 
@@ -30,16 +33,23 @@ class Reader final : public eprosima::fastrtps::rtps::ReaderListener {
   [[nodiscard]] const Matched& writers() const { return writers_; }
   [[nodiscard]] const eprosima::fastrtps::rtps::GUID_t& guid() const { return reader_->getGuid(); }
 
+  /// That a writer is not heard which has come since the last call.
+  [[nodiscard]] std::optional<std::string> warning();
+
   // Called by threads of Fast DDS.
   void onReaderMatched(eprosima::fastrtps::rtps::RTPSReader* reader,
                        eprosima::fastrtps::rtps::MatchingInfo& info) override;
   void onNewCacheChangeAdded(eprosima::fastrtps::rtps::RTPSReader* reader,
                              const eprosima::fastrtps::rtps::CacheChange_t* change) override;
+  void on_requested_incompatible_qos(eprosima::fastrtps::rtps::RTPSReader* reader,
+                                     eprosima::fastdds::dds::PolicyMask policies) override;
   using ReaderListener::onReaderMatched;
 
  private:
   std::shared_ptr<PacketGuard> guard_;
   Inbox* inbox_;
+  std::string topic_;
+  std::atomic<bool> is_unreliable_ = false, is_volatile_ = false;  ///< some writer that has come
   Inbox::Queue queue_;
   Matched writers_{};
   WaitingMessages history_;

@@ -6,12 +6,14 @@
 #include <fastdds/rtps/network/SenderResource.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/TransportReceiverInterface.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <fastdds/rtps/common/LocatorList.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
+#include <ctime>
 #include <mutex>
 #include <set>
 #include <span>
@@ -25,12 +27,27 @@ namespace {
 namespace transports = eprosima::fastdds::rtps;
 namespace rtps = eprosima::fastrtps::rtps;
 
+/// The time, in which this host may have slept: peers have not.
+PacketGuard::Time now() {
+  timespec time{};
+  clock_gettime(CLOCK_BOOTTIME, &time);
+  return PacketGuard::Time(std::chrono::seconds(time.tv_sec) +
+                           std::chrono::nanoseconds(time.tv_nsec));
+}
+
 class CheckedTransport final : public transports::ChainingTransport {
  public:
   explicit CheckedTransport(const CheckedTransportDescriptor& descriptor)
       : ChainingTransport(descriptor), descriptor_(descriptor) {}
 
   transports::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+  bool OpenInputChannel(const rtps::Locator_t& local,
+                        transports::TransportReceiverInterface* receiver,
+                        std::uint32_t longest) override {
+    if (!ChainingTransport::OpenInputChannel(local, receiver, longest)) return false;
+    if (!rtps::IPLocator::isMulticast(local)) descriptor_.guard().add_socket(local.port);
+    return true;
+  }
   bool OpenOutputChannel(transports::SendResourceList& resources,
                          const rtps::Locator_t& receiver) override {
     // Fast DDS 2.9.1 keeps each address for ever, and goes through all of them at each packet.
@@ -73,7 +90,7 @@ class CheckedTransport final : public transports::ChainingTransport {
     const auto packet = std::as_writable_bytes(std::span(own)).first(whole.size());
     // Fast DDS 2.9.1 keeps participants for ever that come and go in two threads at a time.
     const std::lock_guard lock(receiving_);
-    if (!descriptor_.guard().receive(packet, std::chrono::steady_clock::now())) return;
+    if (!descriptor_.guard().receive(packet, now())) return;
     // An announcement comes at least by this program's own ones, if nobody else is there. Whoever
     // has left makes room first. Fast DDS looks for participants at even ports ([RTPS], 9.6.1.1):
     // a farewell elsewhere would be lost.

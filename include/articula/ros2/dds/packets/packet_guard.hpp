@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
@@ -25,6 +26,10 @@ class PacketGuard {
   using Time = ParticipantGate::Time;
   using Guid = std::array<std::byte, 16>;
 
+  /// Notes a socket of one participant. Those for discovery have even ports ([RTPS], 9.6.1.1).
+  void add_socket(std::uint32_t port) noexcept { (port % 2 == 0 ? discovers_ : listens_) = true; }
+  /// Whether there are sockets for discovery and for messages.
+  [[nodiscard]] bool has_sockets() const noexcept { return discovers_ && listens_; }
   /// Whether to hand on a packet that has come.
   /// @param[in,out] packet  from the network
   [[nodiscard]] bool receive(std::span<std::byte> packet, Time now) {
@@ -161,6 +166,7 @@ class PacketGuard {
     return true;
   }
 
+  std::atomic<bool> discovers_ = false, listens_ = false;
   std::mutex mutex_{};
   ParticipantGate gate_{};
   // Fast DDS 2.9.1 takes some 1.2 us for each step: a third of a core.
