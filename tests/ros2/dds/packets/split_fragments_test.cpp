@@ -67,8 +67,8 @@ Bytes packet_of(const Run& run) {
 }  // namespace
 
 TEST_CASE("fragments of one part get parts of their own, and other parts stay") {
-  for (const bool little : {true, false}) {
-    const Run run{.little = little};
+  for (const Run& run : std::vector<Run>{{}, {.little = false}, {.size = 101}}) {
+    const bool little = run.little;
     const Bytes packet = packet_of(run);
     CHECK_FALSE(dds::is_well_formed(packet));
     const auto split = dds::split_fragments(packet);
@@ -96,7 +96,6 @@ TEST_CASE("packets whose fragments are alone, or not as they say, stay as they a
                                          {.count = 0},
                                          {.count = 5},  // the message has six
                                          {.lacks = 40},
-                                         {.size = 102},
                                          {.size = 4, .total = 40},
                                          {.writer = 0xc2}}) {
     CAPTURE(run.first, run.count, run.size, run.lacks);

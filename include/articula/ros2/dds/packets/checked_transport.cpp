@@ -91,8 +91,8 @@ class CheckedTransport final : public transports::ChainingTransport {
     // Fast DDS 2.9.1 keeps participants for ever that come and go in two threads at a time.
     const std::lock_guard lock(receiving_);
     if (!descriptor_.guard().receive(packet, now())) return;
-    // An announcement comes at least by this program's own ones, if nobody else is there. Whoever
-    // has left makes room first. Fast DDS looks for participants at even ports ([RTPS], 9.6.1.1):
+    // An announcement comes by this program's own ones, too. Whoever has left makes room first. Fast
+    // DDS looks for participants at even ports ([RTPS], 9.6.1.1):
     // a farewell elsewhere would be lost.
     if (local.port % 2 == 0 && PacketGuard::has_announcement(packet)) {
       for (const std::vector<std::byte>& farewell : descriptor_.guard().farewells()) {

@@ -85,8 +85,9 @@ class ParticipantGate {
   [[nodiscard]] bool admits(std::span<std::byte> packet, Time now) {
     Prefix source = prefix_at(packet, 8);
     // While this program stood still it could hear nobody: no lease ends by that. After its own
-    // lease nobody knows it any more, and it must know nobody: Cyclone DDS returns only then.
-    was_forgotten_ = was_forgotten_ || (now_ != Time{} && now - now_ > own_lease);
+    // lease nobody knows it any more, and it must know nobody: Cyclone DDS returns only then. Peers
+    // count from its last packet that they got, which is older than the last one that came.
+    was_forgotten_ = was_forgotten_ || (now_ != Time{} && now - now_ > own_lease - longest_pause);
     heard_ += std::clamp(now - now_, Time::duration{}, Time::duration(longest_pause));
     now_ = now;
     note_sign(source, now);
@@ -120,7 +121,9 @@ class ParticipantGate {
     checked_ = heard_;
     const bool ends_all = std::exchange(was_forgotten_, false);
     for (auto& [prefix, known] : known_) {
-      if (!known.lives || (!ends_all && heard_ - known.heard <= known.lease)) continue;
+      // A peer may have been silent for most of its lease when this program stood still.
+      const bool is_late = heard_ - known.heard > known.lease + longest_pause;
+      if (!known.lives || (!ends_all && !is_late)) continue;
       known.lives = false;
       known.endpoints.end();
       all.push_back(detail::farewell(prefix, known.number + 1));

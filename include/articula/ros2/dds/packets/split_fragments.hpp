@@ -35,7 +35,7 @@ struct FragmentRun {
   run.size = number_at(part, 26, 2, little);
   run.begin = part.size() - body->payload.size();
   const std::uint64_t total = number_at(part, 28, 4, little);
-  if (run.first == 0 || run.count < 2 || run.size < least || run.size % 4 != 0) return std::nullopt;
+  if (run.first == 0 || run.count < 2 || run.size < least) return std::nullopt;
   const std::uint64_t before = (std::uint64_t{run.first} - 1) * run.size;
   const std::uint64_t all_but_last = (std::uint64_t{run.count} - 1) * run.size;
   if (before + all_but_last >= total || run.count * run.begin > most_heads) return std::nullopt;
