@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
+#include <iostream>
 #include <map>
 #include <span>
 #include <string_view>
@@ -349,6 +350,15 @@ Json Connection::operate(const std::string& service, const Json& request, double
   Json answer = client_->call(service, request, patience);
   client_->call("/release_controls", Json::object(), default_patience);
   return answer;
+}
+
+void Connection::note_pause() {
+  if (!call("/situation").value("paused", false)) return;
+  std::cerr << "note: the simulation is paused; 'articula resume' in another terminal goes on\n";
+}
+void Connection::refuse_pause() {
+  if (!call("/situation").value("paused", false)) return;
+  throw Refusal("the simulation is paused: 'articula resume' first");
 }
 
 void Connection::subscribe(const std::string& topic) { client_->subscribe(topic); }

@@ -41,6 +41,14 @@ class Connection {
   Json operate(const std::string& service, const Json& request = Json::object(),
                double patience = default_patience);
 
+  /// Prints a note on standard error if the simulation is paused. For a command that waits for its
+  /// cycles.
+  void note_pause();
+  /// For a command that would wait for the end of a motion with the controls, so that nobody could
+  /// resume the simulation.
+  /// @throws Refusal if the simulation is paused
+  void refuse_pause();
+
   /// Receives the messages of a topic from now on.
   void subscribe(const std::string& topic);
   /// The oldest message that was not taken yet; nothing if none comes within the time, or the user

@@ -209,6 +209,28 @@ TEST_CASE("anybody may stop a motion, and a paused loop shows its state") {
   CHECK(paused.at("situation").at("paused") == true);
   CHECK(paused.at("joints").size() == 2);
   CHECK(paused.at("joints").at(0).at("position").is_number());
+
+  // Commands that would wait with the controls are refused; others say that they wait.
+  const ScratchFile trajectory("trajectory.yaml");
+  write(trajectory.path(),
+        "joint_names: [shoulder_active_joint, elbow_active_joint]\n"
+        "points:\n- {positions: [0.1, 0.1], time_from_start: {sec: 1}}\n");
+  for (const auto& words :
+       std::vector<std::vector<std::string>>{{"go", "elbow_active_joint=0.1", "--wait"},
+                                             {"signal", "elbow_active_joint=0.1", "--sine", "1"},
+                                             {"play", trajectory.path()}}) {
+    std::vector<std::string> command{"--port", running.port()};
+    command.insert(command.end(), words.begin(), words.end());
+    const Result waiting = run_articula(command);
+    CHECK(waiting.exit_code == 1);
+    CHECK(waiting.errors == "articula: the simulation is paused: 'articula resume' first\n");
+  }
+  support::Process watching(
+      {ARTICULA_PROGRAM, "--port", running.port(), "watch", "--seconds", "0.1"});
+  CHECK(watching.error_line() ==
+        "note: the simulation is paused; 'articula resume' in another terminal goes on");
+  running.ask({"resume"});
+  CHECK(watching.end().exit_code == 0);
 }
 
 TEST_CASE("a motion that no controller follows is told of") {

@@ -63,12 +63,9 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
-  /// The next line of its output; empty at the end.
-  [[nodiscard]] std::string line() {
-    std::string text;
-    for (char c = 0; read(output_[0], &c, 1) == 1 && c != '\n';) text += c;
-    return text;
-  }
+  /// The next line of its output or of its errors; empty at the end.
+  [[nodiscard]] std::string line() { return line_of(output_[0]); }
+  [[nodiscard]] std::string error_line() { return line_of(errors_[0]); }
   void interrupt() const { kill(process_, SIGINT); }
 
   /// Waits for its end.
@@ -86,6 +83,11 @@ class Process {
   }
 
  private:
+  [[nodiscard]] static std::string line_of(int end) {
+    std::string text;
+    for (char c = 0; read(end, &c, 1) == 1 && c != '\n';) text += c;
+    return text;
+  }
   [[nodiscard]] static std::string all(int end) {
     std::string text;
     std::array<char, 4096> buffer{};

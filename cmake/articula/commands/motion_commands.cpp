@@ -78,6 +78,7 @@ void go(const Program& program, const std::vector<std::string>& arguments, doubl
   const Json request{{"positions", values_by_name(arguments, "joint")}, {"speed", speed}};
   Connection connection(program);
   if (!waits) return print_answer(program, connection.operate("/go", request));
+  connection.refuse_pause();
   const Json answer = connection.call("/go", request);
   wait_while(connection, "go");
   connection.call("/release_controls");
@@ -159,6 +160,7 @@ void play_signal(const Program& program, const SignalPlan& plan) {
     signals.push_back(signal);
   }
   Connection connection(program);
+  connection.refuse_pause();
   constexpr double one_day = 86400;  // the simulated time may be slow, or paused
   print_answer(program, connection.operate("/play_signals",
                                            {{"signals", signals}, {"duration", plan.seconds}},
@@ -230,6 +232,7 @@ void add_motion_commands(CLI::App& app, Program& program) {
       [&program, file] {
         const Json trajectory = read_trajectory_file(*file);
         Connection connection(program);
+        connection.refuse_pause();
         constexpr double one_day = 86400;  // the simulated time may be slow, or paused
         print_answer(program, connection.operate("/play_trajectory", trajectory,
                                                  duration_of(trajectory) + one_day));

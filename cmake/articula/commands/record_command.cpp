@@ -217,6 +217,7 @@ void record(const Program& program, const Options& options) {
     throw Refusal(file + ": the file exists; --force overwrites it");
   }
   Connection connection(program);
+  connection.note_pause();
   const auto [cycles, lost] =
       as_ros ? record_ros(connection, file, seconds) : record_cycles(connection, file, seconds);
   program.print({{"file", file}, {"cycles", cycles}, {"lost", lost}},

@@ -119,6 +119,7 @@ void print_status(const Program& program) {
 /// Prints states until Ctrl-C, or for a time.
 void watch(const Program& program, double rate, double seconds) {
   Connection connection(program);
+  connection.note_pause();
   JointStates joint_states(connection);
   end_on_signal();
   const bool is_screen = !program.json && isatty(fileno(stdout)) != 0;

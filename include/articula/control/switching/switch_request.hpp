@@ -2,10 +2,9 @@
 /// @file A request to start and stop controllers, and its answer.
 #pragma once
 
+#include "articula/core/inline_sequence.hpp"
 #include "articula/core/name.hpp"
 
-#include <array>
-#include <cstddef>
 #include <initializer_list>
 #include <span>
 #include <stdexcept>
@@ -20,9 +19,9 @@ enum class Strictness : unsigned char {
 };
 
 /// The names of up to 16 controllers, without heap memory: a control thread can copy them.
-class ControllerNames {
+class ControllerNames : private InlineSequence<Name, 16> {
  public:
-  static constexpr std::size_t capacity = 16;
+  using InlineSequence::begin, InlineSequence::capacity, InlineSequence::end;
 
   constexpr ControllerNames() = default;
   /// @throws std::length_error if there are more than `capacity`
@@ -32,15 +31,8 @@ class ControllerNames {
   constexpr explicit ControllerNames(std::span<const Name> names) {
     if (names.size() > capacity)
       throw std::length_error("a request names at most 16 controllers to start, or stop");
-    for (const Name& name : names) names_[size_++] = name;
+    for (const Name& name : names) push_back(name);
   }
-
-  [[nodiscard]] constexpr const Name* begin() const noexcept { return names_.data(); }
-  [[nodiscard]] constexpr const Name* end() const noexcept { return names_.data() + size_; }
-
- private:
-  std::array<Name, capacity> names_{};
-  std::size_t size_ = 0;
 };
 
 /// Starts and stops controllers of a Switch or Groups, all in the same cycle. For a robot that

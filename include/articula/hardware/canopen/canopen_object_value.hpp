@@ -2,11 +2,10 @@
 /// @file Configured values for objects of a CANopen node.
 #pragma once
 
+#include "articula/core/inline_sequence.hpp"
 #include "articula/core/refuse.hpp"
 #include "articula/hardware/can/object_address.hpp"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 
@@ -20,9 +19,9 @@ struct ObjectValue {
 };
 
 /// At most 24 values, in the order of writing.
-class ObjectValues {
+class ObjectValues : private InlineSequence<ObjectValue, 24> {
  public:
-  static constexpr std::size_t capacity = 24;
+  using InlineSequence::begin, InlineSequence::end, InlineSequence::size;
 
   constexpr ObjectValues() = default;
   /// @throws std::invalid_argument if there are more than 24, or a size is not 1 .. 4; a constant
@@ -38,17 +37,9 @@ class ObjectValues {
         articula::detail::refuse({"CANopen: object ", to_string(value.address), ": size ",
                                   int{value.size}, " is not within 1 .. 4 bytes"});
       }
-      values_[size_++] = value;
+      push_back(value);
     }
   }
-
-  [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] constexpr const ObjectValue* begin() const noexcept { return values_.data(); }
-  [[nodiscard]] constexpr const ObjectValue* end() const noexcept { return values_.data() + size_; }
-
- private:
-  std::array<ObjectValue, capacity> values_{};
-  std::size_t size_ = 0;
 };
 
 }  // namespace articula::canopen

@@ -2,10 +2,9 @@
 /// @file The mapping of a process data object: its objects and their positions in the frame.
 #pragma once
 
+#include "articula/core/inline_sequence.hpp"
 #include "articula/hardware/canopen/canopen.hpp"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 
 namespace articula::canopen {
@@ -27,20 +26,18 @@ struct MappedObject {
 };
 
 /// The objects of a process data object, in their order: at most eight, of whole bytes.
-class PdoMapping {
+class PdoMapping : private InlineSequence<MappedObject, 8> {
  public:
-  static constexpr std::size_t capacity = 8;
+  using InlineSequence::begin, InlineSequence::capacity, InlineSequence::clear,
+      InlineSequence::empty, InlineSequence::end, InlineSequence::size;
   static constexpr std::uint8_t absent = 0xff;
 
   /// Adds an object at the end. Real-time: yes.
   /// @return false if the frame is full or the bits are not whole bytes
   constexpr bool push_back(const MappedObject& object) noexcept {
     const bool fits = object.bits != 0 && object.bits % 8 == 0 && length() + object.bits / 8U <= 8;
-    if (size_ == capacity || !fits) return false;
-    objects_[size_++] = object;
-    return true;
+    return fits && InlineSequence::push_back(object);
   }
-  constexpr void clear() noexcept { size_ = 0; }
 
   /// Length of the frame [bytes]. Real-time: yes.
   [[nodiscard]] constexpr std::uint8_t length() const noexcept {
@@ -60,16 +57,6 @@ class PdoMapping {
   [[nodiscard]] constexpr bool contains(const MappedObject& wanted) const noexcept {
     return offset_of(wanted) != absent;
   }
-  [[nodiscard]] constexpr bool empty() const noexcept { return size_ == 0; }
-  [[nodiscard]] constexpr std::size_t size() const noexcept { return size_; }
-  [[nodiscard]] constexpr const MappedObject* begin() const noexcept { return objects_.data(); }
-  [[nodiscard]] constexpr const MappedObject* end() const noexcept {
-    return objects_.data() + size_;
-  }
-
- private:
-  std::array<MappedObject, capacity> objects_{};
-  std::size_t size_ = 0;
 };
 
 }  // namespace articula::canopen

@@ -2,13 +2,12 @@
 /// @file The set-up of one process data object of a CANopen node.
 #pragma once
 
+#include "articula/core/inline_sequence.hpp"
 #include "articula/hardware/canopen/canopen_pdo_mapping.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 namespace articula::canopen {
 
@@ -26,12 +25,11 @@ struct PdoTask {
   std::uint8_t node = 0;
   bool may_map = true;         ///< Else the mapping is only read.
   std::uint16_t deadline = 0;  ///< of an RPDO [ms]; 0: none
-  std::array<Entry, 5> entries{};
-  std::size_t entry_count = 0;
+  InlineSequence<Entry, 5> entries{};
 
   /// Adds an object; at most five. Real-time: yes.
   constexpr void add(const MappedObject& object, bool required) noexcept {
-    entries[entry_count++] = {object, required};
+    entries.push_back({object, required});
   }
 
   [[nodiscard]] constexpr bool is_receive() const noexcept {
@@ -207,15 +205,15 @@ class PdoSetUp {
     return !entry.required && (!maps_optional_ || mapping_.length() + entry.object.bits / 8U > 8);
   }
   constexpr void map_next() noexcept {
-    while (next_ < task_.entry_count && is_left_out(task_.entries[next_])) ++next_;
+    while (next_ < task_.entries.size() && is_left_out(task_.entries[next_])) ++next_;
     const auto mapped = static_cast<std::uint32_t>(mapping_.size());
-    if (next_ == task_.entry_count) return write(Stage::count, task_.mapping(0), mapped, 1);
+    if (next_ == task_.entries.size()) return write(Stage::count, task_.mapping(0), mapped, 1);
     write(Stage::map, task_.mapping(mapped + 1), task_.entries[next_].object.entry(), 4);
   }
   constexpr void read_next() noexcept {
     if (next_ < count_) return read(Stage::read_entry, task_.mapping(next_ + 1));
     const auto has = [&](const PdoTask::Entry& entry) { return mapping_.contains(entry.object); };
-    const auto entries = std::span(task_.entries).first(task_.entry_count);
+    const auto& entries = task_.entries;
     const bool of_use =
         task_.is_receive() ? std::ranges::all_of(entries, has) : std::ranges::any_of(entries, has);
     if (!of_use) return end(false);

@@ -2,13 +2,11 @@
 /// @file The object dictionary of a simulated CANopen node.
 #pragma once
 
+#include "articula/core/inline_sequence.hpp"
 #include "articula/hardware/canopen/canopen.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 
 namespace articula {
@@ -26,15 +24,12 @@ struct SimulatedObject {
 class SimulatedObjectDictionary {
  public:
   /// Adds an object with a new address.
-  void add(const SimulatedObject& object) noexcept {
-    if (size_ < objects_.size()) objects_[size_++] = object;
-  }
-  void clear() noexcept { size_ = 0; }
+  void add(const SimulatedObject& object) noexcept { objects_.push_back(object); }
+  void clear() noexcept { objects_.clear(); }
 
   [[nodiscard]] const SimulatedObject* find(const canopen::ObjectAddress& address) const noexcept {
-    const auto used = std::span(objects_).first(size_);
-    const auto found = std::ranges::find(used, address, &SimulatedObject::address);
-    return found == used.end() ? nullptr : &*found;
+    const auto* const found = std::ranges::find(objects_, address, &SimulatedObject::address);
+    return found == objects_.end() ? nullptr : found;
   }
   [[nodiscard]] SimulatedObject* find(const canopen::ObjectAddress& address) noexcept {
     return const_cast<SimulatedObject*>(std::as_const(*this).find(address));
@@ -50,8 +45,7 @@ class SimulatedObjectDictionary {
   }
 
  private:
-  std::array<SimulatedObject, 128> objects_{};
-  std::size_t size_ = 0;
+  InlineSequence<SimulatedObject, 128> objects_{};
 };
 
 }  // namespace articula

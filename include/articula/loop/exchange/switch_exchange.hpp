@@ -4,6 +4,7 @@
 
 #include "articula/control/switching/switch_board.hpp"
 #include "articula/control/switching/switch_request.hpp"
+#include "articula/core/inline_sequence.hpp"
 #include "articula/loop/exchange/event_ring.hpp"
 #include "articula/loop/exchange/latest_value.hpp"
 
@@ -133,11 +134,11 @@ class SwitchExchange {
     statuses_ = now;
     // The outcomes of the last call's requests, now that the list shows what that cycle made of
     // them.
-    for (std::size_t k = 0; k < decided_count_; ++k) outcomes_.push(decided_[k]);
-    decided_count_ = 0;
+    for (const NumberedOutcome& outcome : decided_) outcomes_.push(outcome);
+    decided_.clear();
     NumberedRequest next;
-    while (decided_count_ < capacity && requests_.pop(next)) {
-      decided_[decided_count_++] = {next.number, controllers.request(next.request)};
+    while (decided_.size() < capacity && requests_.pop(next)) {
+      decided_.push_back({next.number, controllers.request(next.request)});
     }
     return changed;
   }
@@ -153,8 +154,7 @@ class SwitchExchange {
   std::array<ControllerInfo, Count> infos_;
   // The control thread's:
   alignas(64) std::array<ControllerInfo, Count> statuses_;
-  std::array<NumberedOutcome, capacity> decided_{};  ///< and not handed over yet
-  std::size_t decided_count_ = 0;
+  InlineSequence<NumberedOutcome, capacity> decided_{};  ///< and not handed over yet
   // Between them:
   EventRing<NumberedRequest, capacity> requests_{};
   EventRing<NumberedOutcome, capacity> outcomes_{};

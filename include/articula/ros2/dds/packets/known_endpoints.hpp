@@ -201,7 +201,8 @@ class KnownEndpoints {
       constexpr std::array<std::uint32_t, 6> ids{0x2f, 0x30, 0x31, 0x32, 0x33, 0x48};
       if (worth != detail::Worth::whole) return true;
       if (std::find(ids.begin(), ids.end(), id) == ids.end()) return true;
-      std::vector<std::byte> address(value.begin(), value.end());
+      std::string address;
+      for (const std::byte byte : value) address += static_cast<char>(byte);
       if (addresses_.contains(address)) return true;
       if (addresses_.size() >= most_addresses) return false;
       addresses_.insert(std::move(address));
@@ -211,7 +212,7 @@ class KnownEndpoints {
 
   std::map<Name, Said> said_{};
   std::map<Topic, int> living_{};  ///< readers and writers
-  std::set<std::vector<std::byte>> addresses_{};
+  std::set<std::string> addresses_{};
   std::size_t memory_ = 0;
   std::map<std::uint32_t, WriterNumbers> builtin_{};
 };
