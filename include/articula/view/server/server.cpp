@@ -121,7 +121,7 @@ class View::Server {
                               "view: cannot listen on " + address_.to_string() + ", port " +
                                   std::to_string(port) +
                                   "; end the program that uses it, or choose another port, by "
-                                  "--port or ViewOptions::port (0: any)");
+                                  "ViewOptions::port or articula's --port (0: any)");
     }
   }
 

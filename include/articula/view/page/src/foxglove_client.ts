@@ -165,7 +165,7 @@ export class FoxgloveClient extends Emitter<Events> {
     this.topics.clear();
     this.services.clear();
     this.published.clear();
-    this.emit('close', `The connection is closed${reason ? `: ${reason}` : ''} (code ${code}).`);
+    this.emit('close', `The connection is closed${reason ? `: ${reason}` : ''} (code ${code}). It is tried again.`);
     setTimeout(() => this.connect(), this.delay);
     this.delay = Math.min(2 * this.delay, lastDelay);
   }

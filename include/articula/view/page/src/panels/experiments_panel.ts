@@ -143,6 +143,15 @@ export class ExperimentsPanel {
     }
   }
 
+  /** What the fields hold that tells one run from another. */
+  private shape(): string {
+    const unit = this.amplitude.box.querySelector('.unit')?.textContent ?? '';
+    const amplitude = `${this.amplitude.input.value} ${unit}`;
+    if (this.kind === 'step') return amplitude;
+    if (this.kind !== 'chirp') return `${amplitude}, ${this.frequency.input.value} Hz`;
+    return `${amplitude}, ${this.frequency.input.value} to ${this.last.input.value} Hz`;
+  }
+
   private async start(): Promise<void> {
     const {samples, sheet} = this.session;
     if (!samples || !sheet) return;
@@ -151,6 +160,7 @@ export class ExperimentsPanel {
     const kind = this.kind;
     const target = this.target.value;
     const signal = this.signal();
+    const title = `${kind} on ${name}: ${this.shape()}`;
     const duration = this.duration.input.valueAsNumber;
     const answer = await this.session.ask('/play_signals', {
       signals: [{joint: name, kind, target, ...signal}],
@@ -163,7 +173,7 @@ export class ExperimentsPanel {
     if (samples !== this.session.samples) return;
     const [from, to] = [answer.cycle, end].map((cycle) => samples.time(samples.rowOf(cycle)));
     const result = responseTo(samples, joint, from, to, kind, signal.frequency ?? 0);
-    this.results.prepend(this.describe(result, `${kind} on ${name}`, target, sheet.joints[joint]));
+    this.results.prepend(this.describe(result, title, target, sheet.joints[joint]));
     while (this.results.children.length > 8) this.results.lastChild?.remove();
   }
 

@@ -56,7 +56,8 @@ export function addTopBar(bar: HTMLElement, banner: HTMLElement, session: Sessio
     const s = session.situation;
     const may = session.mayOperate;
     document.body.classList.toggle('disconnected', !session.connected);
-    mode.textContent = session.connected ? (s?.mode ?? '') : 'no connection';
+    const time = s?.paused ? ', paused' : '';
+    mode.textContent = session.connected ? (s?.mode ?? '') + time : 'no connection';
     mode.dataset.mode = session.connected ? (s?.mode ?? '') : 'offline';
     if (!s) return;
     motion.textContent = s.motion === 'rest' || !session.connected ? '' : s.motion;

@@ -45,6 +45,7 @@ export class LatencyHistogram {
     this.figures.replaceChildren(
       ...(s
         ? [
+            ['since the start', ''],
             ['median', formatTime(s.latency_median)],
             ['99 %', formatTime(s.latency_99)],
             ['longest', formatTime(s.latency_max)],

@@ -29,7 +29,7 @@ export function stepLines(
     const kind = step.duration === 0 ? 'step' : 'motion';
     const rise = step.duration === 0 ? `rise ${formatTime(step.rise)}` : `takes ${formatTime(step.duration)}`;
     const text =
-      ` ${kind} ${step.from.toFixed(3)} → ${step.to.toFixed(3)} ${unit}: ` +
+      ` ${kind} ${format(step.from)} → ${format(step.to)} ${unit}: ` +
       `${rise}, overshoot ${format(100 * step.overshoot, 3)} %, ` +
       `settles in ${formatTime(step.settling)}, error ${format(step.error, 5)} ${unit}`;
     return [element('span', {}, name, text.replaceAll('-', '−'))];
