@@ -95,6 +95,10 @@ TEST_CASE("a gripper's action controller over effort") {
   CHECK(gains.gains[1].proportional == 1);
   check_noted(gains.notes, {"action_monitor_rate", "goal_tolerance", "max_effort",
                             "stall_velocity_threshold", "stall_timeout", "allow_stalling"});
+  const ControllerConfig config = load_controller(yaml(text));
+  CHECK(config.gripper.allow_stalling);
+  CHECK(config.gripper.stall_timeout == 1);
+  CHECK(config.gain_prefix == "gains.");
   CHECK_THROWS_WITH(
       load_controller(yaml(text + "  max_effor: 1\n")),
       Contains("test:12:3: gripper_controller.max_effor: unknown key 'max_effor', "

@@ -99,6 +99,24 @@ TEST_CASE("the reference goes along with a joint that follows a velocity or an e
   }
 }
 
+TEST_CASE("whoever asks for a position hears of joints that no controller moves there") {
+  GuidedArm arm({}, Q2dSim(), controllers());
+  REQUIRE(done(arm.ask(Activate{})));
+  CHECK(arm.remote.situation().following == std::vector<bool>{true, true});
+  const SetReference setting{.positions = {{shoulder, 0.01}}};
+  CHECK(arm.ask(setting).text.empty());
+  REQUIRE(done(arm.ask(SwitchControllers{{"floating"}, {"pid_plus_gravity"}})));
+  CHECK(arm.remote.situation().following == std::vector<bool>{false, false});
+  const std::string end = "no active controller moves to it: '" + std::string(shoulder) + "'";
+  CHECK(arm.ask(setting).text == "the reference moves, but " + end);
+  CHECK(arm.ask(SetReference{.positions = {{shoulder, 0.01}}, .efforts = {{shoulder, 1}}})
+            .text.empty());
+  const NamedTrajectory trajectory{{shoulder}, {{.time_from_start = 1, .positions = {0.1}}}};
+  const auto asked = arm.session->ask(PlayTrajectory{trajectory});
+  arm.cycles(1500);
+  CHECK(arm.answer_to(asked).value().text == "goal reached, but " + end);
+}
+
 TEST_CASE("of settings that wait, each starts from the one before") {
   GuidedArm arm({}, Q2dSim(), controllers());
   REQUIRE(done(arm.ask(Activate{})));

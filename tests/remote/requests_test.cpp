@@ -205,9 +205,22 @@ TEST_CASE(
   REQUIRE((first && second));
   CHECK(first->request == number);
   CHECK(first->verdict == support::Verdict::failed);
-  CHECK(first->text == "another request, a stop, a reset or a lost operator has ended it");
+  CHECK(first->text == "a stop or the loss of its operator has ended it");
   CHECK(second->verdict == support::Verdict::done);
+  arm.cycles(500);
+  const auto why_ended = [&](const Request& request) {
+    const auto of =
+        arm.session->ask(PlayTrajectory{{{elbow}, {{.time_from_start = 1, .positions = {0.5}}}}});
+    arm.cycles(100);
+    arm.session->ask(request);
+    arm.cycles(2000);
+    return arm.answer_to(of).value().text;
+  };
+  CHECK(why_ended(Go{{{elbow, 0}}}) == "another request has ended it");
+  CHECK(why_ended(Reset{{{elbow, 0.1}}}) == "a reset of the simulation has ended it");
 
+  CHECK(refused(arm.ask(PlayTrajectory{{{elbow}, {{.positions = {0.5}}}}}),
+                "give the motion a time"));
   CHECK(refused(arm.ask(PlayTrajectory{{{"knee"}, {{.time_from_start = 1, .positions = {0.5}}}}}),
                 "'knee'"));
   CHECK(refused(arm.ask(PlayTrajectory{{{elbow}, {{.time_from_start = 1, .positions = {3}}}}}),
@@ -248,7 +261,7 @@ TEST_CASE("signals are played around the reference, which then returns") {
   CHECK(arm.loop.reference().position.isApprox(JointVector<2>(0.4, 0), 1e-12));
 
   CHECK(refused(arm.ask(PlaySignals{{{shoulder, SineSignal{0.5, 5}}}, 1}),
-                "is above the limit 2.27"));
+                "is not within -2.27 .. 2.27"));
   CHECK(refused(arm.ask(PlaySignals{{{shoulder, SineSignal{0.5, 0.1}}}, 0}), "duration 0 s"));
   CHECK(refused(arm.ask(PlaySignals{{{shoulder, SineSignal{.frequency = 1, .offset = 1}}}, 1}),
                 "would jump by 1 at the start"));

@@ -172,6 +172,11 @@ void run(const Program& program, const Run& options) {
                   ": its controllers command efforts, which do not move a mock; leave --mock out "
                   "for a simulation");
   }
+  if (options.ros2.is_wanted) {
+    std::erase_if(controllers.notes, [](const std::string& note) {
+      return note.find(articula::gripper_note) != std::string::npos;
+    });
+  }
   print_notes(controllers, groups, robot, options.robot);
 
   const std::string text = source.text();

@@ -130,7 +130,7 @@ void add(Reading& reading, const articula::detail::ConfigSections& all,
   if (!config.chain_tip.empty()) plan.tip = config.chain_tip;
   if (config.priority && plan.priority == 0) plan.priority = *config.priority;
   plan.controllers.push_back({name.empty() ? std::string(traits_of(*kind).name) : name, section,
-                              config.type, *kind, config.joints, has_tolerances(all, section)});
+                              *kind, config, has_tolerances(all, section)});
 }
 
 bool is_broadcaster(const articula::ListedController& controller) {

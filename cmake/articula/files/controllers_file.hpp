@@ -43,10 +43,9 @@ struct KindTraits {
 struct PlannedController {
   std::string name{};     ///< by which it is switched
   std::string section{};  ///< by which load_pid_gains finds its parameters; empty: it has none
-  std::string type{};     ///< the plugin's
   ControllerKind kind{};
-  std::vector<articula::ConfiguredJoint> joints{};  ///< that it acts on; empty: all
-  bool has_tolerances = false;  ///< of trajectories, for load_trajectory_tolerances
+  articula::ControllerConfig config{};  ///< without joints it acts on all
+  bool has_tolerances = false;          ///< of trajectories, for load_trajectory_tolerances
 };
 
 /// What a file says about a loop.

@@ -29,7 +29,7 @@ std::vector<PlannedGroup> joint_groups(const articula::UrdfDescription& robot,
   for (std::size_t at = 0; at < plan.controllers.size(); ++at) {
     const PlannedController& controller = plan.controllers[at];
     PlannedGroup own;
-    for (const articula::ConfiguredJoint& joint : controller.joints) {
+    for (const articula::ConfiguredJoint& joint : controller.config.joints) {
       if (!contains(names, joint.name)) {
         throw articula::FileError(joint.place,
                                   "robot '" + std::string(robot->name.view()) + "' has no joint '" +

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <regex>
 #include <string>
 
 namespace terminal {
@@ -30,11 +31,11 @@ void check(const Ros2Options& options) {
       "libfastrtps-dev)");
 #else
   const std::string& space = options.name_space;
-  const bool fits = std::ranges::all_of(
-      space, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '/'; });
-  if (!space.empty() && (space.front() != '/' || space.back() == '/' || !fits)) {
+  static const std::regex names("(/[A-Za-z_][A-Za-z0-9_]*)*");
+  if (!std::regex_match(space, names)) {
     throw Refusal("--namespace " + space +
-                  ": it begins with /, does not end with it, and has letters, digits, _ and /");
+                  ": expected names of letters, digits and _, without a digit first, each after a "
+                  "/, as /left");
   }
 #endif
 }
@@ -67,6 +68,32 @@ std::string quantity_of(ControllerKind kind) {
   using enum ControllerKind;
   if (kind == bypass) return "effort";
   return kind == velocity_by_effort || kind == forward_velocity ? "velocity" : "position";
+}
+
+/// What the file says of a controller.
+ros2::ControllerOptions options_of(const PlannedController& controller) {
+  const articula::ControllerConfig& config = controller.config;
+  ros2::ControllerOptions options{.command_quantity = quantity_of(controller.kind),
+                                  .gain_prefix = config.gain_prefix};
+  if (config.type.find('/') != std::string::npos) options.type = config.type;
+  ros2::TrajectoryConstraints constraints;
+  if (controller.has_tolerances) {
+    constraints.goal_time = config.goal_time;
+    constraints.stopped_velocity_tolerance = config.stopped_velocity_tolerance;
+  }
+  for (const articula::ConfiguredJoint& joint : config.joints) {
+    options.joints.push_back(joint.name);
+    constraints.joints.push_back({joint.path_tolerance, joint.goal_tolerance});
+  }
+  if (!config.joints.empty()) options.constraints = constraints;
+  if (ros2::is_gripper(options.type)) {
+    const articula::ConfiguredGripper& gripper = config.gripper;
+    options.gripper = {.goal_tolerance = gripper.goal_tolerance,
+                       .allow_stalling = gripper.allow_stalling,
+                       .stall_velocity_threshold = gripper.stall_velocity_threshold,
+                       .stall_timeout = gripper.stall_timeout};
+  }
+  return options;
 }
 
 #endif
@@ -110,14 +137,7 @@ Attach ros2_bridge(const Ros2Options& options, const ControllersPlan& plan) {
                              .operates = options.operates,
                              .use_sim_time = options.use_sim_time};
   for (const PlannedController& controller : plan.controllers) {
-    const std::string& name = controller.name;
-    if (controller.type.find('/') != std::string::npos) {
-      bridge.controller_types[name] = controller.type;
-    }
-    bridge.command_quantities[name] = quantity_of(controller.kind);
-    for (const articula::ConfiguredJoint& joint : controller.joints) {
-      bridge.controller_joints[name].push_back(joint.name);
-    }
+    bridge.controllers[controller.name] = options_of(controller);
   }
   return [bridge, options](articula::remote::Port& port) -> std::shared_ptr<void> {
     tell(options);

@@ -50,14 +50,14 @@ namespace detail {
 
 inline void take_unused_manager_parameters(ConfigMap& map) {
   using enum UnusedParameters::Kind;
-  constexpr std::string_view topics = "nothing is published or received here";
+  constexpr std::string_view topics = "the program decides what it publishes and receives";
   constexpr std::string_view always = "the loop always keeps limits and handles faults";
   constexpr std::string_view types = "the types in the program decide what there is";
   take_unused(
       map, {{truth, "the loop's clock is a type in the program", {"use_sim_time"}},
             {word, topics, {"robot_description"}},
             {any_map, topics, {"qos_overrides"}},
-            {truth, "there are no services", {"start_type_description_service"}},
+            {truth, topics, {"start_type_description_service"}},
             {truth,
              always,
              {"enforce_command_limits", "handle_exceptions", "shutdown_on_initial_state_failure"}},

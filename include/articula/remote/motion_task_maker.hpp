@@ -76,6 +76,11 @@ class MotionTaskMaker {
   [[nodiscard]] Wish make(const PlayTrajectory& play, const Reference& present) const {
     task::Follow<R> wish{.trajectory = nullptr, .delay = play.delay};
     check_.check_efforts(play.trajectory);
+    const auto& points = play.trajectory.points;
+    if (!points.empty() && points.back().time_from_start == 0) {
+      articula::detail::refuse(
+          {"trajectory: time_from_start of the last point is 0 s: give the motion a time"});
+    }
     Excess excess = excess_at_points(play.trajectory);
     if (!(excess.factor <= most_excess)) excess = {};  // refused by `arrange`
     wish.trajectory = arranged(slower(play.trajectory, excess.factor), present);

@@ -48,7 +48,7 @@ class Outside {
         side_(loop, rings_, checked_limits(loop.hardware().robot(), options), options.tolerances,
               options.when_operator_is_lost),
         robot_(loop.hardware().robot()),
-        sheet_(robot_sheet_of(loop, options.urdf)),
+        sheet_(robot_sheet_of(loop, options.urdf, options.tolerances)),
         parameters_(robot_, loop.controller()),
         forecast_(loop),
         maker_(robot_, options.largest_force),

@@ -38,6 +38,8 @@ struct Situation {
   /// have several, that which was begun last.
   std::string motion{};
   std::vector<std::string> joint_motions{};  ///< of each joint, in the order of RobotSheet::joints
+  /// Whether an active controller moves each joint to the position of the reference.
+  std::vector<bool> following{};
   std::string operator_name{};  ///< of the session that has the controls; empty: nobody
   std::vector<ControllerInfo> controllers{};
   bool paused = false;          ///< of a simulation

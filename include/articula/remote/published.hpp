@@ -39,9 +39,11 @@ class Published {
   /// @param position            of the reference while none is known [rad or m], N x 1
   Published(Rings& rings, LoopSide<LoopType>& side, const R& robot,
             const JointVector<joint_count>& position)
-      : rings_(rings), side_(side), robot_(robot), reference_{.position = position} {
-    condition_.mode = is_supervised<LoopType> ? LoopMode::inactive : LoopMode::active;
-  }
+      : rings_(rings),
+        side_(side),
+        robot_(robot),
+        reference_{.position = position},
+        condition_(side.condition()) {}
 
   /// Takes over what is new, and sends events to the clients.
   void collect(Clients& clients) {
@@ -87,16 +89,18 @@ class Published {
   [[nodiscard]] Situation situation(std::string operator_name) const {
     std::vector<std::string> motions;
     for (const MotionKind motion : condition_.motions) motions.emplace_back(to_string(motion));
-    return {.mode = condition_.mode,
-            .fault = fault(),
-            .advice = advice(fault()),
-            .motion = std::string(to_string(condition_.motion)),
-            .joint_motions = std::move(motions),
-            .operator_name = std::move(operator_name),
-            .controllers = controllers(),
-            .paused = condition_.paused,
-            .speed = condition_.speed,
-            .trajectory_speed = condition_.trajectory_speed};
+    return {
+        .mode = condition_.mode,
+        .fault = fault(),
+        .advice = advice(fault()),
+        .motion = std::string(to_string(condition_.motion)),
+        .joint_motions = std::move(motions),
+        .following = std::vector<bool>(condition_.following.begin(), condition_.following.end()),
+        .operator_name = std::move(operator_name),
+        .controllers = controllers(),
+        .paused = condition_.paused,
+        .speed = condition_.speed,
+        .trajectory_speed = condition_.trajectory_speed};
   }
 
   [[nodiscard]] Statistics statistics() const {
@@ -208,7 +212,7 @@ class Published {
   std::deque<LoopChange> changes_{};
   Record last_{};
   Reference reference_;
-  LoopCondition<joint_count> condition_{};
+  LoopCondition<joint_count> condition_;
   DurationHistogram latency_{};
   DurationHistogram execution_{};
 };

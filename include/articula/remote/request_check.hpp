@@ -81,7 +81,8 @@ class RequestCheck {
     if (is_finite(value) && std::abs(value) <= limit) return;
     const std::string unit = unit_of(quantity, joint);
     articula::detail::refuse({what, ": ", quantity, " ", value, " ", unit, " of joint '",
-                              name_of(joint), "' is above the limit ", limit, " ", unit});
+                              name_of(joint), "' is not within ", -limit, " .. ", limit, " ",
+                              unit});
   }
 
   /// The efforts of a trajectory's points.

@@ -25,6 +25,13 @@ template <Robot R>
     const std::string reason = to_string(robot, task.refusal);
     return reason.empty() ? text : text + ": " + reason;
   };
+  std::string unfollowed;
+  for (int j = 0; j < joint_count<R>; ++j) {
+    if (!task.unfollowed[j]) continue;
+    unfollowed += unfollowed.empty() ? ", but no active controller moves to it: '" : ", '";
+    unfollowed += model_of(robot).joints[j].name.view();
+    unfollowed += "'";
+  }
   using enum TaskEnd;
   switch (task.end) {
     case done:
@@ -50,21 +57,10 @@ template <Robot R>
           text += ", without " + std::to_string(task.bridge.index - first) +
                   " of its first points: no motion within the limits reaches them in time";
         }
-        return {.verdict = Verdict::done, .text = text};
+        return {.verdict = Verdict::done, .text = text + unfollowed};
       }
-      if (const auto* own = std::get_if<task::Go<joint_count<R>>>(&task.wish)) {
-        std::string joints;
-        for (int j = 0; j < joint_count<R>; ++j) {
-          if (!own->unfollowed[j]) continue;
-          joints += (joints.empty() ? "'" : ", '");
-          joints += model_of(robot).joints[j].name.view();
-          joints += "'";
-        }
-        if (joints.empty()) return {.verdict = Verdict::done};
-        return {.verdict = Verdict::done,
-                .text = "the reference moves, but no active controller moves to it: " + joints};
-      }
-      return {.verdict = Verdict::done};
+      return {.verdict = Verdict::done,
+              .text = unfollowed.empty() ? "" : "the reference moves" + unfollowed};
     case not_active:
       return {.verdict = Verdict::refused, .text = "the loop is not active: activate it first"};
     case in_fault:
@@ -87,8 +83,12 @@ template <Robot R>
       return {.verdict = Verdict::refused,
               .text = "its operator was lost before the loop began the request"};
     case replaced:
+      return {.verdict = Verdict::failed, .text = "another request has ended it"};
+    case stopped:
       return {.verdict = Verdict::failed,
-              .text = "another request, a stop, a reset or a lost operator has ended it"};
+              .text = "a stop or the loss of its operator has ended it"};
+    case reset:
+      return {.verdict = Verdict::failed, .text = "a reset of the simulation has ended it"};
     case failed:
       return {.verdict = Verdict::failed, .text = "trajectory: " + trajectory()};
     case loop_left_active:

@@ -4,10 +4,13 @@
 
 #include "articula/remote/port.hpp"
 #include "articula/ros2/bridge/bridge_nodes.hpp"
+#include "articula/ros2/messages/rcl_interfaces.hpp"
 
 #include "catch.hpp"
 #include "remote/memory_transport.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -29,6 +32,9 @@ std::unique_ptr<AnyLoop> switched_arm();
 /// A supervised Q2D with the controllers upper/pid_plus_gravity of the shoulder, and
 /// lower/pid_plus_gravity of the elbow.
 std::unique_ptr<AnyLoop> grouped_arm();
+/// A Q2D with the controller pid_plus_gravity, without supervision. Its trajectories have
+/// tolerances: 0.5 rad on the way, 0.1 rad, 0.2 rad/s and 3 s at the end.
+std::unique_ptr<AnyLoop> plain_arm();
 /// A Q2D whose one controller passes efforts on.
 std::unique_ptr<AnyLoop> bypass_arm();
 
@@ -82,6 +88,15 @@ class BridgedArm {
   template <articula::ros2::Message M>
   void publish(const std::string& topic, const M& message) {
     transport.publish(topic, bytes_of(message));
+  }
+  bool logged(const std::string& words) { return count_logged(words) > 0; }
+  /// How many lines of the log have some words.
+  std::ptrdiff_t count_logged(const std::string& words) {
+    return std::ranges::count_if(transport.topics["/rosout"].sent, [&](const auto& bytes) {
+      articula::ros2::rcl_interfaces::msg::Log<articula::ros2::Jazzy> line;
+      return articula::ros2::decode(bytes, line) == articula::ros2::CdrError::none &&
+             line.msg.find(words) != std::string::npos;
+    });
   }
 
   MemoryTransport transport{};

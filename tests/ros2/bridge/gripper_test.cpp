@@ -32,9 +32,9 @@ template <class Type>
 struct Gripper : BridgedArm {
   explicit Gripper(const GripperOptions& options = {.joint = elbow_joint})
       : BridgedArm(
-            {.controller_types = {{"pid_plus_gravity",
-                                   std::is_same_v<Type, Simple> ? simple_type : parallel_type}},
-             .grippers = {{"pid_plus_gravity", options}}}) {
+            {.controllers = {{"pid_plus_gravity",
+                              {.type = std::is_same_v<Type, Simple> ? simple_type : parallel_type,
+                               .gripper = options}}}}) {
     REQUIRE(ask(remote::Activate{}).verdict == remote::Verdict::done);
   }
 
@@ -59,12 +59,6 @@ struct Gripper : BridgedArm {
       none.values.push_back({"pid_plus_gravity." + elbow_joint + "." + gain, 0});
     }
     REQUIRE(ask(none).verdict == remote::Verdict::done);
-  }
-  bool logged(const std::string& words) {
-    return std::ranges::any_of(transport.topics["/rosout"].sent, [&](const auto& bytes) {
-      rcl_interfaces::msg::Log<Jazzy> line;
-      return decode(bytes, line) == CdrError::none && line.msg.find(words) != std::string::npos;
-    });
   }
 };
 

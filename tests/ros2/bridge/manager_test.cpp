@@ -69,7 +69,24 @@ TEST_CASE("the hardware is activated and deactivated by its name") {
   SetHardware::Request other;
   other.name = "arm";
   other.target_state.label = "active";
-  CHECK_FALSE(arm.call<SetHardware>(manager + "set_hardware_component_state", other).ok);
+  const auto unknown = arm.call<SetHardware>(manager + "set_hardware_component_state", other);
+  CHECK_FALSE(unknown.ok);
+  CHECK(unknown.state.id == 0);
+}
+
+TEST_CASE("a controller of a group is found under the name that is listed") {
+  BridgedArm arm({.name_space = "/cell"}, support::grouped_arm());
+  const std::string name = "upper/pid_plus_gravity",
+                    path = "/cell/controller_manager/list_controllers";
+  const auto all = arm.call<srv::ListControllers<Jazzy>>(path).controller;
+  const auto own = std::ranges::find(all, name, [](const auto& each) { return each.name; });
+  REQUIRE(own != all.end());
+  CHECK(own->required_state_interfaces == std::vector<std::string>{shoulder_joint + "/position",
+                                                                   shoulder_joint + "/velocity",
+                                                                   shoulder_joint + "/effort"});
+  const auto& topics = arm.transport.topics;
+  CHECK(topics.contains("/cell/" + name + "/controller_state"));
+  CHECK(topics.contains("/cell/" + name + "/follow_joint_trajectory/_action/feedback"));
 }
 
 TEST_CASE("controllers are listed with what they claim") {
@@ -293,15 +310,34 @@ TEST_CASE("options that make no sense are refused") {
   CHECK_THROWS_WITH(make({.name_space = "left"}),
                     "ros2: name_space 'left' does not begin with / or ends with it");
   CHECK_THROWS_WITH(make({.state_rate = 0}), "ros2: state_rate 0 is not within 0 .. 1000000");
-  CHECK_THROWS(make({.command_quantities = {{"pid", "torque"}}}));
+  const auto make_with = [&](const ControllerOptions& options) {
+    make({.controllers = {{"pid_plus_gravity", options}}});
+  };
+  CHECK_THROWS_WITH(make_with({.command_quantity = "torque"}),
+                    "ros2: command_quantity of 'pid_plus_gravity': 'torque' is not position, "
+                    "velocity or effort");
   CHECK_THROWS_WITH(make({.gain_prefix = "gains"}),
                     "ros2: gain_prefix 'gains' does not end with a dot: add one");
   const std::string type = "position_controllers/GripperActionController";
-  CHECK_THROWS_WITH(make({.controller_types = {{"pid_plus_gravity", type}}}),
+  CHECK_THROWS_WITH(make_with({.gain_prefix = "gains"}),
+                    "ros2: gain_prefix 'gains' does not end with a dot: add one");
+  CHECK_THROWS_WITH(make_with({.type = type}),
                     "ros2: gripper 'pid_plus_gravity' has the joints shoulder_active_joint, "
-                    "elbow_active_joint, not '': name one of them in BridgeOptions::grippers");
-  CHECK_THROWS_WITH(make({.grippers = {{"hand", {.stall_timeout = -1}}}}),
-                    "ros2: stall_timeout -1 of gripper 'hand' is not within 0 .. 1000000");
+                    "elbow_active_joint, not '': name one of them as its joint");
+  CHECK_THROWS_WITH(
+      make_with({.type = type, .gripper = {.stall_timeout = -1}}),
+      "ros2: stall_timeout -1 of gripper 'pid_plus_gravity' is not within 0 .. 1000000");
+  CHECK_THROWS_WITH(make_with({.gripper = {.allow_stalling = true}}),
+                    "ros2: controller 'pid_plus_gravity' has options of a gripper, but its type, "
+                    "joint_trajectory_controller/JointTrajectoryController, is none");
+  CHECK_THROWS_WITH(make_with({.constraints = TrajectoryConstraints{.goal_time = 1}}),
+                    "ros2: constraints of 'pid_plus_gravity' are for 0 joints, not 2");
+  CHECK_THROWS_WITH(make_with({.constraints = TrajectoryConstraints{.goal_time = -1}}),
+                    "ros2: constraint goal_time of 'pid_plus_gravity': -1 is not a finite number "
+                    ">= 0");
+  CHECK_THROWS_WITH(make({.controllers = {{"pid_plus_gravty", {}}}}),
+                    "ros2: the options are for a controller 'pid_plus_gravty', which the loop does "
+                    "not list; did you mean 'pid_plus_gravity'?");
   CHECK(domain_id("") == 0);
   CHECK(domain_id("232") == 232);
   for (const char* text : {"abc", "7x", "233", "-1", " 1"}) {

@@ -74,12 +74,6 @@ struct ActiveArm : BridgedArm {
     return 0;
   }
   /// Whether one of the last lines of the log has these words.
-  bool logged(const std::string& words) {
-    return std::ranges::any_of(transport.topics["/rosout"].sent, [&](const auto& bytes) {
-      rcl_interfaces::msg::Log<Jazzy> line;
-      return decode(bytes, line) == CdrError::none && line.msg.find(words) != std::string::npos;
-    });
-  }
 };
 
 /// A goal for both joints.
@@ -306,8 +300,8 @@ TEST_CASE("goals of two controllers run at once, and a canceled one leaves the o
     goal.trajectory.points = {{.positions = {position}, .time_from_start = {seconds, 0}}};
     return goal;
   };
-  const std::string upper = "/upper_pid_plus_gravity/follow_joint_trajectory/_action/",
-                    lower = "/lower_pid_plus_gravity/follow_joint_trajectory/_action/";
+  const std::string upper = "/upper/pid_plus_gravity/follow_joint_trajectory/_action/",
+                    lower = "/lower/pid_plus_gravity/follow_joint_trajectory/_action/";
   REQUIRE(arm.send(1, goal_of(shoulder_joint, 0.5, 2), upper).accepted);
   arm.run(300);
   REQUIRE(arm.send(2, goal_of(elbow_joint, -0.5, 1), lower).accepted);
@@ -428,6 +422,33 @@ TEST_CASE("commands of a controller without gains are efforts") {
   CHECK(arm.bridge.dropped().refused == 1);
 }
 
+TEST_CASE("a controller of efforts has no goals of positions") {
+  BridgedArm arm({}, support::bypass_arm());
+  Send::Request request{.goal = goal_to(0.1, 0.1, 1)};
+  request.goal_id.uuid[0] = 1;
+  CHECK_FALSE(
+      arm.call<Send>("/bypass/follow_joint_trajectory/_action/send_goal", request).accepted);
+  CHECK(arm.logged("no active controller moves joint 'shoulder_active_joint' to a position"));
+  arm.publish("/bypass/reference", Point{.positions = {0.1, 0.1}, .effort = {1, 0}});
+  arm.run(3);
+  CHECK(
+      arm.logged("commands: the reference moves, but no active controller moves to it: "
+                 "'elbow_active_joint'"));
+}
+
+TEST_CASE("a trajectory that takes no time is refused") {
+  ActiveArm arm;
+  CHECK_FALSE(arm.send(1, goal_to(0.1, 0.1, 0)).accepted);
+  CHECK(arm.logged("trajectory: time_from_start of the last point is 0 s: give the motion a time"));
+}
+
+TEST_CASE("the log has a refusal once") {
+  ActiveArm arm;
+  arm.publish(controller + "joint_trajectory", goal_to(9, 0, 1).trajectory);
+  arm.run(10);
+  CHECK(arm.count_logged("position 9") == 1);
+}
+
 TEST_CASE("the state of a controller has reference, measurement and error") {
   ActiveArm arm;
   arm.publish(controller + "commands", Numbers{.data = {0.02, 0.01}});
@@ -528,7 +549,7 @@ TEST_CASE(
 
 TEST_CASE("a goal for a loop that has made no cycle waits for one") {
   support::MemoryTransport transport;
-  const auto loop = support::bypass_arm();
+  const auto loop = support::plain_arm();
   BridgeNodes bridge(loop->port(), transport, {});
   std::chrono::nanoseconds now{1'700'000'000'000'000'000};
   const auto run = [&](int milliseconds, int cycles) {
@@ -538,24 +559,23 @@ TEST_CASE("a goal for a loop that has made no cycle waits for one") {
     }
   };
   run(1, 0);
-  const std::string bypass = "/bypass/follow_joint_trajectory/_action/";
   Send::Request request{.goal = goal_to(0.1, 0.1, 1)};
   request.goal_id.uuid[0] = 1;
-  const auto reply = transport.request(bypass + "send_goal", support::bytes_of(request));
+  const auto reply = transport.request(action + "send_goal", support::bytes_of(request));
   run(300, 0);
-  CHECK(transport.topics[bypass + "feedback"].count == 0);
+  CHECK(transport.topics[action + "feedback"].count == 0);
   run(300, 1);
   Send::Response response;
   REQUIRE(decode(*reply, response) == CdrError::none);
   CHECK(response.accepted);
-  const auto feedback = transport.last<FeedbackMessage<Follow>>(bypass + "feedback");
+  const auto feedback = transport.last<FeedbackMessage<Follow>>(action + "feedback");
   REQUIRE(feedback);
   CHECK(feedback->feedback.actual.positions.size() == 2);
 }
 
 TEST_CASE("a controller's joints keep the order of the options") {
   const std::vector<std::string> joints{elbow_joint, shoulder_joint};
-  ActiveArm arm({.controller_joints = {{"pid_plus_gravity", joints}}});
+  ActiveArm arm({.controllers = {{"pid_plus_gravity", {.joints = joints}}}});
   REQUIRE(arm.send(1, goal_to(0.3, -0.2, 1)).accepted);
   REQUIRE(arm.wait_for(1).status == GoalState::succeeded);
   arm.run(50);
@@ -578,7 +598,7 @@ TEST_CASE("a controller's joints keep the order of the options") {
   CHECK(arm.reference() == std::vector<double>{0.31, -0.19});
 
   CHECK_THROWS_WITH(
-      BridgedArm({.controller_joints = {{"pid_plus_gravity", {"knee"}}}}),
+      BridgedArm({.controllers = {{"pid_plus_gravity", {.joints = {"knee"}}}}}),
       "ros2: controller 'pid_plus_gravity' has the joint 'knee', which robot 'q2d' does not have");
 }
 
@@ -664,7 +684,7 @@ TEST_CASE("a joint is commanded by a number") {
 }
 
 TEST_CASE("the velocity of a joint ends, whatever other joints are told") {
-  ActiveArm arm({.command_quantities = {{"pid_plus_gravity", "velocity"}}});
+  ActiveArm arm({.controllers = {{"pid_plus_gravity", {.command_quantity = "velocity"}}}});
   arm.publish(controller + shoulder_joint + "/command", std_msgs::msg::Float64{0.1});
   arm.run(100);
   CHECK(arm.loop->port().situation().joint_motions[0] == "set");

@@ -3,6 +3,7 @@
 #include <articula/remote/sheet/urdf_text.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include "articula/ros2/messages/rcl_interfaces.hpp"
 #include "articula/ros2/messages/rosgraph_msgs.hpp"
 #include "articula/ros2/messages/sensor_msgs.hpp"
 #include "articula/ros2/messages/std_msgs.hpp"
@@ -29,6 +30,8 @@ using States = sensor_msgs::msg::JointState<Jazzy>;
 using Clock = rosgraph_msgs::msg::Clock;
 using Frames = tf2_msgs::msg::TFMessage<Jazzy>;
 using Numbers = std_msgs::msg::Float64MultiArray<Jazzy>;
+using GetParameters = rcl_interfaces::srv::GetParameters<Jazzy>;
+using Value = rcl_interfaces::msg::ParameterValue<Jazzy>;
 
 namespace {
 
@@ -68,6 +71,31 @@ std::optional<M> newest(FastDdsPeer& peer, std::size_t reader) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return std::nullopt;
+}
+
+// Parameters of a node, waiting at most 30 s for it.
+std::vector<Value> parameters(FastDdsPeer& peer, const std::string& node,
+                              const std::vector<std::string>& names) {
+  const std::string service = node + "/get_parameters";
+  const auto requests =
+      peer.make_writer(request_topic_name(service), dds_type_name<GetParameters::Request>());
+  const auto replies =
+      peer.make_reader(reply_topic_name(service), dds_type_name<GetParameters::Response>());
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  const auto pause = std::chrono::milliseconds(20);
+  while (peer.matches_of_writer(requests) == 0 || peer.matches_of_reader(replies) == 0) {
+    if (std::chrono::steady_clock::now() > end) return {};
+    std::this_thread::sleep_for(pause);
+  }
+  peer.request(requests, replies, bytes_of(GetParameters::Request{.names = names}));
+  while (std::chrono::steady_clock::now() < end) {
+    for (const auto& reply : peer.take_replies(replies)) {
+      GetParameters::Response response;
+      if (decode(reply.bytes, response) == CdrError::none) return response.values;
+    }
+    std::this_thread::sleep_for(pause);
+  }
+  return {};
 }
 
 }  // namespace
@@ -143,4 +171,42 @@ TEST_CASE("articula simulate is a robot behind topics, with a clock") {
   CHECK(after->clock.sec * 1e9 + after->clock.nanosec >
         before->clock.sec * 1e9 + before->clock.nanosec);
   CHECK(program.end().exit_code == 0);
+}
+
+TEST_CASE("parameters have the names and values of the file") {
+  const support::ScratchFile file("hand.yaml");
+  std::ofstream(file.path())
+      << "controller_manager:\n  ros__parameters:\n    update_rate: 100\n"
+         "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
+         "    hand: {type: position_controllers/GripperActionController}\n"
+         "arm:\n  ros__parameters:\n    joints: [shoulder_active_joint]\n"
+         "    command_interfaces: [effort]\n"
+         "    gains: {shoulder_active_joint: {p: 20.0}}\n"
+         "    constraints: {goal_time: 2.0, shoulder_active_joint: {trajectory: 0.3, goal: 0.1}}\n"
+         "hand:\n  ros__parameters:\n    joint: elbow_active_joint\n"
+         "    elbow_active_joint: {p: 10.0}\n"
+         "    goal_tolerance: 0.02\n    stall_timeout: 0.5\n    allow_stalling: true\n";
+  FastDdsPeer peer(domain());
+  Program program({"run", "ROBOT", file.path().string()});
+  const std::string constraint = "constraints.shoulder_active_joint.";
+  const auto arm = parameters(
+      peer, "/arm",
+      {"gains.shoulder_active_joint.p", "constraints.goal_time",
+       "constraints.stopped_velocity_tolerance", constraint + "trajectory", constraint + "goal"});
+  REQUIRE(arm.size() == 5);
+  CHECK(arm[0].double_value == 20);
+  CHECK(arm[1].double_value == 2);
+  CHECK(arm[2].double_value == 0.01);
+  CHECK(arm[3].double_value == 0.3);
+  CHECK(arm[4].double_value == 0.1);
+  const auto hand = parameters(
+      peer, "/hand", {"elbow_active_joint.p", "goal_tolerance", "stall_timeout", "allow_stalling"});
+  REQUIRE(hand.size() == 4);
+  CHECK(hand[0].double_value == 10);
+  CHECK(hand[1].double_value == 0.02);
+  CHECK(hand[2].double_value == 0.5);
+  CHECK(hand[3].bool_value);
+  const auto end = program.end();
+  CHECK(end.exit_code == 0);
+  CHECK(end.err.find("gripper") == std::string::npos);
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace articula {
@@ -27,6 +28,17 @@ struct ConfiguredJoint {
   FilePlace angle_wraparound_place{};
 };
 
+/// When a gripper has reached a goal or is stalled. They are for ros2::GripperOptions.
+struct ConfiguredGripper {
+  double goal_tolerance = 0.01;             ///< distance from the goal [rad or m]
+  bool allow_stalling = false;              ///< a stalled gripper has succeeded
+  double stall_velocity_threshold = 0.001;  ///< the joint moves above it [rad/s or m/s]
+  double stall_timeout = 1;                 ///< time without motion after which it is stalled [s]
+};
+
+/// The note on a parameter of ConfiguredGripper.
+inline constexpr std::string_view gripper_note = "used by a gripper's action in ROS 2 only";
+
 /// A controller's parameters. Those that the file lacks have their defaults.
 struct ControllerConfig {
   std::string name{};                        ///< empty if the file has nothing but its parameters
@@ -39,8 +51,10 @@ struct ControllerConfig {
   std::optional<int> priority{};             ///< of the control thread, for ThreadOptions
 
   double stopped_velocity_tolerance = 0.01;  ///< at the end of a trajectory [rad/s or m/s]
-  double goal_time = 0;               ///< time allowed to arrive after its end [s]; 0: no limit
-  TrajectoryOptions trajectory{};     ///< interpolation between points
+  double goal_time = 0;            ///< time allowed to arrive after its end [s]; 0: no limit
+  TrajectoryOptions trajectory{};  ///< interpolation between points
+  ConfiguredGripper gripper{};
+  std::string gain_prefix{};          ///< "gains." if the file has gains below that key
   bool allow_partial_joints = false;  ///< for ArrangeOptions
   bool allow_integration = false;     ///< for ArrangeOptions
 

@@ -36,6 +36,7 @@ class ControllerReader {
     read_all_gains();
     read_mechanics(map_, config_);
     read_trajectory();
+    read_gripper();
     take_unused_controller_parameters(map_);
     refuse_common_gains();
     if (config_.joints.empty() && map_.has_unknown()) map_.require("joints");
@@ -113,6 +114,7 @@ class ControllerReader {
       context_.has_velocity = first == "position" && last == "velocity";
     }
     if (auto gains = map_.find_map("gains")) {
+      config_.gain_prefix = "gains.";
       for (ConfiguredJoint& joint : config_.joints) {
         if (const auto one = gains->find_map(joint.name)) read_joint_gains(joint, *one);
       }
@@ -195,6 +197,18 @@ class ControllerReader {
       own->finish();
     }
     finish_by_joint(*constraints);
+  }
+
+  void read_gripper() {
+    ConfiguredGripper& gripper = config_.gripper;
+    map_.read_not_negative("goal_tolerance", gripper.goal_tolerance);
+    map_.read_not_negative("stall_velocity_threshold", gripper.stall_velocity_threshold);
+    map_.read_not_negative("stall_timeout", gripper.stall_timeout);
+    map_.read_truth("allow_stalling", gripper.allow_stalling);
+    for (const std::string_view key :
+         {"goal_tolerance", "stall_velocity_threshold", "stall_timeout", "allow_stalling"}) {
+      if (const auto value = map_.find(key)) map_.note(*value, gripper_note);
+    }
   }
 
   ControllerConfig config_;

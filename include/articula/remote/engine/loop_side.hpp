@@ -49,6 +49,17 @@ class LoopSide {
   LoopSide(const LoopSide&) = delete;
   LoopSide& operator=(const LoopSide&) = delete;
 
+  /// The present state of what changes seldom. In the loop's thread. Real-time: yes.
+  [[nodiscard]] LoopCondition<joint_count> condition() const noexcept {
+    return {modes_.mode(),
+            modes_.fault(),
+            motions_.kind(),
+            motions_.kinds(),
+            motions_.following(),
+            simulation_.pace().paused(),
+            simulation_.pace().speed(),
+            motions_.trajectory_speed()};
+  }
   /// The exchange with a Switch or Groups. Its reading side belongs to the outside.
   [[nodiscard]] auto& switches() noexcept { return switches_; }
 
@@ -173,7 +184,7 @@ class LoopSide {
       using Own = std::remove_cvref_t<decltype(wish)>;
       constexpr bool stops =
           std::same_as<Own, task::Stop> || std::same_as<Own, task::StopJoints<joint_count>>;
-      if (!stops && own.number < stopped_) return returns_.finish(own, TaskEnd::replaced);
+      if (!stops && own.number < stopped_) return returns_.finish(own, TaskEnd::stopped);
       motions_.begin(own, wish);
     } else if constexpr (requires { simulation_.begin(own, wish); }) {
       simulation_.begin(own, wish);
@@ -208,13 +219,7 @@ class LoopSide {
   /// Hands over what has changed, and then the tasks that have ended, so that who has an answer
   /// sees its effect.
   void tell() noexcept {
-    const LoopCondition<joint_count> now{modes_.mode(),
-                                         modes_.fault(),
-                                         motions_.kind(),
-                                         motions_.kinds(),
-                                         simulation_.pace().paused(),
-                                         simulation_.pace().speed(),
-                                         motions_.trajectory_speed()};
+    const LoopCondition<joint_count> now = condition();
     if (!told_ || !(now == condition_)) {
       condition_ = now;
       told_ = rings_.changes.push({loop_.time(), now, loop_.state()});

@@ -37,6 +37,10 @@ class MotionControl {
     for (int j = 0; j < joint_count; ++j) kinds[j] = source_.kind(j);
     return kinds;
   }
+  /// The joints that an active controller moves to the position of the reference.
+  [[nodiscard]] JointArray<bool, joint_count> following() const noexcept {
+    return joints_following_position<joint_count>(loop_.controller());
+  }
   /// As asked for.
   [[nodiscard]] double trajectory_speed() const noexcept { return source_.trajectory_speed(); }
 
@@ -92,20 +96,26 @@ class MotionControl {
   /// Ends all motions at once, since the robot is put elsewhere.
   void abandon() noexcept {
     source_.rest();
-    give_back_replaced();
+    give_back_ended(TaskEnd::reset);
   }
 
   void begin(Task<R>& own, task::Go<joint_count>& wish) noexcept {
     if (!can_begin(own)) return;
-    const auto follows = joints_following_position<joint_count>(loop_.controller());
+    const auto follows = following();
     for (int j = 0; j < joint_count; ++j) {
-      wish.unfollowed[j] = is_finite(wish.target[j]) && !follows[j];
+      own.unfollowed[j] = is_finite(wish.target[j]) && !follows[j];
     }
     source_.go(reference(), wish.target, wish.speed);
     finish(own);
   }
   void begin(Task<R>& own, task::Set<joint_count>& wish) noexcept {
     if (!can_begin(own)) return;
+    const auto follows = following();
+    const auto& [joints, positions, values] = wish.setting;
+    for (int j = 0; j < joint_count; ++j) {
+      const bool has_other = values.velocity[j] != 0 || values.effort[j] != 0;
+      own.unfollowed[j] = positions[j] && !has_other && !follows[j];
+    }
     source_.set(reference(), wish.setting);
     finish(own);
   }
@@ -115,6 +125,10 @@ class MotionControl {
     own.outcome = begun.outcome;
     own.refusal = begun.refusal;
     if (own.outcome != TrajectoryOutcome::active) return returns_.finish(own, TaskEnd::refused);
+    const auto follows = following();
+    for (int j = 0; j < joint_count; ++j) {
+      own.unfollowed[j] = !wish.trajectory->left_out()[j] && !follows[j];
+    }
     await(own, begun.source);
   }
   void begin(Task<R>& own, task::Play<R>& wish) noexcept {
@@ -148,7 +162,7 @@ class MotionControl {
   /// measurement, unless it moves. So a controller that does and starts later holds the joint where
   /// it is.
   [[nodiscard]] Reference along(Reference own) noexcept {
-    const auto follows = joints_following_position<joint_count>(loop_.controller());
+    const auto follows = following();
     const JointVector<joint_count>& measured = loop_.state().position;
     for (int j = 0; j < joint_count; ++j) {
       if (follows[j] || !is_finite(measured[j])) continue;
@@ -177,28 +191,28 @@ class MotionControl {
 
   void stop(const Joints& joints) noexcept {
     source_.stop(reference(), joints);
-    give_back_replaced();
+    give_back_ended(TaskEnd::stopped);
   }
 
   /// The task that ends with the motion from a source.
   [[nodiscard]] Task<R>*& waiting(int source) noexcept {
     return waiting_[static_cast<std::size_t>(source)];
   }
-  /// Ends the tasks whose motion has ended, since others have taken their joints.
-  void give_back_replaced() noexcept {
+  /// Ends the tasks whose motion moves no joint any more.
+  void give_back_ended(TaskEnd end) noexcept {
     for (int source = 0; source < Source::source_count; ++source) {
-      if (!source_.leads(source)) returns_.give_back(waiting(source), TaskEnd::replaced);
+      if (!source_.leads(source)) returns_.give_back(waiting(source), end);
     }
   }
   /// A task has begun a motion, and ends with it.
   void await(Task<R>& own, int source) noexcept {
     returns_.give_back(waiting(source), TaskEnd::replaced);
-    give_back_replaced();
+    give_back_ended(TaskEnd::replaced);
     waiting(source) = &own;
   }
   /// A task has begun a motion, and ends now.
   void finish(Task<R>& own) noexcept {
-    give_back_replaced();
+    give_back_ended(TaskEnd::replaced);
     returns_.finish(own, TaskEnd::done);
   }
 

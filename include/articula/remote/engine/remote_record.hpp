@@ -29,6 +29,7 @@ struct LoopCondition {
   Status fault = Status::ok;             ///< the last one
   MotionKind motion = MotionKind::rest;  ///< that was begun last
   JointArray<MotionKind, N> motions{};   ///< of each joint
+  JointArray<bool, N> following{};       ///< joints that a controller moves to the position
   bool paused = false;
   double speed = 1;
   double trajectory_speed = 1;

@@ -33,7 +33,6 @@ template <int N>
 struct Go {
   JointVector<N> target;  ///< [rad or m]; NaN for joints that have none
   double speed = 1;
-  JointArray<bool, N> unfollowed{};  ///< by the loop: joints that no controller moves there
 };
 template <int N>
 struct Set {
@@ -106,7 +105,9 @@ enum class TaskEnd : unsigned char {
   bad_reference,     ///< The present reference has a number that is not finite.
   refused,           ///< A trajectory: Task::outcome and Task::refusal.
   not_paused,        ///< Single steps are for paused simulations.
-  replaced,          ///< Another motion has replaced it.
+  replaced,          ///< Another request has taken its place, or one of its joints.
+  stopped,           ///< A stop has ended it, or the loss of its operator.
+  reset,             ///< The simulated robot was put elsewhere.
   failed,            ///< A trajectory: Task::outcome.
   loop_left_active,  ///< The loop became inactive, or went into the fault Task::status.
 };
@@ -145,6 +146,7 @@ struct Task {
   Status status = Status::ok;
   TrajectoryOutcome outcome = TrajectoryOutcome::idle;
   TrajectoryRefusal refusal{};
+  JointArray<bool, joint_count> unfollowed{};  ///< that no controller moves to the positions
 };
 
 }  // namespace articula::remote

@@ -14,6 +14,10 @@ struct SheetJoint {
   std::string name{};
   JointType type = JointType::revolute;
   JointLimits limits{};
+  // Of trajectories that bring no tolerances. 0 is not checked.
+  double path_tolerance = 0;    ///< before the end [rad or m]
+  double goal_tolerance = 0;    ///< at the end [rad or m]
+  double stopped_velocity = 0;  ///< at the end [rad/s or m/s]
 
   /// "rad" or "m".
   [[nodiscard]] std::string position_unit() const {
@@ -49,6 +53,7 @@ struct RobotSheet {
   std::vector<std::string> commands{};  ///< the quantities of the loop's command, as "effort"
   std::string urdf{};                   ///< the robot as a URDF document, with visuals
   double period = 1e-3;                 ///< of the loop [s]
+  double goal_time = 0;                 ///< to arrive after a trajectory [s]; 0: unlimited
   bool is_simulated = false;            ///< the requests for simulations are understood
 };
 

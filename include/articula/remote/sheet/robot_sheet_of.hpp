@@ -4,6 +4,7 @@
 
 #include "articula/command/command_parts.hpp"
 #include "articula/dynamics/forward_kinematics.hpp"
+#include "articula/reference/trajectory/trajectory_tolerances.hpp"
 #include "articula/remote/engine/loop_traits.hpp"
 #include "articula/remote/sheet/link_pose.hpp"
 #include "articula/remote/sheet/link_tree.hpp"
@@ -31,18 +32,28 @@ template <Robot R>
 }
 
 /// The sheet of a loop's robot.
-/// @param loop  a ControlLoop or SupervisedControlLoop
-/// @param urdf  the robot as a URDF document; if empty, urdf_text makes one
+/// @param loop        a ControlLoop or SupervisedControlLoop
+/// @param urdf        the robot as a URDF document; if empty, urdf_text makes one
+/// @param tolerances  of trajectories that bring none
 template <class LoopType>
-[[nodiscard]] RobotSheet robot_sheet_of(LoopType& loop, std::string urdf) {
+[[nodiscard]] RobotSheet robot_sheet_of(
+    LoopType& loop, std::string urdf,
+    const TrajectoryTolerances<LoopType::joint_count>& tolerances) {
   const auto& robot = loop.hardware().robot();
   const auto& model = model_of(robot);
   RobotSheet sheet{.name = std::string(model.name.view()),
                    .urdf = urdf.empty() ? urdf_text(robot) : std::move(urdf),
                    .period = loop.period(),
+                   .goal_time = tolerances.goal_time,
                    .is_simulated = is_simulated<LoopType>};
-  for (const JointProperties& joint : model.joints) {
-    sheet.joints.push_back({std::string(joint.name.view()), joint.type, joint.limits});
+  for (int j = 0; j < LoopType::joint_count; ++j) {
+    const JointProperties& joint = model.joints[j];
+    sheet.joints.push_back({.name = std::string(joint.name.view()),
+                            .type = joint.type,
+                            .limits = joint.limits,
+                            .path_tolerance = tolerances.path_position[j],
+                            .goal_tolerance = tolerances.goal_position[j],
+                            .stopped_velocity = tolerances.stopped_velocity[j]});
   }
   using AnyModel = std::remove_cvref_t<decltype(model)>;
   if constexpr (AnyModel::body_count > AnyModel::joint_count) {

@@ -85,6 +85,9 @@ struct BridgeNodes::Parts {
     while (const auto event = core.loop_operator.session().event()) {
       using Level = remote::Event::Level;
       using Line = RosLog::Line;
+      // What became of a request from ROS is told by the node that had it.
+      const bool is_own = event->text.starts_with(std::string(LoopOperator::name) + ": ");
+      if (is_own && event->level == Level::warning) continue;
       core.log.write(event->level == Level::error     ? Line::error
                      : event->level == Level::warning ? Line::warn
                                                       : Line::info,

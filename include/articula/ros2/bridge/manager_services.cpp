@@ -131,9 +131,9 @@ class Services final : public ManagerServices {
   }
 
   [[nodiscard]] std::vector<msg::ControllerState<Layout>> controllers() const {
-    const Names states = interfaces(joints_, {"position", "velocity", "effort"});
     std::vector<msg::ControllerState<Layout>> all;
-    const auto add = [&](const std::string& name, const std::string& type, Names claims) {
+    const auto add = [&](const std::string& name, const std::string& type, const Names& joints,
+                         Names claims) {
       msg::ControllerState<Layout> own;
       own.name = name;
       own.type = type;
@@ -141,12 +141,12 @@ class Services final : public ManagerServices {
       set_number(own.update_rate, rate());
       if (is_active(name)) own.claimed_interfaces = claims;
       own.required_command_interfaces = std::move(claims);
-      own.required_state_interfaces = states;
+      own.required_state_interfaces = interfaces(joints, {"position", "velocity", "effort"});
       all.push_back(std::move(own));
     };
-    add(BridgeCore::broadcaster, "joint_state_broadcaster/JointStateBroadcaster", {});
+    add(BridgeCore::broadcaster, "joint_state_broadcaster/JointStateBroadcaster", joints_, {});
     for (const BridgedController& own : core_.controllers) {
-      add(own.name, own.type, interfaces(own.joints, core_.port.robot().commands));
+      add(own.name, own.type, own.joints, interfaces(own.joints, core_.port.robot().commands));
     }
     return all;
   }
@@ -334,7 +334,9 @@ class Services final : public ManagerServices {
     };
     const std::string& name = core_.port.robot().name;
     if (request.name != name) {
-      return answer(false, "there is no hardware '" + request.name + "'; it is '" + name + "'");
+      refuse("set_hardware_component_state: there is no hardware '" + request.name + "'; it is '" +
+             name + "'");
+      return reply.send({});  // of unknown state, as in ros2_control
     }
     const std::uint8_t id = request.target_state.id;
     const std::string& label = request.target_state.label;

@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t longest_name = 240;
 
 constexpr bool is_word(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+  if (text.empty() || (text.front() >= '0' && text.front() <= '9')) return false;
+  return std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   });
 }
@@ -36,10 +37,10 @@ constexpr bool is_path(std::string_view text) {
 
 void check_full_name(std::string_view what, std::string_view name) {
   if (!is_path(name) || name.size() > longest_name) {
-    articula::detail::refuse({"ros2: the ", what, " '", name,
-                              "' is not a full name; expected parts of ",
-                              "letters, digits and _, each after a /, with at most ", longest_name,
-                              " characters, as \"/arm/states\""});
+    articula::detail::refuse(
+        {"ros2: the ", what, " '", name, "' is not a full name; expected parts of ",
+         "letters, digits and _, each after a / and without a digit first, with at most ",
+         longest_name, " characters, as \"/arm/states\""});
   }
 }
 

@@ -41,7 +41,7 @@ std::vector<NodeParameter> ControllerParameters::list() {
     if (!own.name.starts_with(prefix)) continue;
     NodeParameter parameter{.value = to_value(own.value)};
     auto& descriptor = parameter.descriptor;
-    descriptor.name = core_.options.gain_prefix + own.name.substr(prefix.size());
+    descriptor.name = controller_.gain_prefix + own.name.substr(prefix.size());
     descriptor.type = parameter.value.type;
     descriptor.description = own.description + " [" + own.unit + "]";
     if (std::isfinite(own.lowest) && std::isfinite(own.highest)) {
@@ -68,9 +68,9 @@ std::vector<ControllerParameters::Constraint> ControllerParameters::constraints(
   TrajectoryConstraints& own = controller_.constraints;
   std::vector<Constraint> all{
       {"constraints.goal_time", own.goal_time,
-       "Time to arrive after the last point [s]. 0: as the loop has it."},
+       "Time to arrive after the last point [s]. 0: not checked."},
       {"constraints.stopped_velocity_tolerance", own.stopped_velocity_tolerance,
-       "Velocity at the end [rad/s or m/s]. 0: as the loop has it."}};
+       "Velocity at the end [rad/s or m/s]. 0: not checked."}};
   if (controller_.gripper) {
     GripperOptions& gripper = *controller_.gripper;
     all.push_back({"goal_tolerance", gripper.goal_tolerance, "Distance from the goal [rad or m]."});
@@ -82,14 +82,18 @@ std::vector<ControllerParameters::Constraint> ControllerParameters::constraints(
   for (std::size_t j = 0; j < own.joints.size(); ++j) {
     const std::string prefix = "constraints." + controller_.joints[j];
     all.push_back({prefix + ".trajectory", own.joints[j].trajectory,
-                   "Distance from the trajectory [rad or m]. 0: as the loop has it."});
-    all.push_back({prefix + ".goal", own.joints[j].goal,
-                   "Distance at the end [rad or m]. 0: as the loop has it."});
+                   "Distance from the trajectory [rad or m]. 0: not checked."});
+    all.push_back(
+        {prefix + ".goal", own.joints[j].goal, "Distance at the end [rad or m]. 0: not checked."});
   }
   return all;
 }
 
-void ControllerParameters::set(const NamedValues& values, OnSet on_set) {
+void ControllerParameters::set(const NamedValues& values, OnSet on_asker) {
+  const auto on_set = [this, on_asker = std::move(on_asker)](const std::string& refusal) {
+    if (!refusal.empty()) core_.log.write(RosLog::Line::warn, controller_.node, refusal);
+    on_asker(refusal);
+  };
   const auto all = constraints();
   remote::SetParameters request;
   std::vector<std::pair<double*, double>> changes;
@@ -99,7 +103,7 @@ void ControllerParameters::set(const NamedValues& values, OnSet on_set) {
                                     [&](const auto& other) { return other.name == own.name; });
     if (found == all.end()) {
       request.values.push_back(
-          {controller_.name + "." + own.name.substr(core_.options.gain_prefix.size()), value});
+          {controller_.name + "." + own.name.substr(controller_.gain_prefix.size()), value});
     } else if (std::isfinite(value) && value >= 0) {
       changes.emplace_back(&found->value, value);
     } else {
@@ -115,14 +119,13 @@ void ControllerParameters::set(const NamedValues& values, OnSet on_set) {
     if (refusal.empty()) apply();
     return on_set(refusal);
   }
-  core_.loop_operator.ask(request,
-                          [on_set = std::move(on_set), apply](const remote::Answer& answer) {
-                            if (answer.verdict == remote::Verdict::done) {
-                              apply();
-                              return on_set({});
-                            }
-                            on_set(answer.text.empty() ? "refused" : answer.text);
-                          });
+  core_.loop_operator.ask(request, [on_set, apply](const remote::Answer& answer) {
+    if (answer.verdict == remote::Verdict::done) {
+      apply();
+      return on_set({});
+    }
+    on_set(answer.text.empty() ? "refused" : answer.text);
+  });
 }
 
 }  // namespace articula::ros2

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/bridge/controllers/controller_topics.hpp"
 
+#include "articula/ros2/bridge/controllers/trajectory_check.hpp"
 #include "articula/ros2/node/service.hpp"
 #include "articula/ros2/node/subscription.hpp"
 
@@ -125,13 +126,8 @@ void ControllerTopics::take(const TrajectoryPointMessage& message) {
 
 void ControllerTopics::take(const TrajectoryMessage& message) {
   if (!is_active("joint_trajectory")) return;
-  for (const std::string& joint : message.joint_names) {
-    if (std::find(controller_.joints.begin(), controller_.joints.end(), joint) !=
-        controller_.joints.end()) {
-      continue;
-    }
-    return refuse("Incoming joint " + joint + " doesn't match the controller's joints.");
-  }
+  const std::string reason = foreign_joint(controller_, message.joint_names);
+  if (!reason.empty()) return refuse(reason);
   remote::PlayTrajectory request = to_request(message, core_.context.now, core_.watch.speed());
   controller_.constraints.complete(request, controller_.joints);
   ask(request);
@@ -155,6 +151,9 @@ void ControllerTopics::set(const remote::SetReference& reference) {
   const std::chrono::nanoseconds asked = core_.context.now;
   core_.loop_operator.ask(reference, [this, reference, asked](const remote::Answer& answer) {
     if (answer.verdict != remote::Verdict::done) return refuse(answer.text);
+    if (!answer.text.empty()) {
+      core_.log.write(RosLog::Line::warn, controller_.node, "commands: " + answer.text);
+    }
     for (std::size_t k = 0; k < controller_.joints.size(); ++k) {
       const auto names_it = [&](const auto& own) { return own.joint == controller_.joints[k]; };
       const bool is_named = std::ranges::any_of(reference.positions, names_it) ||

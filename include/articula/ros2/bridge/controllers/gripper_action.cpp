@@ -2,6 +2,7 @@
 #include "articula/ros2/bridge/controllers/gripper_action.hpp"
 
 #include "articula/core/finite.hpp"
+#include "articula/ros2/bridge/controllers/trajectory_check.hpp"
 #include "articula/ros2/messages/control_msgs.hpp"
 #include "articula/ros2/node/action_server.hpp"
 #include "articula/ros2/node/periodic.hpp"
@@ -139,6 +140,9 @@ class GripperAction final : public ControllerAction {
   void begin(const GoalId& id, const Goal& goal) {
     if (!core_.watch.is_active(controller_.name)) {
       return reject(id, "Can't accept new action goals. Controller is not running.");
+    }
+    if (std::string reason = unfollowed_joint(core_.watch, controller_, {}); !reason.empty()) {
+      return reject(id, reason);
     }
     const auto& command = to_command(goal);
     if (command.position.size() != 1) {

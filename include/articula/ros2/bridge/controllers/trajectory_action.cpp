@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "articula/ros2/bridge/controllers/trajectory_action.hpp"
 
+#include "articula/ros2/bridge/controllers/trajectory_check.hpp"
 #include "articula/ros2/bridge/controllers/trajectory_messages.hpp"
 #include "articula/ros2/node/action_server.hpp"
 #include "articula/ros2/node/periodic.hpp"
@@ -70,12 +71,10 @@ class Action final : public ControllerAction {
     if (!core_.watch.is_active(controller_.name)) {
       return reject(id, "Can't accept new action goals. Controller is not running.");
     }
-    for (const std::string& joint : goal.trajectory.joint_names) {
-      if (std::find(controller_.joints.begin(), controller_.joints.end(), joint) !=
-          controller_.joints.end()) {
-        continue;
-      }
-      return reject(id, "Incoming joint " + joint + " doesn't match the controller's joints.");
+    const auto& joints = goal.trajectory.joint_names;
+    for (const std::string& reason :
+         {foreign_joint(controller_, joints), unfollowed_joint(core_.watch, controller_, joints)}) {
+      if (!reason.empty()) return reject(id, reason);
     }
     remote::PlayTrajectory request =
         to_request(goal.trajectory, core_.context.now, core_.watch.speed());
@@ -87,7 +86,7 @@ class Action final : public ControllerAction {
     running_[id] = {.order = ++last_order_,
                     .first_cycle = core_.watch.cycle.number,
                     .asked = core_.context.wall,
-                    .joints = goal.trajectory.joint_names};
+                    .joints = joints};
     core_.loop_operator.ask(request, [this, id](const remote::Answer& answer) { end(id, answer); });
   }
 
@@ -144,6 +143,7 @@ class Action final : public ControllerAction {
       return server_.end(id, Status::succeeded, {Type::successful, "Goal successfully reached!"});
     }
     if (own.canceling) return server_.end(id, Status::canceled, {});
+    core_.log.write(RosLog::Line::warn, controller_.node, "goal: " + answer.text);
     if (answer.outcome == path_tolerance_violated) {
       return server_.end(
           id, Status::aborted,

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "articula/core/refuse.hpp"
-#include "articula/ros2/bridge/core/gripper_options.hpp"
+#include "articula/ros2/bridge/core/controller_options.hpp"
 #include "articula/ros2/dds/fast_dds_options.hpp"
 #include "articula/ros2/layout.hpp"
 
@@ -12,7 +12,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace articula::ros2 {
 
@@ -37,18 +36,11 @@ struct BridgeOptions {
   /// With use_sim_time: stamps have the time of this topic, as /clock of another simulator. It is
   /// then not published.
   std::string clock_topic{};
-  /// The types that clients see. MoveIt and rqt choose by them what they offer.
+  /// The type of controllers that clients see, if ControllerOptions::type is empty.
   std::string controller_type = "joint_trajectory_controller/JointTrajectoryController";
-  std::map<std::string, std::string> controller_types{};  ///< of single controllers, by name
-  /// The joints of single controllers, by name. Otherwise those of its gains, or all.
-  std::map<std::string, std::vector<std::string>> controller_joints{};
-  /// Of controllers whose type is a gripper's, by name. They offer the action gripper_cmd.
-  std::map<std::string, GripperOptions> grippers{};
   /// Of the parameters of gains: gains.<joint>.<gain>. With an empty one they are <joint>.<gain>.
   std::string gain_prefix = "gains.";
-  /// What the numbers on <controller>/commands are: "position", "velocity" or "effort", by name of
-  /// the controller. Otherwise positions, or efforts if the controller has no gains.
-  std::map<std::string, std::string> command_quantities{};
+  std::map<std::string, ControllerOptions> controllers{};  ///< by their names in the loop
 };
 
 /// Refuses options that make no sense.
@@ -70,21 +62,13 @@ inline void validate(const BridgeOptions& options) {
       articula::detail::refuse({"ros2: ", name, " ", value, " is not within 0 .. 1000000"});
     }
   }
-  if (!options.gain_prefix.empty() && options.gain_prefix.back() != '.') {
-    articula::detail::refuse(
-        {"ros2: gain_prefix '", options.gain_prefix, "' does not end with a dot: add one"});
-  }
+  validate_gain_prefix(options.gain_prefix);
   const std::string& clock = options.clock_topic;
   if (!clock.empty() && (!options.use_sim_time || clock.size() < 2 || clock.front() != '/')) {
     articula::detail::refuse({"ros2: clock_topic '", clock, "' needs ",
                               options.use_sim_time ? "a full name, as /clock" : "use_sim_time"});
   }
-  for (const auto& [controller, gripper] : options.grippers) validate(controller, gripper);
-  for (const auto& [controller, quantity] : options.command_quantities) {
-    if (quantity == "position" || quantity == "velocity" || quantity == "effort") continue;
-    articula::detail::refuse({"ros2: command_quantities of '", controller, "': '", quantity,
-                              "' is not position, velocity or effort"});
-  }
+  for (const auto& [name, controller] : options.controllers) validate(name, controller);
 }
 
 }  // namespace articula::ros2

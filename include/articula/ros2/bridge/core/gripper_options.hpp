@@ -19,6 +19,8 @@ struct GripperOptions {
   bool allow_stalling = false;              ///< a stalled gripper has succeeded
   double stall_velocity_threshold = 0.001;  ///< the joint moves above it [m/s or rad/s]
   double stall_timeout = 1;                 ///< time without motion after which it is stalled [s]
+
+  friend bool operator==(const GripperOptions&, const GripperOptions&) = default;
 };
 
 /// Whether a type of controllers is a gripper's: it offers the action gripper_cmd.

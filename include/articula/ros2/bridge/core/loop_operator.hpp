@@ -21,13 +21,15 @@ namespace articula::ros2 {
 /// transport. Real-time: no (allocates, locks).
 class LoopOperator {
  public:
+  static constexpr const char* name = "ROS 2";  ///< as other clients see it
+
   using OnAnswer = std::function<void(const remote::Answer&)>;
 
   /// @param port      outlives this
   /// @param operates  whether it may take the controls
   /// @param release   time without requests after which it releases the controls
   LoopOperator(remote::Port& port, bool operates, std::chrono::nanoseconds release)
-      : session_(port.connect("ROS 2", operates)), release_(release) {}
+      : session_(port.connect(name, operates)), release_(release) {}
 
   /// Asks, and calls a function with the answer: in a later `update`, not in this call.
   /// @return its number

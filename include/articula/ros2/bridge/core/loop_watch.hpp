@@ -85,6 +85,10 @@ class LoopWatch {
     const auto& motions = situation.joint_motions;
     return joint < motions.size() ? motions[joint] : situation.motion;
   }
+  /// Whether an active controller moves a joint to the position of the reference.
+  [[nodiscard]] bool follows(std::size_t joint) const {
+    return joint < situation.following.size() && situation.following[joint];
+  }
   /// Whether a controller has been started, even if it fails.
   [[nodiscard]] bool runs(std::string_view controller) const {
     return status_of(controller) != ControllerStatus::inactive;

@@ -2,17 +2,19 @@
 /// @file The tolerances of a controller's trajectories that bring none.
 #pragma once
 
+#include "articula/core/finite.hpp"
+#include "articula/core/refuse.hpp"
 #include "articula/remote/request.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace articula::ros2 {
 
-/// The constraints of a joint_trajectory_controller, by its parameters' names. 0: as the loop has
-/// it.
+/// The constraints of a joint_trajectory_controller, by its parameters' names. 0 is not checked.
 struct TrajectoryConstraints {
   /// Of one joint.
   struct Joint {
@@ -29,7 +31,7 @@ struct TrajectoryConstraints {
   /// Real-time: no (allocates).
   void complete(remote::PlayTrajectory& request, const std::vector<std::string>& names) const {
     const auto put = [](double& value, double own) {
-      if (value == 0) value = own;
+      if (value == 0) value = own > 0 ? own : -1;  // -1: not that of the loop either
     };
     const auto of = [](std::vector<remote::NamedTolerance>& all,
                        const std::string& name) -> remote::NamedTolerance& {
@@ -46,5 +48,23 @@ struct TrajectoryConstraints {
     put(request.goal_time, goal_time);
   }
 };
+
+/// Refuses constraints that are not finite numbers >= 0.
+/// @param controller  its name, for the message
+/// @throws std::invalid_argument naming controller, constraint and value
+/// Real-time: no (throws).
+inline void validate(std::string_view controller, const TrajectoryConstraints& constraints) {
+  const auto check = [&](std::string_view name, double value) {
+    if (is_finite(value) && value >= 0) return;
+    articula::detail::refuse({"ros2: constraint ", name, " of '", controller, "': ", value,
+                              " is not a finite number >= 0"});
+  };
+  check("goal_time", constraints.goal_time);
+  check("stopped_velocity_tolerance", constraints.stopped_velocity_tolerance);
+  for (const TrajectoryConstraints::Joint& joint : constraints.joints) {
+    check("trajectory", joint.trajectory);
+    check("goal", joint.goal);
+  }
+}
 
 }  // namespace articula::ros2
