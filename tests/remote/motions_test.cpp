@@ -33,23 +33,6 @@ struct Arm : SupervisedArm {
 
   const JointReference<2>& reference() { return std::as_const(loop).reference(); }
   std::vector<std::string> motions() { return remote.situation().joint_motions; }
-  std::optional<Answer> answer_to(std::uint64_t number) {
-    while (const auto answer = session->answer()) answers.push_back(*answer);
-    for (const Answer& answer : answers) {
-      if (answer.request == number) return answer;
-    }
-    return std::nullopt;
-  }
-  /// As RemoteArm's, without losing answers to other requests.
-  Answer ask(const Request& request, int most_cycles = 100) {
-    const auto number = session->ask(request);
-    for (int k = 0; k <= most_cycles; ++k) {
-      if (const auto answer = answer_to(number)) return *answer;
-      cycles(1);
-    }
-    return {number, support::Verdict::timed_out, "the test has waited long enough"};
-  }
-  std::vector<Answer> answers{};
 };
 
 using Motions = std::vector<std::string>;

@@ -140,7 +140,8 @@ TEST_CASE("a reference is set at once for the named joints") {
   CHECK(refused(arm.ask(SetReference{{{elbow, -2}}}),
                 "position -2 rad of joint 'elbow_active_joint'"));
   CHECK(refused(arm.ask(SetReference{{}, {{shoulder, 3}}}), "velocity 3 rad/s of joint"));
-  CHECK(refused(arm.ask(SetReference{{}, {}, {{shoulder, 28}}}), "above the limit 27.94"));
+  CHECK(refused(arm.ask(SetReference{{}, {}, {{shoulder, 28}}}),
+                "is not within -27.94 .. 27.94 N m"));
 }
 
 TEST_CASE("a trajectory is answered at its end") {

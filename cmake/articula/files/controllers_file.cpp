@@ -73,6 +73,8 @@ std::optional<ControllerKind> kind_of(const ControllerConfig& config,
                               has("pidcontroller") || config.type.empty();
   const bool to_velocities =
       interface == "velocity" || config.type.starts_with("velocity_controllers/");
+  if (has("gripper") && has_gains(config) && config.type.starts_with("effort_controllers/"))
+    return pid;
   if (knows_position && has_gains(config)) return to_velocities ? position_by_velocity : pid;
   if (has("positioncontroller") || has("trajectorycontroller") || has("forwardcommand") ||
       has("gripper")) {

@@ -178,7 +178,7 @@ TEST_CASE("parameters have the names and values of the file") {
   std::ofstream(file.path())
       << "controller_manager:\n  ros__parameters:\n    update_rate: 100\n"
          "    arm: {type: joint_trajectory_controller/JointTrajectoryController}\n"
-         "    hand: {type: position_controllers/GripperActionController}\n"
+         "    hand: {type: effort_controllers/GripperActionController}\n"
          "arm:\n  ros__parameters:\n    joints: [shoulder_active_joint]\n"
          "    command_interfaces: [effort]\n"
          "    gains: {shoulder_active_joint: {p: 20.0}}\n"

@@ -8,9 +8,11 @@
 #include <articula/remote/remote.hpp>
 #include <articula/robots/q2d.hpp>
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace support {
 
@@ -34,13 +36,19 @@ class RemoteArm {
     for (int k = 0; k < count; ++k) static_cast<void>(remote.update());
   }
 
+  /// The answer to a request, if it is there. Answers to other requests are kept.
+  std::optional<Answer> answer_to(std::uint64_t number) {
+    while (const auto answer = session->answer()) answers.push_back(*answer);
+    for (const Answer& answer : answers) {
+      if (answer.request == number) return answer;
+    }
+    return std::nullopt;
+  }
   /// Asks and makes cycles until the answer is there.
   Answer ask(const Request& request, int most_cycles = 100) {
     const auto number = session->ask(request);
     for (int k = 0; k <= most_cycles; ++k) {
-      while (const auto answer = session->answer()) {
-        if (answer->request == number) return *answer;
-      }
+      if (const auto answer = answer_to(number)) return *answer;
       cycles(1);
     }
     return {number, Verdict::timed_out, "the test has waited long enough"};
@@ -49,6 +57,7 @@ class RemoteArm {
   LoopType loop;
   articula::remote::Remote<LoopType> remote;
   std::unique_ptr<articula::remote::Session> session;
+  std::vector<Answer> answers{};
 };
 
 using SupervisedArm =

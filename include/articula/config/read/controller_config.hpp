@@ -37,7 +37,7 @@ struct ConfiguredGripper {
 };
 
 /// The note on a parameter of ConfiguredGripper.
-inline constexpr std::string_view gripper_note = "used by a gripper's action in ROS 2 only";
+inline constexpr std::string_view gripper_note = "not used: it is for a gripper's action in ROS 2";
 
 /// A controller's parameters. Those that the file lacks have their defaults.
 struct ControllerConfig {
