@@ -109,12 +109,18 @@ TEST_CASE("whoever asks for a position hears of joints that no controller moves 
   CHECK(arm.remote.situation().following == std::vector<bool>{false, false});
   const std::string end = "no active controller moves to it: '" + std::string(shoulder) + "'";
   CHECK(arm.ask(setting).text == "the reference moves, but " + end);
-  CHECK(arm.ask(SetReference{.positions = {{shoulder, 0.01}}, .efforts = {{shoulder, 1}}})
-            .text.empty());
+  CHECK(arm.ask(SetReference{.efforts = {{shoulder, 1}}}).text.empty());
   const NamedTrajectory trajectory{{shoulder}, {{.time_from_start = 1, .positions = {0.1}}}};
   const auto asked = arm.session->ask(PlayTrajectory{trajectory});
   arm.cycles(1500);
   CHECK(arm.answer_to(asked).value().text == "goal reached, but " + end);
+  const auto with_switch = arm.session->ask(PlayTrajectory{trajectory});
+  arm.cycles(500);
+  REQUIRE(done(arm.ask(SwitchControllers{{"pid_plus_gravity"}, {"floating"}})));
+  arm.cycles(1500);
+  CHECK(arm.answer_to(with_switch).value().text == "goal reached");
+  REQUIRE(done(arm.ask(Deactivate{})));
+  CHECK(arm.remote.situation().following == std::vector<bool>{false, false});
 }
 
 TEST_CASE("of settings that wait, each starts from the one before") {

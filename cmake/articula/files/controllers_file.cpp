@@ -147,7 +147,10 @@ void add_listed(Reading& reading, const articula::ControllerManagerConfig& manag
   const auto all = articula::detail::find_sections(source);
   std::map<std::string, int> single;  // controllers of one joint, by type
   for (const auto& section : all.sections) {
-    if (section.is_listed && articula::detail::is_single_joint(section)) ++single[section.type];
+    const bool is_gripper = section.type.ends_with("/GripperActionController");
+    if (section.is_listed && !is_gripper && articula::detail::is_single_joint(section)) {
+      ++single[section.type];
+    }
   }
   std::vector<std::string> combined;
   for (const articula::ListedController& listed : manager.controllers) {

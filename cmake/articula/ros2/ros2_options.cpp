@@ -12,8 +12,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 #include <regex>
 #include <string>
@@ -76,16 +74,14 @@ ros2::ControllerOptions options_of(const PlannedController& controller) {
   ros2::ControllerOptions options{.command_quantity = quantity_of(controller.kind),
                                   .gain_prefix = config.gain_prefix};
   if (config.type.find('/') != std::string::npos) options.type = config.type;
-  ros2::TrajectoryConstraints constraints;
-  if (controller.has_tolerances) {
-    constraints.goal_time = config.goal_time;
-    constraints.stopped_velocity_tolerance = config.stopped_velocity_tolerance;
-  }
+  options.constraints.emplace();
+  if (controller.has_tolerances) options.constraints->goal_time = config.goal_time;
   for (const articula::ConfiguredJoint& joint : config.joints) {
     options.joints.push_back(joint.name);
-    constraints.joints.push_back({joint.path_tolerance, joint.goal_tolerance});
+    options.constraints->joints.push_back(
+        {joint.path_tolerance, joint.goal_tolerance,
+         controller.has_tolerances ? config.stopped_velocity_tolerance : 0});
   }
-  if (!config.joints.empty()) options.constraints = constraints;
   if (ros2::is_gripper(options.type)) {
     const articula::ConfiguredGripper& gripper = config.gripper;
     options.gripper = {.goal_tolerance = gripper.goal_tolerance,

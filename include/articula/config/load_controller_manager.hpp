@@ -50,7 +50,7 @@ namespace detail {
 
 inline void take_unused_manager_parameters(ConfigMap& map) {
   using enum UnusedParameters::Kind;
-  constexpr std::string_view topics = "the program decides what it publishes and receives";
+  constexpr std::string_view topics = "articula has its own topics and rates";
   constexpr std::string_view always = "the loop always keeps limits and handles faults";
   constexpr std::string_view types = "the types in the program decide what there is";
   take_unused(

@@ -201,3 +201,13 @@ TEST_CASE("tolerances of a gripper are parameters") {
   REQUIRE(arm.send(1, to(1)));
   CHECK(arm.wait_for(1).result.position < 0.5);  // within the tolerance from the beginning
 }
+
+TEST_CASE("a gripper that no controller moves to a position has no goals") {
+  BridgedArm arm(
+      {.controllers = {{"bypass", {.type = simple_type, .gripper = {.joint = elbow_joint}}}}},
+      support::bypass_arm());
+  SendGoal<Simple>::Request request{.goal = to(0.2)};
+  CHECK_FALSE(
+      arm.call<SendGoal<Simple>>("/bypass/gripper_cmd/_action/send_goal", request).accepted);
+  CHECK(arm.logged("no active controller moves joint 'elbow_active_joint' to a position"));
+}

@@ -87,6 +87,10 @@ TEST_CASE("a controller of a group is found under the name that is listed") {
   const auto& topics = arm.transport.topics;
   CHECK(topics.contains("/cell/" + name + "/controller_state"));
   CHECK(topics.contains("/cell/" + name + "/follow_joint_trajectory/_action/feedback"));
+  arm.publish("/cell/" + name + "/commands", std_msgs::msg::Float64MultiArray<Jazzy>{});
+  const auto line = arm.transport.last<rcl_interfaces::msg::Log<Jazzy>>("/rosout");
+  REQUIRE(line);
+  CHECK(line->name == "cell.upper.pid_plus_gravity");
 }
 
 TEST_CASE("controllers are listed with what they claim") {
@@ -330,8 +334,8 @@ TEST_CASE("options that make no sense are refused") {
   CHECK_THROWS_WITH(make_with({.gripper = {.allow_stalling = true}}),
                     "ros2: controller 'pid_plus_gravity' has options of a gripper, but its type, "
                     "joint_trajectory_controller/JointTrajectoryController, is none");
-  CHECK_THROWS_WITH(make_with({.constraints = TrajectoryConstraints{.goal_time = 1}}),
-                    "ros2: constraints of 'pid_plus_gravity' are for 0 joints, not 2");
+  CHECK_THROWS_WITH(make_with({.constraints = TrajectoryConstraints{.joints = {{}}}}),
+                    "ros2: constraints of 'pid_plus_gravity' are for 1 joints, not 2");
   CHECK_THROWS_WITH(make_with({.constraints = TrajectoryConstraints{.goal_time = -1}}),
                     "ros2: constraint goal_time of 'pid_plus_gravity': -1 is not a finite number "
                     ">= 0");

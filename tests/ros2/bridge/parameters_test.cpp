@@ -327,8 +327,9 @@ TEST_CASE("constraints begin as the tolerances of the loop, and 0 is not checked
             .successful);
   trajectory.points = {{.positions = {-1}, .time_from_start = {1, 0}}};
   arm.publish(node + "joint_trajectory", trajectory);
-  arm.run(1500);
+  arm.run(5000);  // longer than goal_time after the end
   CHECK(arm.bridge.dropped().refused == 1);
+  CHECK(arm.loop->port().situation().motion == "rest");
 }
 
 TEST_CASE("constraints of the options hold for their controller") {
@@ -338,6 +339,10 @@ TEST_CASE("constraints of the options hold for their controller") {
   CHECK(get(arm, "constraints.goal_time") == 2);
   CHECK(get(arm, "constraints." + shoulder_joint + ".trajectory") == 0.3);
   CHECK(get(arm, "constraints." + elbow_joint + ".trajectory") == 0);
+  const std::string velocity = "constraints.stopped_velocity_tolerance";
+  CHECK(get(arm, velocity) == 0);
+  CHECK(set_all(arm, {number(velocity, 0.02)}).successful);
+  CHECK(get(arm, velocity) == 0.02);
 }
 
 TEST_CASE("a request for more names than a node has room for is answered without them") {

@@ -201,14 +201,19 @@ class ControllerReader {
 
   void read_gripper() {
     ConfiguredGripper& gripper = config_.gripper;
-    map_.read_not_negative("goal_tolerance", gripper.goal_tolerance);
-    map_.read_not_negative("stall_velocity_threshold", gripper.stall_velocity_threshold);
-    map_.read_not_negative("stall_timeout", gripper.stall_timeout);
-    map_.read_truth("allow_stalling", gripper.allow_stalling);
-    for (const std::string_view key :
-         {"goal_tolerance", "stall_velocity_threshold", "stall_timeout", "allow_stalling"}) {
-      if (const auto value = map_.find(key)) map_.note(*value, gripper_note);
+    const bool is_gripper = config_.type.ends_with("/GripperActionController");
+    const auto note_on = [&](const ConfigNode& value) {
+      map_.note(value, is_gripper ? gripper_note : "not used: the controller is no gripper's");
+    };
+    for (const auto& [key, number] :
+         {std::pair("goal_tolerance", &gripper.goal_tolerance),
+          std::pair("stall_velocity_threshold", &gripper.stall_velocity_threshold),
+          std::pair("stall_timeout", &gripper.stall_timeout)}) {
+      map_.read_not_negative(key, *number);
+      if (const auto value = map_.find(key)) note_on(*value);
     }
+    map_.read_truth("allow_stalling", gripper.allow_stalling);
+    if (const auto value = map_.find("allow_stalling")) note_on(*value);
   }
 
   ControllerConfig config_;

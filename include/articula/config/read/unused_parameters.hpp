@@ -48,9 +48,9 @@ inline void take_unused(ConfigMap& map, const std::vector<UnusedParameters>& all
 inline void take_unused_controller_parameters(ConfigMap& map) {
   using enum UnusedParameters::Kind;
   constexpr std::string_view interfaces = "the types in the program decide what is commanded";
-  constexpr std::string_view topics = "the program decides what it publishes and receives";
+  constexpr std::string_view topics = "articula has its own topics and rates";
   constexpr std::string_view loop = "a loop has one period and one thread";
-  constexpr std::string_view effort = "the limits of the joint hold";
+  constexpr std::string_view limits = "the robot's limits of effort and velocity hold";
   constexpr std::string_view follower = "docs/references.md describes the follower";
   take_unused(
       map, {{words,
@@ -73,9 +73,9 @@ inline void take_unused_controller_parameters(ConfigMap& map) {
             {words, "see SupervisedLoop", {"fallback_controllers"}},
             {truth, "it always is", {"set_current_state_as_first_setpoint"}},
             {truth, "it always does", {"start_with_holding"}},
-            {number, effort, {"max_effort", "max_velocity"}},
-            {text, effort, {"max_effort_interface", "max_velocity_interface"}},
-            {truth, effort, {"use_effort_interface", "use_speed_interface"}},
+            {number, limits, {"max_effort", "max_velocity"}},
+            {text, limits, {"max_effort_interface", "max_velocity_interface"}},
+            {truth, limits, {"use_effort_interface", "use_speed_interface"}},
             {truth, "MoveIt alone reads it", {"default"}},
             {truth,
              follower,

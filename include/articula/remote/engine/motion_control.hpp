@@ -10,6 +10,7 @@
 
 #include <array>
 #include <utility>
+#include <variant>
 
 namespace articula::remote {
 
@@ -39,6 +40,7 @@ class MotionControl {
   }
   /// The joints that an active controller moves to the position of the reference.
   [[nodiscard]] JointArray<bool, joint_count> following() const noexcept {
+    if (!modes_.active()) return {};
     return joints_following_position<joint_count>(loop_.controller());
   }
   /// As asked for.
@@ -77,6 +79,7 @@ class MotionControl {
       own->outcome = outcome;
       own->refusal = source_.refusal(source);
       const bool good = outcome == TrajectoryOutcome::successful;
+      if (good) note_unfollowed(*own);
       returns_.give_back(own, good ? TaskEnd::done : TaskEnd::failed);
     }
   }
@@ -111,10 +114,8 @@ class MotionControl {
   void begin(Task<R>& own, task::Set<joint_count>& wish) noexcept {
     if (!can_begin(own)) return;
     const auto follows = following();
-    const auto& [joints, positions, values] = wish.setting;
     for (int j = 0; j < joint_count; ++j) {
-      const bool has_other = values.velocity[j] != 0 || values.effort[j] != 0;
-      own.unfollowed[j] = positions[j] && !has_other && !follows[j];
+      own.unfollowed[j] = wish.setting.positions[j] && !follows[j];
     }
     source_.set(reference(), wish.setting);
     finish(own);
@@ -125,10 +126,6 @@ class MotionControl {
     own.outcome = begun.outcome;
     own.refusal = begun.refusal;
     if (own.outcome != TrajectoryOutcome::active) return returns_.finish(own, TaskEnd::refused);
-    const auto follows = following();
-    for (int j = 0; j < joint_count; ++j) {
-      own.unfollowed[j] = !wish.trajectory->left_out()[j] && !follows[j];
-    }
     await(own, begun.source);
   }
   void begin(Task<R>& own, task::Play<R>& wish) noexcept {
@@ -187,6 +184,16 @@ class MotionControl {
     if (!own.has_begun) own.bridge = progress->bridge;
     own.has_begun = true;
     own.clock.write({loop_.time(), progress->clock});
+  }
+
+  /// Notes the joints of a trajectory that no controller has moved to its end.
+  void note_unfollowed(Task<R>& own) noexcept {
+    const auto* const wish = std::get_if<task::Follow<R>>(&own.wish);
+    if (wish == nullptr) return;
+    const auto follows = following();
+    for (int j = 0; j < joint_count; ++j) {
+      own.unfollowed[j] = !wish->trajectory->left_out()[j] && !follows[j];
+    }
   }
 
   void stop(const Joints& joints) noexcept {

@@ -14,6 +14,12 @@ std::string number_text(double value) { return articula::detail::message_of({val
 
 }  // namespace
 
+double ControllerParameters::Constraint::value() const {
+  double largest = 0;
+  for (const double* const own : values) largest = std::max(largest, *own);
+  return largest;
+}
+
 ControllerParameters::ControllerParameters(BridgeCore& core, BridgedController& controller)
     : core_(core), controller_(controller) {
   const std::vector<std::string> states{"position", "velocity", "effort"};
@@ -53,7 +59,7 @@ std::vector<NodeParameter> ControllerParameters::list() {
     all.push_back(std::move(parameter));
   }
   for (const Constraint& own : constraints()) {
-    NodeParameter parameter{.value = to_value(own.value)};
+    NodeParameter parameter{.value = to_value(own.value())};
     parameter.descriptor.name = own.name;
     parameter.descriptor.type = parameter.value.type;
     parameter.descriptor.description = own.description;
@@ -66,25 +72,33 @@ std::vector<NodeParameter> ControllerParameters::list() {
 
 std::vector<ControllerParameters::Constraint> ControllerParameters::constraints() {
   TrajectoryConstraints& own = controller_.constraints;
-  std::vector<Constraint> all{
-      {"constraints.goal_time", own.goal_time,
-       "Time to arrive after the last point [s]. 0: not checked."},
-      {"constraints.stopped_velocity_tolerance", own.stopped_velocity_tolerance,
-       "Velocity at the end [rad/s or m/s]. 0: not checked."}};
+  Constraint velocity{"constraints.stopped_velocity_tolerance",
+                      {},
+                      "Velocity of all joints at the end [rad/s or m/s]. 0: not checked."};
+  for (auto& joint : own.joints) velocity.values.push_back(&joint.stopped_velocity);
+  std::vector<Constraint> all{{"constraints.goal_time",
+                               {&own.goal_time},
+                               "Time to arrive after the last point [s]. 0: not checked."},
+                              std::move(velocity)};
   if (controller_.gripper) {
     GripperOptions& gripper = *controller_.gripper;
-    all.push_back({"goal_tolerance", gripper.goal_tolerance, "Distance from the goal [rad or m]."});
-    all.push_back({"stall_velocity_threshold", gripper.stall_velocity_threshold,
+    all.push_back(
+        {"goal_tolerance", {&gripper.goal_tolerance}, "Distance from the goal [rad or m]."});
+    all.push_back({"stall_velocity_threshold",
+                   {&gripper.stall_velocity_threshold},
                    "The joint moves above it [rad/s or m/s]."});
-    all.push_back({"stall_timeout", gripper.stall_timeout,
+    all.push_back({"stall_timeout",
+                   {&gripper.stall_timeout},
                    "Time without motion after which the joint is stalled [s]."});
   }
   for (std::size_t j = 0; j < own.joints.size(); ++j) {
     const std::string prefix = "constraints." + controller_.joints[j];
-    all.push_back({prefix + ".trajectory", own.joints[j].trajectory,
+    all.push_back({prefix + ".trajectory",
+                   {&own.joints[j].trajectory},
                    "Distance from the trajectory [rad or m]. 0: not checked."});
-    all.push_back(
-        {prefix + ".goal", own.joints[j].goal, "Distance at the end [rad or m]. 0: not checked."});
+    all.push_back({prefix + ".goal",
+                   {&own.joints[j].goal},
+                   "Distance at the end [rad or m]. 0: not checked."});
   }
   return all;
 }
@@ -96,7 +110,7 @@ void ControllerParameters::set(const NamedValues& values, OnSet on_asker) {
   };
   const auto all = constraints();
   remote::SetParameters request;
-  std::vector<std::pair<double*, double>> changes;
+  std::vector<std::pair<Constraint, double>> changes;
   for (const auto& own : values) {
     const double value = own.value.double_value;
     const auto found = std::find_if(all.begin(), all.end(),
@@ -105,14 +119,16 @@ void ControllerParameters::set(const NamedValues& values, OnSet on_asker) {
       request.values.push_back(
           {controller_.name + "." + own.name.substr(controller_.gain_prefix.size()), value});
     } else if (std::isfinite(value) && value >= 0) {
-      changes.emplace_back(&found->value, value);
+      changes.emplace_back(*found, value);
     } else {
       return on_set("parameter '" + own.name + "': " + number_text(value) +
                     " is not a finite number >= 0");
     }
   }
   const auto apply = [changes] {
-    for (const auto& [constraint, value] : changes) *constraint = value;
+    for (const auto& [constraint, value] : changes) {
+      for (double* const own : constraint.values) *own = value;
+    }
   };
   if (request.values.empty()) {
     const std::string refusal = core_.loop_operator.session().take_controls();

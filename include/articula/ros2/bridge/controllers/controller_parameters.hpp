@@ -38,11 +38,14 @@ class ControllerParameters final : public ParameterStore {
 
  private:
   BridgeCore& core_;
-  /// A constraint and its parameter.
+  /// A parameter, and the constraints that it sets.
   struct Constraint {
     std::string name;
-    double& value;
+    std::vector<double*> values;
     std::string description;
+
+    /// The largest of them.
+    [[nodiscard]] double value() const;
   };
   [[nodiscard]] std::vector<Constraint> constraints();
 

@@ -126,7 +126,7 @@ void ControllerTopics::take(const TrajectoryPointMessage& message) {
 
 void ControllerTopics::take(const TrajectoryMessage& message) {
   if (!is_active("joint_trajectory")) return;
-  const std::string reason = foreign_joint(controller_, message.joint_names);
+  const std::string reason = refusal_of_motion(core_.watch, controller_, message.joint_names);
   if (!reason.empty()) return refuse(reason);
   remote::PlayTrajectory request = to_request(message, core_.context.now, core_.watch.speed());
   controller_.constraints.complete(request, controller_.joints);
@@ -151,9 +151,7 @@ void ControllerTopics::set(const remote::SetReference& reference) {
   const std::chrono::nanoseconds asked = core_.context.now;
   core_.loop_operator.ask(reference, [this, reference, asked](const remote::Answer& answer) {
     if (answer.verdict != remote::Verdict::done) return refuse(answer.text);
-    if (!answer.text.empty()) {
-      core_.log.write(RosLog::Line::warn, controller_.node, "commands: " + answer.text);
-    }
+    if (!answer.text.empty()) core_.log.write(RosLog::Line::warn, controller_.node, answer.text);
     for (std::size_t k = 0; k < controller_.joints.size(); ++k) {
       const auto names_it = [&](const auto& own) { return own.joint == controller_.joints[k]; };
       const bool is_named = std::ranges::any_of(reference.positions, names_it) ||

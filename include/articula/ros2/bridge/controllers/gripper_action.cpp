@@ -82,7 +82,12 @@ class GripperAction final : public ControllerAction {
     const LoopWatch& watch = core_.watch;
     if (!watch.is_active(controller_.name)) {
       if (watch.situation.mode == LoopMode::active) {
-        core_.loop_operator.ask(remote::Stop{{options_.joint}}, [](const remote::Answer&) {});
+        core_.loop_operator.ask(remote::Stop{{options_.joint}},
+                                [this](const remote::Answer& answer) {
+                                  if (answer.verdict != remote::Verdict::done) {
+                                    core_.log.refuse(controller_.node, "stop: " + answer.text);
+                                  }
+                                });
       }
       return end(Status::canceled);
     }
@@ -141,7 +146,7 @@ class GripperAction final : public ControllerAction {
     if (!core_.watch.is_active(controller_.name)) {
       return reject(id, "Can't accept new action goals. Controller is not running.");
     }
-    if (std::string reason = unfollowed_joint(core_.watch, controller_, {}); !reason.empty()) {
+    if (std::string reason = refusal_of_motion(core_.watch, controller_, {}); !reason.empty()) {
       return reject(id, reason);
     }
     const auto& command = to_command(goal);

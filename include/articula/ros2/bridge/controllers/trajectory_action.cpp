@@ -72,10 +72,8 @@ class Action final : public ControllerAction {
       return reject(id, "Can't accept new action goals. Controller is not running.");
     }
     const auto& joints = goal.trajectory.joint_names;
-    for (const std::string& reason :
-         {foreign_joint(controller_, joints), unfollowed_joint(core_.watch, controller_, joints)}) {
-      if (!reason.empty()) return reject(id, reason);
-    }
+    const std::string reason = refusal_of_motion(core_.watch, controller_, joints);
+    if (!reason.empty()) return reject(id, reason);
     remote::PlayTrajectory request =
         to_request(goal.trajectory, core_.context.now, core_.watch.speed());
     request.path_tolerances = to_request(goal.path_tolerance);
@@ -106,7 +104,11 @@ class Action final : public ControllerAction {
   }
 
   void stop(const remote::Stop& request) {
-    core_.loop_operator.ask(request, [](const remote::Answer&) {});
+    core_.loop_operator.ask(request, [this](const remote::Answer& answer) {
+      if (answer.verdict != remote::Verdict::done) {
+        core_.log.refuse(controller_.node, "stop: " + answer.text);
+      }
+    });
   }
 
   bool cancel(const GoalId& id) {

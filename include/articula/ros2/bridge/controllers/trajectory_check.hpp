@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// @file The check of the joints of a trajectory before a loop gets it.
+/// @file The check of joints before a loop is asked to move them to positions.
 #pragma once
 
 #include "articula/ros2/bridge/core/bridged_controller.hpp"
@@ -12,29 +12,24 @@
 
 namespace articula::ros2 {
 
-/// Why joints are not those of a controller; empty if they are. Real-time: no (allocates).
-[[nodiscard]] inline std::string foreign_joint(const BridgedController& controller,
-                                               const std::vector<std::string>& joints) {
+/// Why a controller cannot move joints to positions: they are not its own, or it follows efforts or
+/// velocities alone. Empty if it can. Real-time: no (allocates).
+/// @param joints  empty: all joints of the controller
+[[nodiscard]] inline std::string refusal_of_motion(const LoopWatch& watch,
+                                                   const BridgedController& controller,
+                                                   const std::vector<std::string>& joints) {
+  const auto contains = [](const std::vector<std::string>& all, const std::string& joint) {
+    return std::find(all.begin(), all.end(), joint) != all.end();
+  };
   for (const std::string& joint : joints) {
-    const auto& own = controller.joints;
-    if (std::find(own.begin(), own.end(), joint) != own.end()) continue;
+    if (contains(controller.joints, joint)) continue;
     return "Incoming joint " + joint + " doesn't match the controller's joints.";
   }
-  return {};
-}
-
-/// Why joints cannot reach a goal: a controller of efforts or velocities moves them to no position.
-/// Empty if they can. Real-time: no (allocates).
-/// @param joints  of the controller; empty: all of them
-[[nodiscard]] inline std::string unfollowed_joint(const LoopWatch& watch,
-                                                  const BridgedController& controller,
-                                                  const std::vector<std::string>& joints) {
   for (std::size_t k = 0; k < controller.joints.size(); ++k) {
     const std::string& own = controller.joints[k];
-    const bool is_named =
-        joints.empty() || std::find(joints.begin(), joints.end(), own) != joints.end();
-    if (!is_named || watch.follows(controller.indices[k])) continue;
-    return "no active controller moves joint '" + own + "' to a position";
+    if (watch.follows(controller.indices[k])) continue;
+    if (joints.empty() || contains(joints, own))
+      return "no active controller moves joint '" + own + "' to a position";
   }
   return {};
 }

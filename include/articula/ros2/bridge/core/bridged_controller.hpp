@@ -81,25 +81,24 @@ struct BridgedController {
   return gripper;
 }
 
-/// The constraints of a controller that the options give, or the tolerances of the Remote. The
-/// velocity at the end is the largest one of its joints.
+/// The constraints of a controller that the options give, or the tolerances of the Remote.
 /// @throws std::invalid_argument if the options have another number of joints
 /// Real-time: no (allocates).
 [[nodiscard]] inline TrajectoryConstraints constraints_of(const remote::RobotSheet& robot,
                                                           const BridgedController& own,
                                                           const ControllerOptions& options) {
   if (options.constraints) {
-    const std::size_t count = options.constraints->joints.size();
-    if (count == own.joints.size()) return *options.constraints;
-    articula::detail::refuse({"ros2: constraints of '", own.name, "' are for ", count,
-                              " joints, not ", own.joints.size()});
+    TrajectoryConstraints constraints = *options.constraints;
+    if (constraints.joints.empty()) constraints.joints.resize(own.joints.size());
+    if (constraints.joints.size() == own.joints.size()) return constraints;
+    articula::detail::refuse({"ros2: constraints of '", own.name, "' are for ",
+                              constraints.joints.size(), " joints, not ", own.joints.size()});
   }
   TrajectoryConstraints constraints{.goal_time = robot.goal_time};
   for (const std::size_t index : own.indices) {
     const remote::SheetJoint& joint = robot.joints[index];
-    constraints.joints.push_back({joint.path_tolerance, joint.goal_tolerance});
-    constraints.stopped_velocity_tolerance =
-        std::max(constraints.stopped_velocity_tolerance, joint.stopped_velocity);
+    constraints.joints.push_back(
+        {joint.path_tolerance, joint.goal_tolerance, joint.stopped_velocity});
   }
   return constraints;
 }

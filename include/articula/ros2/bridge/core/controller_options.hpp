@@ -23,7 +23,8 @@ struct ControllerOptions {
   /// positions, or efforts if the controller has no gains.
   std::string command_quantity{};
   std::optional<std::string> gain_prefix{};  ///< none: BridgeOptions::gain_prefix
-  /// Of trajectories, with an entry for each of its joints. None: the tolerances of the Remote.
+  /// Of trajectories, with an entry for each of its joints or none. Without constraints: the
+  /// tolerances of the Remote.
   std::optional<TrajectoryConstraints> constraints{};
   GripperOptions gripper{};  ///< if the type is a gripper's; it offers the action gripper_cmd
 };

@@ -18,13 +18,13 @@ namespace articula::ros2 {
 struct TrajectoryConstraints {
   /// Of one joint.
   struct Joint {
-    double trajectory = 0;  ///< before the end [rad or m]
-    double goal = 0;        ///< at the end [rad or m]
+    double trajectory = 0;        ///< before the end [rad or m]
+    double goal = 0;              ///< at the end [rad or m]
+    double stopped_velocity = 0;  ///< at the end [rad/s or m/s]; in ROS one for all joints
   };
 
-  double goal_time = 0;                   ///< time to arrive after the last point [s]
-  double stopped_velocity_tolerance = 0;  ///< at the end [rad/s or m/s]
-  std::vector<Joint> joints{};            ///< in the order of the controller's joints
+  double goal_time = 0;         ///< time to arrive after the last point [s]
+  std::vector<Joint> joints{};  ///< in the order of the controller's joints
 
   /// Puts constraints where a request has no tolerance of its own.
   /// @param names  of the controller's joints
@@ -43,7 +43,7 @@ struct TrajectoryConstraints {
       put(of(request.path_tolerances, names[j]).position, joints[j].trajectory);
       auto& at_goal = of(request.goal_tolerances, names[j]);
       put(at_goal.position, joints[j].goal);
-      put(at_goal.velocity, stopped_velocity_tolerance);
+      put(at_goal.velocity, joints[j].stopped_velocity);
     }
     put(request.goal_time, goal_time);
   }
@@ -60,10 +60,10 @@ inline void validate(std::string_view controller, const TrajectoryConstraints& c
                               " is not a finite number >= 0"});
   };
   check("goal_time", constraints.goal_time);
-  check("stopped_velocity_tolerance", constraints.stopped_velocity_tolerance);
   for (const TrajectoryConstraints::Joint& joint : constraints.joints) {
     check("trajectory", joint.trajectory);
     check("goal", joint.goal);
+    check("stopped_velocity", joint.stopped_velocity);
   }
 }
 
