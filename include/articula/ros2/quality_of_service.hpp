@@ -2,6 +2,7 @@
 /// @file The quality of service of each kind of topic of ROS 2.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 
 namespace articula::ros2 {
@@ -12,6 +13,8 @@ struct QualityOfService {
   std::size_t depth = 1;         ///< samples that are kept
   /// For readers: samples may be lost. Writers that offer no more match as well as reliable ones.
   bool best_effort = false;
+  /// For writers: samples older than this are not sent to late readers. 0: they have no end.
+  std::chrono::seconds lifespan{0};
 };
 
 namespace quality_of_service {
@@ -36,7 +39,8 @@ inline constexpr QualityOfService tf_static{.transient_local = true, .depth = 1}
 inline constexpr QualityOfService activity{.transient_local = true, .depth = 1};
 /// Of introspection_data and statistics. Their readers ask for samples of before.
 inline constexpr QualityOfService numbers{.transient_local = true, .depth = 1};
-inline constexpr QualityOfService log{.transient_local = true, .depth = 1000};
+inline constexpr QualityOfService log{
+    .transient_local = true, .depth = 1000, .lifespan = std::chrono::seconds(10)};
 inline constexpr QualityOfService parameter_events{.transient_local = false, .depth = 1000};
 inline constexpr QualityOfService clock{.transient_local = false, .depth = 1};
 inline constexpr QualityOfService discovery_info{.transient_local = true, .depth = 1};

@@ -51,6 +51,7 @@ TEST_CASE("interfaces are told by name: measured states and commands of the last
   const auto names = arm.transport.last<msg::StatisticsNames<Jazzy>>(data + "names");
   const auto values = arm.transport.last<msg::StatisticsValues<Jazzy>>(data + "values");
   REQUIRE((names && values));
+  CHECK(names->header.stamp.sec > 0);
   CHECK(names->names_version == values->names_version);
   REQUIRE(names->names.size() == values->values.size());
   for (std::size_t k = 0; k < names->names.size(); ++k) {

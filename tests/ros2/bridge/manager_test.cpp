@@ -93,6 +93,18 @@ TEST_CASE("a controller of a group is found under the name that is listed") {
   CHECK(line->name == "cell.upper.pid_plus_gravity");
 }
 
+TEST_CASE("a loop with one controller is already as a spawner wants it") {
+  BridgedArm arm({}, support::plain_arm());
+  const std::vector<std::string> own{"pid_plus_gravity"};
+  constexpr int best_effort = 1, strict = 2;
+  const auto begun = switch_to(arm, own, {}, best_effort);
+  CHECK(begun.ok);
+  CHECK(begun.message.find("nothing to switch") != std::string::npos);
+  CHECK_FALSE(switch_to(arm, own, {}, strict).ok);
+  CHECK_FALSE(switch_to(arm, {}, own, best_effort).ok);
+  CHECK_FALSE(switch_to(arm, {"pid"}, {}, best_effort).ok);
+}
+
 TEST_CASE("controllers are listed with what they claim") {
   BridgedArm arm;
   set_hardware(arm, "active");

@@ -286,6 +286,27 @@ TEST_CASE("all nodes have parameters") {
   CHECK(type.values[0].string_value == "joint_trajectory_controller/JointTrajectoryController");
 }
 
+TEST_CASE("a text that is a number is taken for one, as `ros2 param load` sends it") {
+  BridgedArm arm;
+  const std::string clamp = "gains." + shoulder_joint + ".u_clamp_max";
+  const auto text = [](const std::string& name, const std::string& value) {
+    return Parameter{name, to_value(value)};
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  CHECK(get(arm, clamp) == infinity);
+  CHECK(set(arm, {text(clamp, "inf")})[0].successful);
+  CHECK(set(arm, {text(clamp, "20.5")})[0].successful);
+  CHECK(get(arm, clamp) == 20.5);
+  CHECK(set(arm, {text(clamp, ".inf")})[0].successful);
+  CHECK(get(arm, clamp) == infinity);
+  CHECK(set(arm, {text(p, "1e-05")})[0].successful);
+  CHECK(get(arm, p) == 1e-5);
+  for (const char* value : {"", "nan", "20 N", "0x", "-inf"}) {
+    CAPTURE(value);
+    CHECK_FALSE(set(arm, {text(p, value)})[0].successful);
+  }
+}
+
 TEST_CASE("constraints are parameters, and hold for trajectories that bring no tolerances") {
   BridgedArm arm;
   arm.ask(remote::Activate{});

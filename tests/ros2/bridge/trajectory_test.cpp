@@ -200,6 +200,8 @@ TEST_CASE("a canceled goal stops the robot") {
   CHECK(canceled.return_code == Cancel::none);
   REQUIRE(canceled.goals_canceling.size() == 1);
   CHECK(canceled.goals_canceling[0].goal_id.uuid[0] == 1);
+  CHECK(
+      arm.call<Cancel>(action + "cancel_goal").goals_canceling.empty());  // it is canceled already
   const auto response = arm.reply_to<Get>(result);
   CHECK(response.status == GoalState::canceled);
   CHECK(response.result.error_code == 0);

@@ -208,5 +208,5 @@ TEST_CASE("parameters have the names and values of the file") {
   CHECK(hand[3].bool_value);
   const auto end = program.end();
   CHECK(end.exit_code == 0);
-  CHECK(end.err.find("gripper") == std::string::npos);
+  CHECK(end.errors.find("gripper") == std::string::npos);
 }

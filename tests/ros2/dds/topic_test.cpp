@@ -78,6 +78,23 @@ TEST_CASE("late readers get the last message of a transient local writer") {
   CHECK(states == std::vector<std::string>{"after the match"});
 }
 
+TEST_CASE("late readers get no message whose lifespan is over") {
+  FastDdsTransport transport({.domain = domain()});
+  const auto writer = transport.advertise(text_topic(
+      "/arm/log", {.transient_local = true, .depth = 10, .lifespan = std::chrono::seconds(1)}));
+  writer->write(text_bytes("old"));
+  poll_for(transport, std::chrono::milliseconds(1100));
+  writer->write(text_bytes("new"));
+  CyclonePeer peer(domain());
+  const int reader = peer.make_reader("rt/arm/log", true);
+  std::vector<std::string> texts;
+  REQUIRE(poll_until(transport, [&] {
+    for (const std::string& text : peer.take(reader)) texts.push_back(text);
+    return !texts.empty() && texts.back() == "new";
+  }));
+  CHECK(texts.size() == 1);
+}
+
 TEST_CASE("a late subscription gets the last message of a transient local peer") {
   FastDdsTransport transport({.domain = domain()});
   CyclonePeer peer(domain());

@@ -57,9 +57,10 @@ struct BridgeNodes::Parts {
     if (options.distribution >= Distribution::jazzy) introspection.emplace(core);
     const auto sim_time = read_only("use_sim_time", to_value(options.use_sim_time),
                                     "Whether stamps have a simulator's time.");
-    std::vector<NodeParameter> all{sim_time};
+    std::vector<NodeParameter> all{sim_time, core.update_rate(),
+                                   type_of(BridgeCore::broadcaster, BridgeCore::broadcaster_type)};
     for (const BridgedController& own : core.controllers) {
-      all.push_back(read_only(own.name + ".type", to_value(own.type), "Type of the controller."));
+      all.push_back(type_of(own.name, own.type));
     }
     fixed.push_back(std::make_unique<FixedNode>(core.manager, std::move(all)));
     fixed.push_back(
@@ -79,6 +80,10 @@ struct BridgeNodes::Parts {
     for (BridgedController& own : core.controllers) {
       controllers.push_back(std::make_unique<ControllerNode>(core, own));
     }
+  }
+
+  static NodeParameter type_of(const std::string& controller, std::string type) {
+    return read_only(controller + ".type", to_value(std::move(type)), "Type of the controller.");
   }
 
   void log_events() {

@@ -39,8 +39,10 @@ NumberTopics::NumberTopics(BridgeCore& core, const std::string& name,
       names_(std::move(names)),
       names_topic_(core.manager, name + "/names", quality_of_service::numbers),
       values_topic_(core.manager, name + "/values", quality_of_service::numbers),
-      full_topic_(core.manager, name + "/full", quality_of_service::numbers) {
-  names_topic_.publish({.header = core.header(), .names = names_, .names_version = 1});
+      full_topic_(core.manager, name + "/full", quality_of_service::numbers) {}
+
+void NumberTopics::publish_names() {
+  names_topic_.publish({.header = core_.header(), .names = names_, .names_version = 1});
 }
 
 bool NumberTopics::has_readers() const {
@@ -68,6 +70,10 @@ Introspection::Introspection(BridgeCore& core)
       due_(core.options.state_rate) {}
 
 void Introspection::update() {
+  if (!std::exchange(has_named_, true)) {
+    interfaces_.publish_names();
+    statistics_.publish_names();
+  }
   if (!core_.watch.has_new_cycle(published_cycle_) || !due_.due(core_.context.now)) return;
   published_cycle_ = core_.watch.cycle.number;
   if (interfaces_.has_readers()) interfaces_.publish(interfaces());

@@ -23,6 +23,8 @@ class NumberTopics {
   /// @param names  of the numbers
   NumberTopics(BridgeCore& core, const std::string& name, std::vector<std::string> names);
 
+  /// Names stay for late readers.
+  void publish_names();
   /// Whether somebody reads numbers.
   [[nodiscard]] bool has_readers() const;
   /// @param values  as many as there are names
@@ -61,6 +63,7 @@ class Introspection {
   NumberTopics interfaces_;
   NumberTopics statistics_;
   Periodic due_;
+  bool has_named_ = false;
   std::optional<std::uint64_t> published_cycle_{};
 };
 

@@ -144,7 +144,7 @@ class Services final : public ManagerServices {
       own.required_state_interfaces = interfaces(joints, {"position", "velocity", "effort"});
       all.push_back(std::move(own));
     };
-    add(BridgeCore::broadcaster, "joint_state_broadcaster/JointStateBroadcaster", joints_, {});
+    add(BridgeCore::broadcaster, BridgeCore::broadcaster_type, joints_, {});
     for (const BridgedController& own : core_.controllers) {
       add(own.name, own.type, own.joints, interfaces(own.joints, core_.port.robot().commands));
     }
@@ -210,7 +210,7 @@ class Services final : public ManagerServices {
       if (ok && !text.empty()) core_.log.write(RosLog::Line::warn, "controller_manager", line);
       typename srv::SwitchController<Layout>::Response response;
       response.ok = ok;
-      set_text(response.message, text.empty() ? "done" : text);
+      set_text(response.message, text.empty() ? "Successfully switched controllers!" : text);
       reply.send(response);
     };
     constexpr int best_effort = 1, force_automatic = 4;
@@ -244,7 +244,11 @@ class Services final : public ManagerServices {
     }
     core_.loop_operator.ask(
         wanted, [this, answer, broadcast, left_out, wanted](const remote::Answer& own) {
-          if (own.verdict != remote::Verdict::done) return answer(false, own.text);
+          if (own.verdict != remote::Verdict::done) {
+            // A loop without a Switch refuses also to start what it runs.
+            if (!wanted.best_effort || !is_done(wanted)) return answer(false, own.text);
+            return broadcast(), answer(true, own.text);
+          }
           broadcast();
           const std::string text = own.text.empty() ? left_out : own.text;
           core_.watch.situation = core_.port.situation();
@@ -257,6 +261,12 @@ class Services final : public ManagerServices {
         });
   }
 
+  /// Whether all that shall start is active, and nothing shall stop.
+  [[nodiscard]] bool is_done(const remote::SwitchControllers& wanted) const {
+    return wanted.stop.empty() && std::ranges::all_of(wanted.start, [this](const auto& name) {
+             return core_.watch.is_active(name);
+           });
+  }
   static std::string not_done(const char* what) {
     return std::string("controller '") + BridgeCore::broadcaster + "'" + what;
   }

@@ -206,6 +206,7 @@ void Participant::poll(std::chrono::microseconds longest) {
     send_graph();
     send_waiting_replies();
     remove_leaving_writers();
+    for (const auto& writer : writers_) writer->forget_old();
     const bool any = inbox_.deliver();
     if (any || Clock::now() >= end) return;
     Clock::time_point next = end;

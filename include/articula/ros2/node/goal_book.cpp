@@ -9,6 +9,11 @@ namespace articula::ros2 {
 
 namespace {
 
+/// As in rcl: not one that has ended or is being canceled already.
+bool can_be_canceled(std::int8_t status) {
+  return !GoalBook::has_ended(status) && status != GoalBook::Status::canceling;
+}
+
 action_msgs::msg::GoalInfo info_of(const GoalEntry& goal) {
   return {{goal.id}, to_message<builtin_interfaces::msg::Time>(goal.accepted)};
 }
@@ -43,14 +48,14 @@ GoalBook::Selection GoalBook::select(const action_msgs::msg::GoalInfo& request) 
   if (by_id && !by_stamp) {
     const GoalEntry* const goal = find(id);
     if (goal == nullptr) return {Codes::unknown_goal, {}};
-    if (has_ended(goal->status)) return {Codes::goal_terminated, {}};
+    if (!can_be_canceled(goal->status)) return {Codes::goal_terminated, {}};
     return {Codes::none, {id}};
   }
   Selection selection;
   for (const GoalEntry& goal : goals_) {
     const bool early = by_stamp && goal.accepted <= from_message(request.stamp);
     const bool meant = goal.id == id || early || (!by_id && !by_stamp);
-    if (meant && !has_ended(goal.status)) selection.goals.push_back(goal.id);
+    if (meant && can_be_canceled(goal.status)) selection.goals.push_back(goal.id);
   }
   return selection;
 }

@@ -4,11 +4,14 @@
 #include "articula/ros2/messages/type_description_interfaces.hpp"
 #include "articula/ros2/node/ros_time.hpp"
 #include "articula/ros2/node/service.hpp"
+#include "articula/text/numbers.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -61,6 +64,14 @@ bool is_listed(std::string_view name, const services::ListParameters<Jazzy>::Req
                        if (!name.starts_with(prefix + ".")) return false;
                        return unlimited || depth_of(name.substr(prefix.size() + 1)) < request.depth;
                      });
+}
+
+/// The number that is all of a text, also an infinite one as Python writes it.
+std::optional<double> number_in(std::string_view text) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (text == "inf" || text == ".inf") return infinity;
+  if (text == "-inf" || text == "-.inf") return -infinity;
+  return articula::detail::number_of(text);
 }
 
 }  // namespace
@@ -259,6 +270,11 @@ std::string ParameterServer::check(const std::vector<NodeParameter>& all,
   }
   if (own->value.type == Type::floating_point && wanted.value.type == Type::integer) {
     wanted.value = to_value(static_cast<double>(wanted.value.integer_value));
+  }
+  if (own->value.type == Type::floating_point && wanted.value.type == Type::string) {
+    // `ros2 param load` sends .inf and 1.0e-05 as the texts "inf" and "1e-05".
+    const auto number = number_in(wanted.value.string_value);
+    if (number) wanted.value = to_value(*number);
   }
   if (wanted.value.type != own->value.type) {
     return "Wrong parameter type, parameter {" + wanted.name + "} is of type {" +

@@ -23,16 +23,13 @@ double ControllerParameters::Constraint::value() const {
 ControllerParameters::ControllerParameters(BridgeCore& core, BridgedController& controller)
     : core_(core), controller_(controller) {
   const std::vector<std::string> states{"position", "velocity", "effort"};
-  fixed_ = {
-      read_only("command_interfaces", to_value(core.port.robot().commands),
-                "What is commanded of each joint."),
-      read_only("joints", to_value(controller.joints), "The joints that are commanded."),
-      read_only("state_interfaces", to_value(states), "What is measured of each joint."),
-      read_only("update_rate",
-                to_value(static_cast<std::int64_t>(std::lround(1 / core.port.robot().period))),
-                "Cycles of the loop in a second."),
-      read_only("use_sim_time", to_value(core.options.use_sim_time),
-                "Whether stamps have a simulator's time.")};
+  fixed_ = {read_only("command_interfaces", to_value(core.port.robot().commands),
+                      "What is commanded of each joint."),
+            read_only("joints", to_value(controller.joints), "The joints that are commanded."),
+            read_only("state_interfaces", to_value(states), "What is measured of each joint."),
+            core.update_rate(),
+            read_only("use_sim_time", to_value(core.options.use_sim_time),
+                      "Whether stamps have a simulator's time.")};
   if (controller.gripper) {
     fixed_.push_back(read_only("joint", to_value(controller.gripper->joint), "The joint."));
     fixed_.push_back(read_only("allow_stalling", to_value(controller.gripper->allow_stalling),

@@ -9,9 +9,12 @@
 #include "articula/ros2/bridge/core/ros_log.hpp"
 #include "articula/ros2/messages/std_msgs.hpp"
 #include "articula/ros2/node/node.hpp"
+#include "articula/ros2/node/parameter_server.hpp"
 #include "articula/ros2/node/ros_time.hpp"
 
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -36,7 +39,15 @@ struct BridgeCore {
             .frame_id = std::move(frame)};
   }
 
+  /// The read-only parameter update_rate.
+  [[nodiscard]] NodeParameter update_rate() const {
+    return read_only("update_rate",
+                     to_value(static_cast<std::int64_t>(std::lround(1 / port.robot().period))),
+                     "Cycles of the loop in a second.");
+  }
+
   static constexpr const char* broadcaster = "joint_state_broadcaster";
+  static constexpr const char* broadcaster_type = "joint_state_broadcaster/JointStateBroadcaster";
 
   remote::Port& port;
   BridgeOptions options;

@@ -54,6 +54,8 @@ Writer::Writer(rtps::RTPSParticipant& participant, Inbox& inbox, Endpoint endpoi
   quality.m_durability.kind = endpoint_.quality.transient_local
                                   ? eprosima::fastrtps::TRANSIENT_LOCAL_DURABILITY_QOS
                                   : eprosima::fastrtps::VOLATILE_DURABILITY_QOS;
+  const auto lifespan = static_cast<std::int32_t>(endpoint_.quality.lifespan.count());
+  if (lifespan > 0) quality.m_lifespan.duration = {lifespan, 0};
   if (!endpoint_.hash.empty()) {
     quality.m_userData.data_vec(octets(type_hash_user_data(endpoint_.hash)));
   }
@@ -86,6 +88,18 @@ void Writer::write(Sample sample, const rtps::SampleIdentity& related) {
   rtps::WriteParams parameters;
   parameters.related_sample_identity(related);
   if (!history_.add_change(change, parameters)) writer_->release_change(change);
+}
+
+void Writer::forget_old() {
+  const std::chrono::nanoseconds lifespan = endpoint_.quality.lifespan;
+  if (lifespan.count() == 0) return;
+  rtps::Time_t now;
+  rtps::Time_t::now(now);
+  rtps::CacheChange_t* oldest = nullptr;
+  while (history_.get_min_change(&oldest) &&
+         now.to_ns() - oldest->sourceTimestamp.to_ns() > lifespan.count()) {
+    history_.remove_min_change();
+  }
 }
 
 void Writer::send_heartbeat() {

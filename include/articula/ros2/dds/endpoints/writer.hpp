@@ -36,6 +36,8 @@ class Writer final : public eprosima::fastrtps::rtps::WriterListener {
   void write(Sample sample, const eprosima::fastrtps::rtps::SampleIdentity& related =
                                 eprosima::fastrtps::rtps::SampleIdentity::unknown());
 
+  /// Forgets messages whose lifespan is over.
+  void forget_old();
   /// Asks the readers to say which messages they have.
   void request_acknowledgements();
   /// Waits until all readers have said that they have all messages, or until a time.
