@@ -23,6 +23,7 @@ int main() try {
   ros2::BridgeOptions options{.distribution = ros2::Distribution::jazzy};
   options.dds.domain = ros2::domain_id();
   options.gain_prefix = "";  // `ros2 param set` names a gain shoulder_active_joint.p
+  options.controllers["group_bypass"].type = "effort_controllers/JointGroupEffortController";
 
   // `overruns` tolerates the overruns of a desktop machine; omit it for an arm.
   SupervisedLoop<Q2dSim, Controllers> arm(

@@ -136,8 +136,9 @@ Attach ros2_bridge(const Ros2Options& options, const ControllersPlan& plan) {
     bridge.controllers[controller.name] = options_of(controller);
   }
   return [bridge, options](articula::remote::Port& port) -> std::shared_ptr<void> {
+    auto attached = std::make_shared<ros2::Bridge>(port, bridge);
     tell(options);
-    return std::make_shared<ros2::Bridge>(port, bridge);
+    return attached;
   };
 #else
   static_cast<void>(plan);
@@ -151,7 +152,6 @@ Attach ros2_robot(const Ros2Options& options) {
 #ifdef ARTICULA_PROGRAM_HAS_ROS2
   if (!options.operates) throw Refusal("--read-only: a robot behind topics takes commands");
   return [options](articula::remote::Port& port) -> std::shared_ptr<void> {
-    tell(options);
     const ros2::Distribution distribution = distribution_of(options);
     ros2::TopicRobotOptions topics{.distribution = distribution};
     topics.name_space = options.name_space;
@@ -160,8 +160,10 @@ Attach ros2_robot(const Ros2Options& options) {
     };
     topics.joint_states_topic = options.name_space + topics.joint_states_topic;
     topics.joint_commands_topic = options.name_space + topics.joint_commands_topic;
-    return std::make_shared<ros2::TopicRobot>(
+    auto attached = std::make_shared<ros2::TopicRobot>(
         port, std::make_unique<ros2::FastDdsTransport>(dds_of(options), distribution), topics);
+    tell(options);
+    return attached;
   };
 #else
   return {};

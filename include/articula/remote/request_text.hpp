@@ -42,8 +42,8 @@ namespace articula::remote {
          std::holds_alternative<Go>(request);
 }
 
-/// A request with what it changes, as "set_parameters pid.elbow.p = 300"; of many gains or
-/// controllers the first four.
+/// A request with what it changes, as "set_parameters pid.elbow.p = 300"; of many gains,
+/// controllers or joints the first four.
 [[nodiscard]] inline std::string in_words(const Request& request) {
   constexpr std::size_t most = 4;
   std::string text(name_of(request));
@@ -53,14 +53,18 @@ namespace articula::remote {
     }
     if (list.size() > most) text += " and " + std::to_string(list.size() - most) + " more";
   };
+  const auto same = [](const std::string& name) { return name; };
   if (const auto* set = std::get_if<SetParameters>(&request)) {
     add(" ", set->values, [](const ParameterValue& own) {
       return own.name + " = " + articula::detail::number_text(own.value);
     });
   } else if (const auto* change = std::get_if<SwitchControllers>(&request)) {
-    const auto same = [](const std::string& name) { return name; };
     add(" start ", change->start, same);
     add(" stop ", change->stop, same);
+  } else if (const auto* play = std::get_if<PlayTrajectory>(&request)) {
+    add(" of ", play->trajectory.joint_names, same);
+  } else if (const auto* speed = std::get_if<SetTrajectorySpeed>(&request)) {
+    text += " " + articula::detail::number_text(speed->factor);
   }
   return text;
 }

@@ -157,7 +157,8 @@ TEST_CASE("another motion, and the end of its controller, end a gripper's goal")
   CHECK(arm.call<controller_manager_msgs::srv::SetHardwareComponentState<Jazzy>>(
                "/controller_manager/set_hardware_component_state", hardware)
             .ok);
-  CHECK(arm.wait_for(2).status == GoalState::canceled);
+  CHECK(arm.wait_for(2).status == GoalState::aborted);
+  CHECK(arm.logged("goal: the controller is not active any more"));
   CHECK_FALSE(arm.send(3, to(0)));
   CHECK(arm.logged("Controller is not running"));
 }

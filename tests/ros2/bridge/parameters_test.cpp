@@ -382,6 +382,16 @@ TEST_CASE("a request for more names than a node has room for is answered without
   CHECK(arm.call<Get>(service, request).values.size() == 1000);
 }
 
+TEST_CASE("the feed-forward of velocity has the name of ROS") {
+  BridgedArm arm;
+  const std::string name = "gains." + shoulder_joint + ".ff_velocity_scale";
+  CHECK(get(arm, name) == 0);
+  CHECK(set(arm, {number(name, 1.5)})[0].successful);
+  CHECK(get(arm, name) == 1.5);
+  const auto other = set(arm, {number("gains." + shoulder_joint + ".velocity_feedforward", 1)});
+  CHECK(other[0].reason.find("not declared") != std::string::npos);
+}
+
 TEST_CASE("gains have the names of the course if their prefix is empty") {
   BridgedArm arm({.gain_prefix = ""});
   CHECK(get(arm, "shoulder_active_joint.p") == 2310);

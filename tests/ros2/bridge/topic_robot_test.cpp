@@ -239,6 +239,22 @@ TEST_CASE("commands for a loop that is not active leave the controls to others")
   CHECK(warnings[0].find("not active") != std::string::npos);
 }
 
+TEST_CASE("whoever watches a robot behind topics hears of commands that it does not read") {
+  std::vector<std::string> warnings;
+  RobotBehindTopics arm({.warn = [&](const std::string& warning) { warnings.push_back(warning); }});
+  const auto warned = [&](const States& message) {
+    arm.command(message);
+    arm.run(1100);  // one warning a second
+    return warnings.empty() ? "" : warnings.back();
+  };
+  const std::string topic = "/robot_joint_commands: ";
+  CHECK(warned({.name = {"a", "b"}, .effort = {1, 1}}) ==
+        topic + "a command names no joint of robot 'q2d'");
+  CHECK(warned({.name = {shoulder_joint, elbow_joint}, .effort = {1}}) ==
+        topic + "a command's fields differ in length, or it names a joint twice");
+  CHECK(warnings.size() == 2);
+}
+
 TEST_CASE("commands that are wrong, foreign or refused change nothing") {
   std::vector<std::string> warnings;
   RobotBehindTopics arm({.warn = [&](const std::string& warning) { warnings.push_back(warning); }});

@@ -84,9 +84,11 @@ TEST_CASE("late readers get no message whose lifespan is over") {
       "/arm/log", {.transient_local = true, .depth = 10, .lifespan = std::chrono::seconds(1)}));
   writer->write(text_bytes("old"));
   poll_for(transport, std::chrono::milliseconds(1100));
-  writer->write(text_bytes("new"));
   CyclonePeer peer(domain());
   const int reader = peer.make_reader("rt/arm/log", true);
+  REQUIRE(poll_until(
+      transport, [&] { return writer->readers() == 1 && peer.matches_of_reader(reader) == 1; }));
+  writer->write(text_bytes("new"));
   std::vector<std::string> texts;
   REQUIRE(poll_until(transport, [&] {
     for (const std::string& text : peer.take(reader)) texts.push_back(text);

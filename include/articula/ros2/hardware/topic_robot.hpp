@@ -129,9 +129,11 @@ class TopicRobot {
     switch (command.kind) {
       case Kind::malformed:
         ++refused_messages_;
+        complaint_ = "a command's fields differ in length, or it names a joint twice";
         return;
       case Kind::foreign:
         ++statistics_.foreign;
+        complaint_ = "a command names no joint of robot '" + port_.robot().name + "'";
         return;
       case Kind::unusable:
         return refuse("a command has no number of the quantities that the drives take");

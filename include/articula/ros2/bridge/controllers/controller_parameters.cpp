@@ -12,6 +12,16 @@ namespace {
 
 std::string number_text(double value) { return articula::detail::message_of({value}); }
 
+/// A name with another end, if it has a certain one.
+std::string with_end(std::string name, std::string_view end, std::string_view other) {
+  if (name.ends_with(end)) name.replace(name.size() - end.size(), end.size(), other);
+  return name;
+}
+// The gain that ROS calls otherwise.
+constexpr std::string_view own_end = ".velocity_feedforward", ros_end = ".ff_velocity_scale";
+std::string ros_gain(std::string name) { return with_end(std::move(name), own_end, ros_end); }
+std::string own_gain(std::string name) { return with_end(std::move(name), ros_end, own_end); }
+
 }  // namespace
 
 double ControllerParameters::Constraint::value() const {
@@ -44,7 +54,7 @@ std::vector<NodeParameter> ControllerParameters::list() {
     if (!own.name.starts_with(prefix)) continue;
     NodeParameter parameter{.value = to_value(own.value)};
     auto& descriptor = parameter.descriptor;
-    descriptor.name = controller_.gain_prefix + own.name.substr(prefix.size());
+    descriptor.name = controller_.gain_prefix + ros_gain(own.name.substr(prefix.size()));
     descriptor.type = parameter.value.type;
     descriptor.description = own.description + " [" + own.unit + "]";
     if (std::isfinite(own.lowest) && std::isfinite(own.highest)) {
@@ -114,7 +124,8 @@ void ControllerParameters::set(const NamedValues& values, OnSet on_asker) {
                                     [&](const auto& other) { return other.name == own.name; });
     if (found == all.end()) {
       request.values.push_back(
-          {controller_.name + "." + own.name.substr(controller_.gain_prefix.size()), value});
+          {controller_.name + "." + own_gain(own.name.substr(controller_.gain_prefix.size())),
+           value});
     } else if (std::isfinite(value) && value >= 0) {
       changes.emplace_back(*found, value);
     } else {

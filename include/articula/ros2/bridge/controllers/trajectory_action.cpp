@@ -145,20 +145,15 @@ class Action final : public ControllerAction {
       return server_.end(id, Status::succeeded, {Type::successful, "Goal successfully reached!"});
     }
     if (own.canceling) return server_.end(id, Status::canceled, {});
-    core_.log.write(RosLog::Line::warn, controller_.node, "goal: " + answer.text);
     if (answer.outcome == path_tolerance_violated) {
-      return server_.end(
-          id, Status::aborted,
-          {Type::path_tolerance_violated, "Aborted due to path tolerance violation"});
+      return abort(id, Type::path_tolerance_violated, "Aborted due to path tolerance violation");
     }
     if (answer.outcome == goal_tolerance_violated) {
-      return server_.end(
-          id, Status::aborted,
-          {Type::goal_tolerance_violated, "Aborted due to goal_time_tolerance: " + answer.text});
+      return abort(id, Type::goal_tolerance_violated,
+                   "Aborted due to goal_time_tolerance: " + answer.text);
     }
     if (answer.outcome < successful) {
-      return server_.end(id, Status::aborted,
-                         {static_cast<std::int32_t>(answer.outcome), answer.text});
+      return abort(id, static_cast<std::int32_t>(answer.outcome), answer.text);
     }
     if (is_replaced) {
       return server_.end(
@@ -167,11 +162,13 @@ class Action final : public ControllerAction {
     }
     if (own.left || core_.port.situation().mode == LoopMode::inactive) {
       // As ros2_controllers has it since its pull request 1517.
-      return server_.end(
-          id, Status::aborted,
-          {Type::invalid_goal, "Current goal cancelled during deactivate transition."});
+      return abort(id, Type::invalid_goal, "Current goal cancelled during deactivate transition.");
     }
-    server_.end(id, Status::aborted, {Type::invalid_goal, answer.text});
+    abort(id, Type::invalid_goal, answer.text);
+  }
+  void abort(const GoalId& id, std::int32_t code, const std::string& reason) {
+    core_.log.write(RosLog::Line::warn, controller_.node, "goal: " + reason);
+    server_.end(id, Status::aborted, {code, reason});
   }
 
   void publish_feedback() {
