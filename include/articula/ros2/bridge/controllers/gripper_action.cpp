@@ -81,7 +81,7 @@ class GripperAction final : public ControllerAction {
     if (!running_ || running_->canceling) return;
     const LoopWatch& watch = core_.watch;
     if (!watch.is_active(controller_.name)) {
-      if (watch.situation.mode == LoopMode::active) stop();
+      if (watch.situation.mode == LoopMode::active) core_.stop(controller_.node, {options_.joint});
       core_.log.write(RosLog::Line::warn, controller_.node,
                       "goal: the controller is not active any more");
       return end(Status::aborted);
@@ -165,14 +165,6 @@ class GripperAction final : public ControllerAction {
           running_ = {.id = id, .position = position, .moved = core_.watch.cycle.time};
           server_.accept(id);
         });
-  }
-
-  void stop() {
-    core_.loop_operator.ask(remote::Stop{{options_.joint}}, [this](const remote::Answer& answer) {
-      if (answer.verdict != remote::Verdict::done) {
-        core_.log.refuse(controller_.node, "stop: " + answer.text);
-      }
-    });
   }
 
   /// Why a command is refused; empty if it is not.

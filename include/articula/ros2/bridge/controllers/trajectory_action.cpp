@@ -95,27 +95,20 @@ class Action final : public ControllerAction {
     for (auto& [other, older] : running_) {
       if (older.order >= own.order) continue;
       older.replaced = true;
-      remote::Stop rest;
-      std::ranges::copy_if(older.joints, std::back_inserter(rest.joints), [&](const auto& joint) {
+      std::vector<std::string> rest;
+      std::ranges::copy_if(older.joints, std::back_inserter(rest), [&](const auto& joint) {
         return std::ranges::find(own.joints, joint) == own.joints.end();
       });
-      if (!rest.joints.empty()) stop(rest);
+      if (!rest.empty()) core_.stop(controller_.node, rest);
     }
-  }
-
-  void stop(const remote::Stop& request) {
-    core_.loop_operator.ask(request, [this](const remote::Answer& answer) {
-      if (answer.verdict != remote::Verdict::done) {
-        core_.log.refuse(controller_.node, "stop: " + answer.text);
-      }
-    });
   }
 
   bool cancel(const GoalId& id) {
     const auto found = running_.find(id);
     if (found == running_.end()) return false;
     found->second.canceling = true;
-    stop({found->second.joints.empty() ? controller_.joints : found->second.joints});
+    const auto& joints = found->second.joints;
+    core_.stop(controller_.node, joints.empty() ? controller_.joints : joints);
     return true;
   }
 
@@ -123,7 +116,7 @@ class Action final : public ControllerAction {
   void leave() {
     for (auto& [id, own] : running_) {
       if (std::exchange(own.left, true) || core_.watch.situation.mode != LoopMode::active) continue;
-      stop({controller_.joints});
+      core_.stop(controller_.node, controller_.joints);
     }
   }
 

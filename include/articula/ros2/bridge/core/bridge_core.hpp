@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace articula::ros2 {
@@ -37,6 +38,14 @@ struct BridgeCore {
   [[nodiscard]] std_msgs::msg::Header<Jazzy> header(std::string frame = {}) const {
     return {.stamp = to_message<builtin_interfaces::msg::Time>(context.now),
             .frame_id = std::move(frame)};
+  }
+
+  /// Stops joints, and logs if the loop does not.
+  /// @param node  in whose name
+  void stop(const std::string& node, std::vector<std::string> joints) {
+    loop_operator.ask(remote::Stop{std::move(joints)}, [this, node](const remote::Answer& answer) {
+      if (answer.verdict != remote::Verdict::done) log.refuse(node, "stop: " + answer.text);
+    });
   }
 
   /// The read-only parameter update_rate.
